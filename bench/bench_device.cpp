@@ -6,10 +6,10 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/engine/slot_tasks.hpp"
 #include "ensemble/engine/slots.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 
 #include <benchmark/benchmark.h>
-#include <tbb/parallel_for.h>
 
 #include <chrono>
 #include <string>
@@ -71,8 +71,7 @@ void steps(benchmark::State& state, const Study& study, int slots)
     const Sampler sampler(study, nullptr);
     const std::vector<std::shared_ptr<Device>> devices = open_cuda_devices();
     SlotSet set(study, nullptr, sampler.realization(0), *devices.front(), slots, slots);
-    tbb::parallel_for(0, slots,
-                      [&](int slot) { set.load(slot, sampler.realization(static_cast<std::uint64_t>(slot))); });
+    in_parallel(0, slots, [&](int slot) { set.load(slot, sampler.realization(static_cast<std::uint64_t>(slot))); });
     set.advance();
     double seconds = 0, launched = 0;
     for (auto _ : state) {

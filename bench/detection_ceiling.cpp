@@ -10,6 +10,7 @@
 /// What is found in the base, in sensors and at rest is left out: direct tests find it.
 
 #include "bench/separation.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 #include "studies/diagnosis/statistics/summaries.hpp"
@@ -19,7 +20,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <array>
@@ -49,9 +49,8 @@ Eigen::MatrixXd repeats_of(const hidden::VirtualCampaign& made, std::uint64_t fi
                            bool with_effect)
 {
     std::vector<Eigen::RowVectorXd> rows(count);
-    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
-        rows[i] = numbers_of(another_like(made, first + i, with_effect).campaign);
-    });
+    in_parallel(std::uint64_t{0}, count,
+                [&](std::uint64_t i) { rows[i] = numbers_of(another_like(made, first + i, with_effect).campaign); });
     Eigen::MatrixXd table(static_cast<Eigen::Index>(count), rows.front().cols());
     for (std::uint64_t i = 0; i < count; ++i)
         table.row(static_cast<Eigen::Index>(i)) = rows[i];

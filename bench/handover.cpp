@@ -10,12 +10,12 @@
 #include "bench/processor.hpp"
 #include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/experiment.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/markdown.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <optional>
@@ -71,7 +71,7 @@ int main(int argc, char** argv)
     const auto realize = [&](std::size_t i) { return experiment.sampler().realization(i); };
 
     std::vector<double> when_s(total, -1); // -1: it did not come to it
-    tbb::parallel_for(std::size_t{0}, total, [&](std::size_t i) {
+    in_parallel(std::size_t{0}, total, [&](std::size_t i) {
         const Realization r = realize(i);
         if (const auto h = handed(study, r, 1e300))
             when_s[i] = static_cast<double>(h->watch.steps) * r.step_s;
@@ -83,7 +83,7 @@ int main(int argc, char** argv)
                       "top at the end [m] | end of the fall [s] | set aside"));
     for (const double earlier_s : {0.0, 0.05, 0.1, 0.2, 0.4}) {
         std::vector<std::optional<Outcome>> outcomes(total);
-        tbb::parallel_for(std::size_t{0}, total, [&](std::size_t i) {
+        in_parallel(std::size_t{0}, total, [&](std::size_t i) {
             if (when_s[i] < 0)
                 return;
             outcomes[i] = finish(study, *handed(study, realize(i), std::max(0.0, when_s[i] - earlier_s)));

@@ -3,10 +3,10 @@
 #include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/engine/slots.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/interval.hpp"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -42,7 +42,6 @@ public:
         progress_.collapsed = before.collapsed;
         progress_.invalid = before.invalid;
         progress_.total = places_.size();
-        handover_.fetch_add(1);
     }
 
     /// One worker of the processor: a bundle that is refilled until nothing is left.
@@ -80,7 +79,7 @@ public:
                 if (!refill(set, slot))
                     more = false;
             };
-            tbb::parallel_for(0, set.slots(), fill);
+            in_parallel(0, set.slots(), fill);
             for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
                 if (!more && active <= few_ / slower_alone / share)
                     set.leave_device();
@@ -88,7 +87,7 @@ public:
                 count_chunks(set.used(), active);
                 for (const int slot : set.ended())
                     finish(set, slot, compliant);
-                tbb::parallel_for(std::size_t{0}, set.ended().size(), [&](std::size_t i) { fill(set.ended()[i]); });
+                in_parallel(std::size_t{0}, set.ended().size(), [&](std::size_t i) { fill(set.ended()[i]); });
                 step(compliant, set.active() == 0);
                 report(false);
             }
@@ -100,7 +99,6 @@ public:
 
     Progress finish()
     {
-        handover_.fetch_add(1);
         if (error_)
             std::rethrow_exception(error_);
         report(true);
@@ -112,7 +110,6 @@ private:
     template <class F>
     void guarded(const F& f) noexcept
     {
-        handover_.fetch_add(1);
         try {
             f();
         } catch (...) {
@@ -121,7 +118,6 @@ private:
                 error_ = std::current_exception();
             stopped_ = true;
         }
-        handover_.fetch_add(1);
     }
 
     /// What takes over what rigid contacts hand over.
@@ -263,8 +259,6 @@ private:
     std::atomic<double> next_report_ = 0;
     std::atomic<bool> stopped_ = false;
     std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
-    /// TBB orders what was before the workers, in them and after them; this says it where ThreadSanitizer can see it.
-    std::atomic<int> handover_ = 0;
     const Realization pattern_; ///< the topology that all realizations share
 };
 
@@ -298,7 +292,7 @@ Progress run_ensemble(const Experiment& experiment, const RunOptions& options, c
     }
     tbb::task_arena arena(options.threads);
     arena.execute([&] {
-        tbb::parallel_for(
+        in_parallel(
             0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
     });
     return run.finish();

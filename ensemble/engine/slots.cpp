@@ -1,6 +1,6 @@
 #include "ensemble/engine/slots.hpp"
 
-#include <tbb/parallel_for.h>
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -49,7 +49,7 @@ struct SlotSet::Memory {
 
 void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
 {
-    tbb::parallel_for(std::size_t{0}, count, f);
+    in_parallel(std::size_t{0}, count, f);
 }
 
 SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots,

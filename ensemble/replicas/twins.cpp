@@ -1,11 +1,11 @@
 #include "ensemble/replicas/twins.hpp"
 
 #include "ensemble/engine/lanes.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/statics/scales.hpp"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -259,7 +259,7 @@ std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOp
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options.threads));
     tbb::task_arena arena(options.threads);
-    arena.execute([&] { tbb::parallel_for(0, options.threads, work, tbb::simple_partitioner()); });
+    arena.execute([&] { in_parallel(0, options.threads, work, tbb::simple_partitioner()); });
     report(true);
 
     std::vector<FollowedTwin> joined;

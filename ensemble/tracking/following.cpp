@@ -1,9 +1,9 @@
 #include "ensemble/tracking/following.hpp"
 
 #include "ensemble/engine/lanes.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -472,7 +472,7 @@ FollowReport follow(const std::vector<FollowJob>& jobs, const RunOptions& option
                 stopped = true;
             }
         };
-        arena.execute([&] { tbb::parallel_for(0, options.threads, work, tbb::simple_partitioner()); });
+        arena.execute([&] { in_parallel(0, options.threads, work, tbb::simple_partitioner()); });
         tell(true);
         before += course.jobs_done();
     }

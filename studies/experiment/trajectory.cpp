@@ -1,12 +1,12 @@
 #include "studies/experiment/trajectory.hpp"
 
 #include "ensemble/engine/lanes.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -314,7 +314,7 @@ bool follow_all(const Experiment& experiment, const RunOptions& options, const F
                                       static_cast<std::size_t>(options.threads));
     tbb::task_arena arena(options.threads);
     arena.execute([&] {
-        tbb::parallel_for(
+        in_parallel(
             0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
     });
     return run.finish();

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/run_order.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -149,7 +149,7 @@ private:
             const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(options_.threads));
             tbb::task_arena(options_.threads).execute([&] {
-                tbb::parallel_for(std::size_t{0}, indices.size(), [&](std::size_t i) {
+                in_parallel(std::size_t{0}, indices.size(), [&](std::size_t i) {
                     if (!is_stored(indices[i]))
                         followed[i] = follow(experiment, indices[i], isa_).trajectory;
                 });

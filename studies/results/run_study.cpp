@@ -1,10 +1,10 @@
 #include "studies/results/run_study.hpp"
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "studies/cluster/shared_round.hpp"
 #include "studies/experiment/trajectory.hpp"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -176,14 +176,13 @@ bool check_realizations(const Sampler& sampler, const Kind& kind, Observer& obse
     const RunOrder::Places places = order.places(shard);
     std::atomic<bool> stopped = false;
     std::mutex asking;
-    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(places.begin, places.end, portion), [&](const auto& range) {
-        for (std::uint64_t place = range.begin(); place != range.end() && !stopped; ++place) {
+    const std::uint64_t portions = (places.end - places.begin + portion - 1) / portion;
+    in_parallel(std::uint64_t{0}, portions, [&](std::uint64_t k) {
+        const std::uint64_t first = places.begin + k * portion, end = std::min(first + portion, places.end);
+        if (const std::unique_lock lock(asking, std::try_to_lock); lock.owns_lock() && observer.stop_requested())
+            stopped = true;
+        for (std::uint64_t place = first; place < end && !stopped; ++place)
             sampler.realization(order.index(place));
-            if (place % portion != 0)
-                continue;
-            if (const std::unique_lock lock(asking, std::try_to_lock); lock.owns_lock() && observer.stop_requested())
-                stopped = true;
-        }
     });
     return !stopped;
 }

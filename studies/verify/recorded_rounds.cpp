@@ -1,6 +1,7 @@
 #include "studies/verify/recorded_rounds.hpp"
 
-#include <tbb/parallel_for.h>
+#include "ensemble/numerics/in_parallel.hpp"
+
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -60,7 +61,7 @@ bool RecordedRounds::follow(std::uint64_t)
     };
     tbb::task_arena arena(options.threads);
     arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, again.size(), [&](std::size_t i) {
+        in_parallel(std::size_t{0}, again.size(), [&](std::size_t i) {
             {
                 const std::lock_guard lock(mutex);
                 if (stopped_ = stopped_ || observer.stop_requested(); stopped_)

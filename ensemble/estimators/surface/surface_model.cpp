@@ -1,10 +1,10 @@
 #include "ensemble/estimators/surface/surface_model.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -351,10 +351,10 @@ std::vector<SurfaceEstimate> SurfaceModel::estimate(const SurfaceTrials& data)
     const std::size_t cells = data.cells();
     const bool same_grid = last_.rows == data.rows && last_.columns == data.columns;
     neighbours_.resize(cells);
-    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) { update(cell, data, same_grid); });
+    in_parallel(std::size_t{0}, cells, [&](std::size_t cell) { update(cell, data, same_grid); });
     last_ = data;
     std::vector<SurfaceEstimate> estimates(cells);
-    tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t cell) { estimates[cell] = combined(cell, data); });
+    in_parallel(std::size_t{0}, cells, [&](std::size_t cell) { estimates[cell] = combined(cell, data); });
     return estimates;
 }
 

@@ -1,11 +1,11 @@
 #include "studies/decisions/risk/risk.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "io/files/suggest.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,8 +141,8 @@ Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOp
     if (hazard.fractiles.empty())
         risk.says.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
     std::vector<std::vector<StateRisk>> found(wanted.size());
-    tbb::parallel_for(std::size_t{0}, wanted.size(),
-                      [&](std::size_t i) { found[i] = risks_of(*wanted[i], hazard, options); });
+    in_parallel(std::size_t{0}, wanted.size(),
+                [&](std::size_t i) { found[i] = risks_of(*wanted[i], hazard, options); });
     for (auto& forms : found)
         for (StateRisk& s : forms)
             risk.states.push_back(std::move(s));

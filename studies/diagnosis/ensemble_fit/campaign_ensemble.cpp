@@ -1,13 +1,13 @@
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/diagnosis/ensemble_fit/evidence_rows.hpp"
 #include "studies/diagnosis/ensemble_fit/proposals.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -262,7 +262,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         if (!all_agree(options.ranks, made.complete))
             return out;
         tbb::task_arena(options.threads).execute([&] {
-            tbb::parallel_for(std::uint64_t{0}, portion.count, [&](std::uint64_t i) {
+            in_parallel(std::uint64_t{0}, portion.count, [&](std::uint64_t i) {
                 rows[i].numbers = statistics_of(made.campaigns[i], scales, made.base_m);
                 rows[i].scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
             });

@@ -1,5 +1,6 @@
 #include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
@@ -11,7 +12,6 @@
 #include "studies/windows/window_comparison.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -231,7 +231,7 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
     : measured(campaign), built(build_specimen(campaign.specimen)), base(campaign.runs.size()),
       times_s(campaign.runs.size()), base_m(campaign.runs.size())
 {
-    tbb::parallel_for(std::size_t{0}, measured.runs.size(), [&](std::size_t i) {
+    in_parallel(std::size_t{0}, measured.runs.size(), [&](std::size_t i) {
         const MeasuredRun& run = measured.runs[i];
         const bool shaken = !run.base_acceleration_m_s2.empty() || !run.base_displacement_m.empty();
         if (!shaken || run.time_s.size() < 2 || run.blocks.x_m.empty() || run.blocks.y_m.empty() ||
@@ -300,7 +300,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
         return out;
     // each run has noise of its own, so that their order does not matter
     tbb::task_arena(options.threads).execute([&] {
-        tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+        in_parallel(std::size_t{0}, jobs.size(), [&](std::size_t j) {
             const auto [c, i] = job_of[j];
             Draws noise(seed, (first + c) * measured.runs.size() + i, Stream::camera_noise);
             see(measured, measured.runs[i], built, jobs[j].realization, out.base_m[i], report.results[j].watched, noise,

@@ -1,6 +1,6 @@
 #include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
 
-#include <tbb/parallel_for.h>
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -271,7 +271,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     LeftOut left_out;
     left_out.right.assign(evidence.labelled.cause.size(), false);
     folds.resize(static_cast<std::size_t>(count));
-    tbb::parallel_for(0, count, [&](int fold) {
+    in_parallel(0, count, [&](int fold) {
         folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
     });
     for (int fold = 0; fold < count; ++fold)

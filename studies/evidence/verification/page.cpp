@@ -1,5 +1,6 @@
 #include "studies/evidence/verification/page.hpp"
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "io/tables/markdown.hpp"
 #include "studies/evidence/picture/picture.hpp"
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <tbb/parallel_for.h>
 
 namespace stylobate::verification {
 
@@ -136,7 +136,7 @@ std::string section(const RunCase& run, const std::string& images)
 std::vector<RunCase> run_cases(const Cases& cases)
 {
     std::vector<RunCase> runs(cases.size());
-    tbb::parallel_for(std::size_t(0), cases.size(), [&](std::size_t i) {
+    in_parallel(std::size_t(0), cases.size(), [&](std::size_t i) {
         runs[i].the_case = cases[i];
         try {
             runs[i].finding = cases[i].run();

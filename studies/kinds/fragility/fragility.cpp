@@ -3,10 +3,10 @@
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ public:
             for (std::size_t k = 0; k < states.size(); ++k)
                 reached_states[i][k] =
                     reached(states[k], outcomes_[i], width, until_s(places_[i].motion, states[k].shaking));
-        tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t k) {
+        in_parallel(std::size_t{0}, states.size(), [&](std::size_t k) {
             std::vector<std::uint8_t> column(outcomes_.size());
             for (std::size_t i = 0; i < column.size(); ++i)
                 column[i] = reached_states[i][k];

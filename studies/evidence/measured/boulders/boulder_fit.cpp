@@ -1,7 +1,8 @@
 #include "studies/evidence/measured/boulders/boulder_fit.hpp"
 
+#include "ensemble/numerics/in_parallel.hpp"
+
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <limits>
 
@@ -32,7 +33,7 @@ BoulderTable simulate(const BoulderModel& variant, const std::vector<BoulderTest
     }
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(run.threads));
-    tbb::parallel_for(std::size_t(0), tests.size(), [&](std::size_t i) {
+    in_parallel(std::size_t(0), tests.size(), [&](std::size_t i) {
         table.falls.falls[i] = falls_in(tests[i].motion, studies, run.isa, &table.falls.ends[i]);
     });
     return table;

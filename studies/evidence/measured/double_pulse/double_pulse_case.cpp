@@ -1,6 +1,7 @@
 /// The case of the block under a double pulse: which unstated parameter moves the boundary between falling and
 /// standing.
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/tables/markdown.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
@@ -12,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -101,7 +101,7 @@ ChoiceTables simulate(const Choice& choice, const std::vector<DoublePulse>& test
             block.slenderness = slenderness;
             studies.push_back(pulsed_study(block));
         }
-        tbb::parallel_for(std::size_t(0), tests.size(), [&](std::size_t i) {
+        in_parallel(std::size_t(0), tests.size(), [&](std::size_t i) {
             table.falls[i] = falls_in(base_motion_of(tests[i], block.pulse_s), studies, run.isa, &table.ends[i]);
         });
         all.tables.push_back(std::move(table));
