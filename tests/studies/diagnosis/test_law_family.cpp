@@ -25,7 +25,7 @@ TEST(LawFamily, DrawsFillItsRanges)
     double stiff = 0, shear = 0, strongest = 0;
     for (const HealthyLaw& law : laws) {
         seen.emplace(law.form, law.kind);
-        EXPECT_TRUE(law.stiffness > 0.1 && law.stiffness < 10);
+        EXPECT_TRUE(law.stiffness > 0.1 && law.stiffness < 3);
         EXPECT_TRUE(law.shear > 0.1 && law.shear < 1);
         EXPECT_TRUE(law.exponent > 0.7 && law.exponent < 1.6);
         EXPECT_TRUE(law.inset > 0 && law.inset < 0.03);
@@ -40,7 +40,7 @@ TEST(LawFamily, DrawsFillItsRanges)
     }
     EXPECT_EQ(seen.size(), 12u);
     // uniform over two decades, and over one: 5 standard errors
-    EXPECT_NEAR(stiff, 0, 5 * 2 / std::sqrt(12 * 2400.0));
+    EXPECT_NEAR(stiff, std::log10(0.1 * 3) / 2, 5 * std::log10(3 / 0.1) / std::sqrt(12 * 2400.0));
     EXPECT_NEAR(shear, -0.5, 5 * 1 / std::sqrt(12 * 2400.0));
     EXPECT_GT(strongest, 0.95);
 }
