@@ -39,7 +39,7 @@ TEST(LawFamily, DrawsFillItsRanges)
             EXPECT_TRUE(std::isfinite(number));
     }
     EXPECT_EQ(seen.size(), 12u);
-    // uniform over two decades, and over one: 5 standard errors
+    // uniform in their logarithms: 5 standard errors
     EXPECT_NEAR(stiff, std::log10(0.1 * 3) / 2, 5 * std::log10(3 / 0.1) / std::sqrt(12 * 2400.0));
     EXPECT_NEAR(shear, -0.5, 5 * 1 / std::sqrt(12 * 2400.0));
     EXPECT_GT(strongest, 0.95);
