@@ -1,5 +1,6 @@
 #include "ensemble/tracking/following_score.hpp"
 
+#include "ensemble/numerics/log_gamma.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ constexpr double rocking_noise = 5;
 
 double log_student(double t, double degrees)
 {
-    return std::lgamma((degrees + 1) / 2) - std::lgamma(degrees / 2) - 0.5 * std::log(degrees * std::numbers::pi) -
+    return log_gamma((degrees + 1) / 2) - log_gamma(degrees / 2) - 0.5 * std::log(degrees * std::numbers::pi) -
            (degrees + 1) / 2 * std::log1p(t * t / degrees);
 }
 

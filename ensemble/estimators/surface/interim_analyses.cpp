@@ -1,5 +1,7 @@
 #include "ensemble/estimators/surface/interim_analyses.hpp"
 
+#include "ensemble/numerics/log_gamma.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -20,11 +22,11 @@ std::vector<double> binomial(std::uint64_t n, double p)
     std::vector<double> probability(n + 1);
     const double log_p = std::log(p);
     const double log_q = std::log1p(-p);
-    const double top = std::lgamma(static_cast<double>(n) + 1);
+    const double top = log_gamma(static_cast<double>(n) + 1);
     for (std::uint64_t s = 0; s <= n; ++s) {
         const auto k = static_cast<double>(s);
         const auto rest = static_cast<double>(n - s);
-        probability[s] = std::exp(top - std::lgamma(k + 1) - std::lgamma(rest + 1) + k * log_p + rest * log_q);
+        probability[s] = std::exp(top - log_gamma(k + 1) - log_gamma(rest + 1) + k * log_p + rest * log_q);
     }
     return probability;
 }

@@ -1,5 +1,7 @@
 #include "studies/diagnosis/laws/robust_fit.hpp"
 
+#include "ensemble/numerics/log_gamma.hpp"
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
@@ -35,7 +37,7 @@ double student_log_density(double residual, double sd)
 {
     constexpr double nu = student_freedom;
     const double z = residual / sd;
-    return std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2) - 0.5 * std::log(nu * std::numbers::pi) - std::log(sd) -
+    return log_gamma((nu + 1) / 2) - log_gamma(nu / 2) - 0.5 * std::log(nu * std::numbers::pi) - std::log(sd) -
            (nu + 1) / 2 * std::log1p(z * z / nu);
 }
 

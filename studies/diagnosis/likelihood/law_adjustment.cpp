@@ -1,5 +1,6 @@
 #include "studies/diagnosis/likelihood/law_adjustment.hpp"
 
+#include "ensemble/numerics/log_gamma.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <Eigen/Cholesky>
@@ -158,9 +159,9 @@ void LawAdjustment::find_tails(const Eigen::MatrixXd& residuals, const Eigen::Ve
                 sum += (freedom + dimensions) * d / (freedom + d / scale);
             scale = std::max(sum / (dimensions * static_cast<double>(distances.size())), 1e-6);
         }
-        double density = static_cast<double>(distances.size()) *
-                         (std::lgamma((freedom + dimensions) / 2) - std::lgamma(freedom / 2) -
-                          0.5 * dimensions * std::log(freedom * scale));
+        double density =
+            static_cast<double>(distances.size()) * (log_gamma((freedom + dimensions) / 2) - log_gamma(freedom / 2) -
+                                                     0.5 * dimensions * std::log(freedom * scale));
         for (const double d : distances)
             density += student_kernel(d / scale, dimensions, freedom);
         if (density > best) {

@@ -1,6 +1,7 @@
 #include "studies/evidence/claims/estimate.hpp"
 
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/numerics/log_gamma.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ bool counts(const Observation& o, const Measure& measure)
 /// The largest k for which fewer than k heads in n fair throws have at most the probability `tail`; 0 if there is none.
 std::size_t rank_of_tail(std::size_t n, double tail)
 {
-    const auto log_factorial = [](std::size_t i) { return std::lgamma(static_cast<double>(i) + 1); };
+    const auto log_factorial = [](std::size_t i) { return log_gamma(static_cast<double>(i) + 1); };
     double sum = 0; // of the chances of fewer than k heads
     std::size_t k = 0;
     while (k < n) {
