@@ -126,10 +126,11 @@ public:
         L::store(&b_.remainders[row(i, OfRemainder::count, f)], v);
     }
 
-    /// Leaves the motion of the blocks from `first` on in the trace, as that after the run's step `step`.
+    /// Leaves the motion of the blocks from `first` on in the trace, if there is one, as that after step `step` of the
+    /// run.
     STYLOBATE_INLINE void trace(int step, int first, int blocks) const
     {
-        for (int i = first; i < blocks; ++i)
+        for (int i = first; b_.trace != nullptr && i < blocks; ++i)
             for (int f = 0; f < OfBlock::traced; ++f)
                 L::store(&b_.trace[row(step * blocks + i, OfBlock::traced, f)],
                          L::load(&b_.blocks[row(i, OfBlock::count, f)]));

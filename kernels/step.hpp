@@ -1,6 +1,5 @@
 #pragma once
-/// One step of all realizations of a bundle: the centre of Stylobate. `THEORY.md` derives every formula, with its
-/// source.
+/// One step of all realizations of a bundle: the centre of Stylobate. `THEORY.md` derives every formula, with sources.
 ///
 ///   geometry    where each joint's upper block lies, relative to its lower one
 ///   overlap     area, moments and direction of the contact (closed form; general where that does not hold)
@@ -9,14 +8,13 @@
 ///   update      sums over the blocks, Eqs. 4 to 6 as d += dt2 F / m, u += d, and sine and versine of the new rotation
 ///
 /// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory.
-/// Neighbouring joints are independent within a phase, so the processor works on several at once, whereas one pass from
-/// geometry to force would wait for each result in turn. The number of operations in flight is limited, so a phase is
-/// fast if its chain of operations is short: the divisions and the root are in different phases, and independent of
-/// each other (`docs/performance.md`).
+/// Neighbouring joints are independent within a phase, so the processor works on several at once; one pass from
+/// geometry to force would wait for each result in turn. A phase is fast if its chain of operations is short: the
+/// divisions and the root are in different phases, and independent of each other (`docs/performance.md`).
 ///
 /// Beds go through the phases in every step. Watched pairs (`topology.hpp`) do where their bounding boxes meet; which
-/// pairs come so close is determined only when a block has strayed. Neither changes a bit of the result: a pair that
-/// does not touch adds nothing, whether or not it is evaluated because of another lane.
+/// pairs come so close is determined only when a block has strayed. A pair that does not touch adds nothing: whether it
+/// is evaluated, because of another lane, changes no bit.
 ///
 /// What is not inlined gets a copy of the stepper: if its address were known elsewhere, the compiler would read its
 /// pointers again after every store.
@@ -75,8 +73,7 @@ public:
             }
             update(step, audit, others, path);
             if constexpr (Mechanism::extended)
-                if (b_.trace != nullptr)
-                    this->trace(step - first, topology_.fixed, topology_.blocks);
+                this->trace(step - first, topology_.fixed, topology_.blocks);
         }
     }
 

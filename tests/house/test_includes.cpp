@@ -386,7 +386,7 @@ TEST(House, EveryHeaderHasItsGuard)
         EXPECT_TRUE(!file.is_header() || has_pragma_once(file.text)) << file.name << " begins without #pragma once";
 }
 
-TEST(House, NoFileIsTooLong)
+TEST(House, NoFileHasTooManyLines)
 {
     for (const Text& file : texts()) {
         const auto lines = std::count(file.text.begin(), file.text.end(), '\n');

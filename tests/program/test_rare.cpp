@@ -77,7 +77,7 @@ TEST_F(RareStatistics, AgreesWithPlainCountsOfOneInAThousand)
 }
 
 /// Of one in ten thousand: half a million realizations.
-TEST_F(RareStatistics, LongAgreesWithPlainCountsOfOneInTenThousand)
+TEST_F(RareStatistics, AgreesWithPlainCountsOfOneInTenThousandLong)
 {
     expect_agreement(3.75, 500000);
 }
