@@ -92,6 +92,7 @@ for preset in "${presets[@]}"; do
         number=$((number + 1))
         xml=$pass/$number.xml
         [[ ! -f $xml ]] || continue # it ran before an interruption
+        rm -f "$xml.part"
         begin=$SECONDS
         scripts/test.sh "--$preset" -- -I "0,0,0,$(IFS=,; echo "${tests[*]}")" --output-junit "$PWD/$xml.part" \
             </dev/null 2>&1 | tee -a "$log" || true
@@ -102,7 +103,7 @@ for preset in "${presets[@]}"; do
     found=$(counts "$pass"/*.xml)
     echo "sanitizers.sh: $preset, $commit: tests, failed, skipped: $found"
     [[ $(cut -d, -f2 <<<"$found") -eq 0 ]] || status=1
-    seconds=$(cat "$pass"/*.seconds | awk '{ s += $1 } END { print s }')
+    seconds=$(awk '{ s += $1 } END { print s }' "$pass"/*.seconds)
     [[ -z $keep ]] ||
         echo "$(date -u +%F),$commit,${processor//,/ },$(nproc),$preset,$((($(<"$pass/built") + 59) / 60)),$(((seconds + 59) / 60)),$found" >>"$passes"
 done

@@ -91,7 +91,7 @@ public:
     void step_followed(int first, int last);
     /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
     /// axes of the laboratory even where the base turns.
-    /// @param phase  when so many steps of the chunk had been done: any of the last `step_followed`'s
+    /// @param phase  after so many steps of the chunk: one of those that the last `step_followed` did, or now
     /// @param behind so many steps ago: 0 to 1, on the straight line between the last two
     BlockMotion moved(int lane, int block, int phase, double behind = 0) const;
     /// What the last step added to it.

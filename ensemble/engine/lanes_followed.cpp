@@ -85,8 +85,9 @@ LaneSet::Turn LaneSet::turn(int lane, int phase) const
 
 const double* LaneSet::traced(int k, int lane, int phase) const
 {
-    if (phase <= trace_first_ || phase >= trace_last_) // now, also of what has been loaded since
+    if (phase % chunk_steps == trace_last_ % chunk_steps) // now, also of what has been loaded since
         return &bundle_.at(OfBlock::x, k, lane);
+    assert(phase > trace_first_ && phase < trace_last_ && "a step of the last run");
     const int row = (phase - trace_first_ - 1) * topology_.blocks + k;
     return &trace_[static_cast<std::size_t>(row * OfBlock::traced) * lanes_ + static_cast<std::size_t>(lane)];
 }

@@ -29,6 +29,8 @@ constexpr double largest_turn = 0.1; // w x the time between two settings of the
 constexpr std::uint64_t never = ~std::uint64_t{0};
 // Steps that are done at a time where no lane asks for fewer: the trace of them is to stay in the first-level cache.
 constexpr int most_at_once = 16;
+static_assert(most_at_once % follow_beat == 0 && chunk_steps % most_at_once == 0,
+              "a run ends at a beat and in a chunk");
 // States that wait for a lane, at the most: windows then go before further observers.
 constexpr std::size_t most_waiting = 20000;
 

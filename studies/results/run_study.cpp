@@ -4,8 +4,6 @@
 #include "studies/cluster/shared_round.hpp"
 #include "studies/experiment/trajectory.hpp"
 
-#include <tbb/blocked_range.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -54,7 +54,7 @@ struct LawFamily {
     std::vector<ContactForm> forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
     std::vector<DampingKind> kinds = {DampingKind::light, DampingKind::dashpot, DampingKind::rate,
                                       DampingKind::plastic};
-    double least_stiffness = 0.1, most_stiffness = 3; // stiffer beds cost more steps and give the same
+    double least_stiffness = 0.1, most_stiffness = 3; ///< stiffer beds cost more steps, and changed no verdict
     double least_shear = 0.1, most_shear = 1;
     double least_exponent = 0.8, most_exponent = 1.6;
     double least_points_exponent = 0.7, most_points_exponent = 1.3; ///< of the form `points`

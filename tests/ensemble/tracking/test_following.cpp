@@ -183,13 +183,16 @@ TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
     const Study study = noise_study();
     FollowJob job = alone(study, 1);
     const double dt = job.realization.step_s;
-    job.watched_s = times(chunk_steps * dt, 150 * chunk_steps * dt, chunk_steps * dt);
+    constexpr int apart = 7; // steps: in the middle of what `follow` does at a time, and at its ends
+    job.watched_s = times(apart * dt, 150 * chunk_steps * dt, apart * dt);
     const FollowResult result = run({job}).front();
     LaneSet lanes(study, nullptr, kernels(Isa::scalar), job.realization);
     lanes.load(0, job.realization);
     const std::size_t blocks = job.realization.blocks.size();
+    int steps = 0;
     for (std::size_t k = 0; k < job.watched_s->size(); ++k) {
-        lanes.advance();
+        for (int i = 0; i < apart; ++i, ++steps)
+            lanes.advance(steps % chunk_steps, steps % chunk_steps + 1);
         const Snapshot s = lanes.snapshot(0);
         for (std::size_t i = 0; i < blocks; ++i) {
             EXPECT_NEAR(result.watched.x_m[k * blocks + i], s.x_m[i] - job.realization.blocks[i].x_m, 1e-12);
