@@ -197,6 +197,8 @@ bool edit_hdf5_file(const std::filesystem::path& path, std::vector<Hdf5Object> o
                     std::size_t most)
 {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    // The library keeps what it frees: to hand its large blocks back and to clear them anew took a quarter of the time.
+    H5set_free_list_limits(-1, -1, -1, -1, -1, -1);
     try {
         Handle file = hdf5::open_file(path, true);
         for (; most > 0 && !recipe.empty(); --most)
