@@ -244,8 +244,8 @@ TEST_P(Fuzz, Settings)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Column, Fuzz, testing::Values(&main_study), [](const auto&) { return "main"; });
-INSTANTIATE_TEST_SUITE_P(Colonnade, Fuzz, testing::Values(&colonnade_study), [](const auto&) { return "colonnade"; });
+INSTANTIATE_TEST_SUITE_P(Column, Fuzz, testing::Values(&main_study));
+INSTANTIATE_TEST_SUITE_P(Colonnade, Fuzz, testing::Values(&colonnade_study));
 
 } // namespace
 } // namespace stylobate
