@@ -181,28 +181,6 @@ private:
                                     *series.noise_sd, found, found < *series.noise_sd ? " (filtered before?)" : ""));
     }
 
-    /// So many samples at the beginning before anything moves; at least `fewest`, else 0.
-    std::size_t quiet_head(const MeasuredRun& run) const
-    {
-        const Series& base = run.base_acceleration_m_s2;
-        constexpr std::size_t block = 10, fewest = 20;
-        if (base.empty())
-            return 0;
-        const double noise = base.noise_sd.value_or(noise_of(base.values));
-        const double tolerance = 4 * noise * std::sqrt(2.0 / block) + 1e-9;
-        std::size_t quiet = 0;
-        double first = 0;
-        for (; quiet + block <= base.values.size(); quiet += block) {
-            double mean = 0;
-            for (std::size_t i = quiet; i < quiet + block; ++i)
-                mean += base.values[i] / block;
-            first = quiet == 0 ? mean : first;
-            if (!(std::abs(mean - first) < tolerance))
-                break;
-        }
-        return quiet / 2 >= fewest ? quiet / 2 : 0;
-    }
-
     void check_base(const MeasuredRun& run)
     {
         if (run.base_source == BaseSource::command)
@@ -215,7 +193,7 @@ private:
             check_displacement(run);
         if (!run.base_displacement_m.empty())
             return; // its offset was looked for there
-        const std::size_t quiet = quiet_head(run);
+        const std::size_t quiet = samples_at_rest(run);
         if (quiet == 0)
             return;
         double mean = 0;
@@ -344,25 +322,11 @@ private:
             values[i] -= length > 0 ? along / length * direction[i] : 0;
     }
 
-    /// Mean of a column over the first samples, without those that are missing; NaN if all are.
-    static double mean_of(const std::vector<double>& values, std::size_t samples, std::size_t column,
-                          std::size_t stride)
-    {
-        double sum = 0;
-        int count = 0;
-        for (std::size_t i = 0; i < samples; ++i)
-            if (const double value = values[i * stride + column]; !std::isnan(value)) {
-                sum += value;
-                ++count;
-            }
-        return sum / count;
-    }
-
     /// Before the motion each block should be where it was planned: all off alike is the cameras' zero, one off among
     /// the others is a block put back badly, or a face that is not square.
     void check_rest(const MeasuredRun& run)
     {
-        const std::size_t quiet = quiet_head(run), n = specimen_.half_width_m.size();
+        const std::size_t quiet = samples_at_rest(run), n = specimen_.half_width_m.size();
         if (quiet == 0 || n == 0)
             return;
         const struct {
@@ -376,11 +340,11 @@ private:
                 continue;
             const bool horizontal = &series == &run.blocks.x_m;
             const double moved = horizontal && !run.base_displacement_m.empty()
-                                     ? mean_of(run.base_displacement_m.values, quiet, 0, 1)
+                                     ? mean_seen(run.base_displacement_m.values, quiet, 0, 1)
                                      : 0;
             std::vector<double> off;
             for (std::size_t b = 0; b < n; ++b)
-                off.push_back(mean_of(series.values, quiet, b, n) - planned[b] - moved);
+                off.push_back(mean_seen(series.values, quiet, b, n) - planned[b] - moved);
             if (std::any_of(off.begin(), off.end(), [](double x) { return std::isnan(x); }))
                 continue;
             const double common = upper_median(off), noise = series.noise_sd.value_or(0);
@@ -407,7 +371,7 @@ private:
         if (run.blocks.theta_rad.empty())
             return;
         for (std::size_t b = 0; b < n; ++b) {
-            const double mean = mean_of(run.blocks.theta_rad.values, quiet, b, n);
+            const double mean = mean_seen(run.blocks.theta_rad.values, quiet, b, n);
             constexpr double level_rad = 0.01;
             const double sd = run.blocks.theta_rad.noise_sd.value_or(0) / std::sqrt(static_cast<double>(quiet));
             if (std::abs(mean) > level_rad + 5 * sd)

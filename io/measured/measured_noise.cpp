@@ -35,4 +35,37 @@ double noise_of(std::span<const double> values, std::size_t stride)
     return least;
 }
 
+double mean_seen(std::span<const double> values, std::size_t samples, std::size_t column, std::size_t stride)
+{
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < samples; ++i)
+        if (const double value = values[i * stride + column]; !std::isnan(value)) {
+            sum += value;
+            ++count;
+        }
+    return sum / count;
+}
+
+std::size_t samples_at_rest(const MeasuredRun& run)
+{
+    const Series& base = run.base_acceleration_m_s2;
+    constexpr std::size_t block = 10, fewest = 20;
+    if (base.empty())
+        return 0;
+    const double noise = base.noise_sd.value_or(noise_of(base.values));
+    const double tolerance = 4 * noise * std::sqrt(2.0 / block) + 1e-9;
+    std::size_t quiet = 0;
+    double first = 0;
+    for (; quiet + block <= base.values.size(); quiet += block) {
+        double mean = 0;
+        for (std::size_t i = quiet; i < quiet + block; ++i)
+            mean += base.values[i] / block;
+        first = quiet == 0 ? mean : first;
+        if (!(std::abs(mean - first) < tolerance))
+            break;
+    }
+    return quiet / 2 >= fewest ? quiet / 2 : 0;
+}
+
 } // namespace stylobate

@@ -1,6 +1,9 @@
 #pragma once
-/// How noisy samples are, from the samples alone.
+/// What samples say of themselves: their noise, and how long nothing moves.
 
+#include "ensemble/model/campaign.hpp"
+
+#include <cstddef>
 #include <span>
 
 namespace stylobate {
@@ -11,5 +14,13 @@ namespace stylobate {
 /// neighbouring samples.
 /// @param stride  from one sample to the next, for a column of a table
 double noise_of(std::span<const double> values, std::size_t stride = 1);
+
+/// Mean of a column of a table over its first samples, as far as they were observed. NaN: none was
+/// @param stride  from one sample to the next
+double mean_seen(std::span<const double> values, std::size_t samples, std::size_t column, std::size_t stride);
+
+/// How many samples a run begins with before its base moves: half of those whose acceleration stays what it was in the
+/// first ten, as slow beginnings are seen late. 0 where these are fewer than 20, or no acceleration was measured.
+std::size_t samples_at_rest(const MeasuredRun& run);
 
 } // namespace stylobate

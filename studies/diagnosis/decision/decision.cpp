@@ -15,8 +15,8 @@ namespace {
 // A direct test is as sure as its thresholds are far.
 constexpr double direct_probability = 0.97;
 constexpr double half_width90 = 1.6449; // of a normal interval of 90 %, in standard deviations
-// A size is that of the balance of forces where this gains so much [nats]: it is not limited to simulated sizes.
-constexpr double sized_by_forces = 8;
+// The balance of forces sees a cause where this gains so much there [nats].
+constexpr double clear_by_forces = 8;
 
 double quantile95(std::vector<double> values)
 {
@@ -55,19 +55,36 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     return j;
 }
 
-/// The size by the balance of forces, where this sees the same cause clearly.
-void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
+/// The same cause in the balance of forces, where this sees it clearly; else null.
+const CauseFit* seen_by_forces(const BalanceEvidence& balance, const CauseFit& wanted)
 {
     for (const CauseFit& fit : balance.causes)
-        if (fit.cause.mechanism == j.fit.cause.mechanism && fit.cause.place == j.fit.cause.place &&
-            fit.cause.parameter == j.fit.cause.parameter && fit.cause.persists == j.fit.cause.persists &&
-            fit.gain >= sized_by_forces) {
-            const double gain = j.fit.gain;
-            j.fit = fit;
-            j.fit.gain = gain; // that of the statistics: the other is no likelihood of the same data
-            j.fit.gain_by_run.clear();
-            return;
-        }
+        if (fit.cause.mechanism == wanted.cause.mechanism && fit.cause.place == wanted.cause.place &&
+            fit.cause.parameter == wanted.cause.parameter && fit.cause.persists == wanted.cause.persists &&
+            fit.gain >= clear_by_forces)
+            return &fit;
+    return nullptr;
+}
+
+/// The size by the balance of forces: it is not limited to simulated sizes.
+void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
+{
+    if (const CauseFit* fit = seen_by_forces(balance, j.fit)) {
+        const double gain = j.fit.gain;
+        j.fit = *fit;
+        j.fit.gain = gain; // that of the statistics: the other is no likelihood of the same data
+        j.fit.gain_by_run.clear();
+    }
+}
+
+/// More friction of one joint lets it slide less, and so do contact laws that are not of the family. Only forces that
+/// the nominal friction cannot carry tell the two apart.
+bool more_friction_without_forces(const BalanceEvidence& balance, const CauseFit& fit)
+{
+    if (fit.cause.mechanism != "joint_friction" || fit.size <= 1)
+        return false;
+    const CauseFit* seen = seen_by_forces(balance, fit);
+    return !seen || seen->size <= 1;
 }
 
 /// What of the residual stands out most beside the best cause, in words.
@@ -158,7 +175,7 @@ bool contains(const std::vector<JudgedCause>& list, const std::string& mechanism
 }
 
 /// The best candidate, if it may be named. Says of it why not.
-bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
+bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict, JudgedCause& best)
 {
     const bool probable = verdict.named && verdict.set_probability >= least_probability;
     best.probability = verdict.named ? verdict.probability : 0;
@@ -170,6 +187,8 @@ bool may_be_named(const EnsembleVerdict& verdict, JudgedCause& best)
         best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
     else if (!stands_for_unknown(best.fit.cause) && !matters(best.fit))
         best.why_not = "its size is within the scatter between specimens";
+    else if (more_friction_without_forces(balance, best.fit))
+        best.why_not = "more friction is named only where forces in the joint show it";
     best.considered = best.why_not.empty();
     return best.considered;
 }
@@ -183,7 +202,7 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         return;
     JudgedCause best = judged(ensemble, static_cast<std::size_t>(verdict.best),
                               verdict.causes[static_cast<std::size_t>(verdict.best)]);
-    const bool named = may_be_named(verdict, best);
+    const bool named = may_be_named(balance, verdict, best);
     if (const NearestCause& nearest = ensemble.by_nearness; nearest.named && nearest.best == verdict.best) {
         const NearnessEvidence& near = ensemble.ensemble.nearness;
         best.nearer = near.distance[static_cast<std::size_t>(nearest.best)] / near.healthy;
@@ -223,6 +242,8 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
         return;
     JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
+    if (more_friction_without_forces(balance, second.fit))
+        return;
     second.considered = true;
     second.chance = verdict.second_p_value;
     second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);

@@ -9,14 +9,14 @@
 ///      `EnsembleRule::named` or less.
 ///   3  Its probability is calibrated on simulated campaigns with a known cause. Others that explain nearly as much are
 ///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
-///      probability of one half, nothing is named: the cause is called possible.
+///      probability of one half, nothing is named: the cause is called possible. More friction of a joint is named
+///      only where the balance of forces sees it, too.
 ///   4  A second cause is judged with the first one given.
 ///      Simulated ties of a block to the base compete with the causes and stand for forces of no known kind: where one
 ///      would be named, the verdict is 'unexplained'.
 ///   5  A force of no known kind whose score is far beyond healthy campaigns', that explains much more of the balance
-///   of
-///      forces than any cause, and not by one run alone, makes the verdict 'unexplained'; so does what the best cause
-///      leaves of the statistics, beyond 99 % of healthy and of labelled campaigns.
+///      of forces than any cause, and not by one run alone, makes the verdict 'unexplained'; so does what the best
+///      cause leaves of the statistics, beyond 99 % of healthy and of labelled campaigns.
 
 #include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"

@@ -2,6 +2,7 @@
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/tracking/following_score.hpp"
+#include "io/measured/measured_noise.hpp"
 #include "studies/diagnosis/tests/direct_findings.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ void judge(const std::vector<double>& upper, const std::vector<double>* lower, d
 /// others.
 ///
 /// @param place (blocks)(runs) from where it should be
-/// @param samples of which each of these is the mean
+/// @param samples of which each of these is the mean (harmonic mean over the runs)
 void test_places(const Specimen& s, bool table, const TrackScales& scales, const DirectThresholds& limits,
                  const std::vector<std::vector<double>>& place, double samples, DirectResult& out)
 {
@@ -110,24 +111,20 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
 {
     const Specimen& s = campaign.specimen;
     const auto n = static_cast<std::size_t>(s.blocks());
-    const auto first = static_cast<std::size_t>(std::max(20, 2 * scales.rates.half_width()));
+    const auto fewest = static_cast<std::size_t>(std::max(20, 2 * scales.rates.half_width()));
     const bool table = std::all_of(campaign.runs.begin(), campaign.runs.end(),
                                    [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
     std::vector<std::vector<double>> angle(n), place(n);
+    double variance = 0; // of the sum of the runs' means, for noise of 1
     for (const MeasuredRun& run : campaign.runs) {
-        if (run.blocks.theta_rad.empty() || run.blocks.x_m.empty() || run.time_s.size() < first)
+        if (run.blocks.theta_rad.empty() || run.blocks.x_m.empty() || run.time_s.size() < fewest)
             continue;
-        double shift = 0;
-        for (std::size_t i = 0; i < first && table; ++i)
-            shift += run.table.x_m.values[i] / static_cast<double>(first);
+        const std::size_t rest = std::max(fewest, samples_at_rest(run));
+        variance += 1 / static_cast<double>(rest);
+        const double shift = table ? mean_seen(run.table.x_m.values, rest, 0, 1) : 0;
         for (std::size_t b = 0; b < n; ++b) {
-            double turned = 0, moved = 0;
-            for (std::size_t i = 0; i < first; ++i) {
-                turned += run.blocks.theta_rad.values[i * n + b];
-                moved += run.blocks.x_m.values[i * n + b] - s.rest_x_m[b];
-            }
-            angle[b].push_back(turned / static_cast<double>(first));
-            place[b].push_back(moved / static_cast<double>(first) - shift);
+            angle[b].push_back(mean_seen(run.blocks.theta_rad.values, rest, b, n));
+            place[b].push_back(mean_seen(run.blocks.x_m.values, rest, b, n) - s.rest_x_m[b] - shift);
         }
     }
     if (angle.front().empty()) {
@@ -137,22 +134,30 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         return;
     }
     const auto runs = static_cast<double>(angle.front().size());
+    // Runs are few, so that each joint's scatter is known badly: half of it is what all joints show over their noise.
+    std::vector<double> tilt(s.joints.size()), noise(s.joints.size()), scatter(s.joints.size());
+    double common = 0;
+    for (std::size_t j = 0; j < s.joints.size(); ++j) {
+        const auto [lower, upper] = s.joints[j];
+        double sd = 0;
+        judge(angle[static_cast<std::size_t>(upper)], lower < 0 ? nullptr : &angle[static_cast<std::size_t>(lower)],
+              tilt[j], sd);
+        noise[j] = std::max(scales.noise_rad, 1e-12) * std::sqrt((lower < 0 ? 1 : 2) * variance) / runs;
+        scatter[j] = std::isfinite(sd) ? std::pow(sd / noise[j], 2) : 1;
+        common += scatter[j] / static_cast<double>(s.joints.size());
+    }
     // A block on two seats leans by what either of them is askew: the one over which it leans more is told.
     std::vector<CauseFit> wedges(n);
     for (std::size_t j = 0; j < s.joints.size(); ++j) {
         const auto [lower, upper] = s.joints[j];
         const auto u = static_cast<std::size_t>(upper);
-        const bool on_table = lower < 0;
-        double mean = 0, sd = 0;
-        judge(angle[u], on_table ? nullptr : &angle[static_cast<std::size_t>(lower)], mean, sd);
-        const double noise = scales.noise_rad * std::sqrt((on_table ? 1 : 2) / (static_cast<double>(first) * runs));
-        sd = std::isfinite(sd) ? std::max(sd, noise) : noise;
+        const double mean = tilt[j], sd = noise[j] * std::sqrt(std::max(1.0, (scatter[j] + common) / 2));
         const std::string joint = fmt::format("joint {}", j);
         const bool found = beyond(mean, sd, limits.wedge_rad, limits.sds);
         out.sensor_tests.push_back(
             told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
                  fmt::format("At rest block {} is tilted by {:.2e} rad relative to {}.", upper, mean,
-                             on_table ? "the horizontal" : fmt::format("block {}", lower))));
+                             lower < 0 ? "the horizontal" : fmt::format("block {}", lower))));
         if (!found || (!wedges[u].cause.mechanism.empty() && std::fabs(wedges[u].size) >= std::fabs(mean)))
             continue;
         wedges[u] = cause_of("wedge", joint, "angle_rad", "rad", 0, mean, sd, 0.5 * std::pow(mean / sd, 2));
@@ -162,7 +167,7 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         if (!wedge.cause.mechanism.empty())
             out.found.push_back(wedge);
 
-    test_places(campaign.specimen, table, scales, limits, place, static_cast<double>(first), out);
+    test_places(campaign.specimen, table, scales, limits, place, runs / variance, out);
 }
 
 } // namespace stylobate

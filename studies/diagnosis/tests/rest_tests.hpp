@@ -5,7 +5,8 @@
 
 namespace stylobate {
 
-/// Adds the tests of every joint, from the means over the first samples of each run, and what they found.
+/// Adds the tests of every joint, from the means of each run over the time before its base moves (at least 20 samples),
+/// and what they found.
 void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out);
 
 } // namespace stylobate

@@ -202,6 +202,22 @@ TEST(Decision, ASmallSizeDoesNotMatter)
     EXPECT_EQ(decided.judged.front().why_not, "its size is within the scatter between specimens");
 }
 
+TEST(Decision, MoreFrictionIsNamedWhereForcesShowItAlone)
+{
+    EnsembleDiagnosis e = ensemble_of(30, 1, 1);
+    e.causes[0].at_one = 1.6;
+    const Decided unseen = decide({}, {}, &e, {});
+    EXPECT_EQ(unseen.verdict, Verdict::none);
+    EXPECT_EQ(unseen.judged.front().why_not, "more friction is named only where forces in the joint show it");
+    BalanceEvidence balance;
+    balance.causes = {fit_of("joint_friction", 20, 1.5)};
+    EXPECT_EQ(decide({}, balance, &e, {}).verdict, Verdict::named);
+    balance.causes = {fit_of("joint_friction", 20, 0.6)};
+    EXPECT_EQ(decide({}, balance, &e, {}).verdict, Verdict::none) << "less friction, by the forces";
+    balance.causes = {fit_of("joint_friction", 2, 1.5)};
+    EXPECT_EQ(decide({}, balance, &e, {}).verdict, Verdict::none) << "hardly seen";
+}
+
 TEST(Decision, WhatExplainsAlikeIsInTheSetWithWhatRemains)
 {
     EnsembleDiagnosis e = ensemble_of(30, 29, 28);
