@@ -194,25 +194,16 @@ void judge_by_nearness(const EnsemblePlan& plan, EnsembleDiagnosis& out, const s
     NearnessEvidence evidence = out.ensemble.nearness;
     evidence.mechanism = mechanism;
     out.by_nearness = nearest_cause(evidence, static_cast<std::size_t>(EnsembleRule{}.rivals));
-    const NearestCause& nearest = out.by_nearness;
     EnsembleVerdict& verdict = out.by_statistics;
-    if (!nearest.named) {
-        const bool rounds = out.ensemble.campaigns.size() > plan.total(out.causes.size());
-        const auto best = static_cast<std::size_t>(std::max(verdict.best, 0));
-        verdict.no_nearer = verdict.named && rounds && verdict.causes[best].gain < beyond_doubt &&
-                            !nearer_than_healthy(evidence, mechanism[best]);
-        verdict.named = verdict.named && !verdict.no_nearer;
+    if (name_nearest(out.by_nearness, mechanism, verdict)) {
+        verdict.causes[static_cast<std::size_t>(verdict.best)] = size_by_nearest(out, verdict.best);
         return;
     }
-    verdict.best = nearest.best;
-    verdict.p_value = nearest.healthy_p;
-    verdict.named = true;
-    verdict.probability = nearest.probability;
-    verdict.set = nearest.set;
-    verdict.set_probability = nearest.set_probability;
-    verdict.second = -1;
-    verdict.contrasts = verdict.unexplained = false;
-    verdict.causes[static_cast<std::size_t>(nearest.best)] = size_by_nearest(out, nearest.best);
+    const bool rounds = out.ensemble.campaigns.size() > plan.total(out.causes.size());
+    const auto best = static_cast<std::size_t>(std::max(verdict.best, 0));
+    verdict.no_nearer = verdict.named && rounds && verdict.causes[best].gain < beyond_doubt &&
+                        !nearer_than_healthy(evidence, mechanism[best]);
+    verdict.named = verdict.named && !verdict.no_nearer;
 }
 
 // Of the numbers of a law: a cause moves some of them.

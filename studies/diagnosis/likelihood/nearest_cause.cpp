@@ -48,10 +48,30 @@ NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals,
     return out;
 }
 
-bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism)
+bool name_nearest(NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict,
+                  const NearnessRule& rule)
+{
+    nearest.named = nearest.named && verdict.p_value <= rule.likely;
+    if (!nearest.named)
+        return false;
+    const auto of = [&](int candidate) { return mechanism[static_cast<std::size_t>(candidate)]; };
+    if (of(verdict.best) != of(nearest.best) || verdict.probability < nearest.probability) {
+        verdict.probability = nearest.probability;
+        verdict.set = nearest.set;
+        verdict.set_probability = nearest.set_probability;
+    }
+    verdict.best = nearest.best;
+    verdict.p_value = nearest.healthy_p;
+    verdict.named = true;
+    verdict.second = -1;
+    verdict.contrasts = verdict.unexplained = false;
+    return true;
+}
+
+bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism, const NearnessRule& rule)
 {
     for (std::size_t c = 0; c < evidence.distance.size(); ++c)
-        if (evidence.mechanism[c] == mechanism && evidence.distance[c] < evidence.healthy)
+        if (evidence.mechanism[c] == mechanism && evidence.distance[c] < rule.hardly * evidence.healthy)
             return true;
     return false;
 }

@@ -5,6 +5,8 @@
 /// independent and an unknown common scale of what a model lacks, the log likelihood of a hypothesis whose nearest
 /// campaigns are at a distance d is -n ln d: so two hypotheses are n ln(d1 / d2) apart.
 
+#include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
+
 #include <cstddef>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct NearnessRule {
     double far = 0.02;    ///< p-value of the distance of healthy campaigns below which none of them is like it
     double nearer = 0.8;  ///< the cause's distance over that of healthy campaigns, at the most
     double rivals = 1.15; ///< distance of a rival over that of the cause, at the most
+    double likely = 0.1;  ///< p-value of the likelihood's largest gain, at the most
+    double hardly = 0.95; ///< what comes no nearer than this part of the healthy distance has come no nearer
 };
 
 struct NearnessEvidence {
@@ -38,8 +42,15 @@ struct NearestCause {
 /// @param rivals as `EnsembleRule::rivals`
 NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals, const NearnessRule& rule = {});
 
+/// Puts the nearest cause into the place of the likelihood's, unless the likelihood shows nothing: then nothing is
+/// named by nearness. Of few independent numbers, distances tell mechanisms apart badly; so where the likelihood's best
+/// cause is of the same mechanism, the surer of the two says how probable it is, and what is like it.
+/// @param mechanism (candidates)   @returns whether it did
+bool name_nearest(NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict,
+                  const NearnessRule& rule = {});
+
 /// Whether campaigns of a mechanism have come nearer to the measured one than healthy ones.
-bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism);
+bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism, const NearnessRule& rule = {});
 
 /// How many numbers are independent, from the squared distances of pairs of campaigns that differ by chance alone: the
 /// logarithm of a mean of n squares of normal numbers has the variance 2 / n, about. From 4 to 40.

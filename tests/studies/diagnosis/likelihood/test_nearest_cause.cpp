@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -56,6 +57,53 @@ TEST(NearestCause, RivalsAreInTheSet)
     EXPECT_NEAR(found.set_probability, (1 + a + b) / (1 + a + b + others), 1e-12);
 }
 
+TEST(NearestCause, TakesThePlaceOfTheLikelihoodsWithTheSurerProbabilityWhereBothAgree)
+{
+    const std::vector<int> mechanism = {0, 1, 1, 2};
+    const auto joined = [&](int best, double p_value, double probability) {
+        NearestCause nearest; // of mechanism 1, and hardly nearer than that of mechanism 2
+        nearest.named = true;
+        nearest.best = 2;
+        nearest.healthy_p = 0.005;
+        nearest.probability = 0.4;
+        nearest.set = {2};
+        nearest.set_probability = 0.45;
+        EnsembleVerdict verdict;
+        verdict.best = best;
+        verdict.p_value = p_value;
+        verdict.probability = verdict.set_probability = probability;
+        verdict.unexplained = true;
+        EXPECT_TRUE(name_nearest(nearest, mechanism, verdict));
+        EXPECT_TRUE(nearest.named);
+        EXPECT_EQ(verdict.best, 2);
+        EXPECT_TRUE(verdict.named);
+        EXPECT_FALSE(verdict.unexplained);
+        EXPECT_EQ(verdict.p_value, 0.005);
+        return std::pair(verdict.probability, verdict.set);
+    };
+    const std::pair by_nearness(0.4, std::vector<int>{2});
+    EXPECT_EQ(joined(1, 0.01, 0.9), std::pair(0.9, std::vector<int>{})) << "the same mechanism at another place";
+    EXPECT_EQ(joined(1, 0.03, 0.9), std::pair(0.9, std::vector<int>{})) << "which the likelihood alone does not name";
+    EXPECT_EQ(joined(1, 0.01, 0.3), by_nearness) << "less sure";
+    EXPECT_EQ(joined(3, 0.01, 0.9), by_nearness) << "another mechanism";
+}
+
+TEST(NearestCause, IsNotNamedWhereTheLikelihoodShowsNothing)
+{
+    NearestCause nearest;
+    nearest.named = true;
+    nearest.best = 0;
+    EnsembleVerdict verdict;
+    verdict.best = 1;
+    verdict.p_value = 0.11;
+    verdict.probability = 0.3;
+    EXPECT_FALSE(name_nearest(nearest, {0, 1}, verdict));
+    EXPECT_FALSE(nearest.named);
+    EXPECT_FALSE(verdict.named);
+    EXPECT_EQ(verdict.best, 1);
+    EXPECT_EQ(verdict.probability, 0.3);
+}
+
 TEST(NearestCause, WithoutCampaignsThereIsNone)
 {
     const double none = std::numeric_limits<double>::infinity();
@@ -67,9 +115,9 @@ TEST(NearestCause, WithoutCampaignsThereIsNone)
 
 TEST(NearestCause, IsNearerThanHealthyCampaignsByOneOfItsCandidates)
 {
-    const NearnessEvidence e = evidence(2, {2.5, 1.9, 2, 3}, {0, 0, 1, 2});
+    const NearnessEvidence e = evidence(2, {2.5, 1.8, 1.95, 3}, {0, 0, 1, 2});
     EXPECT_TRUE(nearer_than_healthy(e, 0));
-    EXPECT_FALSE(nearer_than_healthy(e, 1));
+    EXPECT_FALSE(nearer_than_healthy(e, 1)) << "hardly nearer";
     EXPECT_FALSE(nearer_than_healthy(e, 2));
 }
 
