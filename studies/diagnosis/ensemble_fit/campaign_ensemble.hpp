@@ -74,7 +74,7 @@ struct CampaignEnsemble {
     std::vector<SimulatedCampaign> campaigns; ///< in the order of their numbers
     std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
     std::vector<double> apart;                ///< (campaigns) from the measured one, by all numbers (`EvidenceRows`)
-    NearnessEvidence nearness;                ///< from these; without the mechanisms
+    NearnessEvidence nearness;                ///< from these; without the mechanisms and the likelihood
     std::uint64_t simulations = 0, block_steps = 0, cached = 0;
     bool complete = false; ///< false: the observer stopped it
 };

@@ -191,11 +191,13 @@ constexpr double beyond_doubt = 30;
 /// than healthy campaigns, is not named.
 void judge_by_nearness(const EnsemblePlan& plan, EnsembleDiagnosis& out, const std::vector<int>& mechanism)
 {
+    EnsembleVerdict& verdict = out.by_statistics;
     NearnessEvidence evidence = out.ensemble.nearness;
     evidence.mechanism = mechanism;
+    evidence.gain_p_value = verdict.p_value;
     out.by_nearness = nearest_cause(evidence, static_cast<std::size_t>(EnsembleRule{}.rivals));
-    EnsembleVerdict& verdict = out.by_statistics;
-    if (name_nearest(out.by_nearness, mechanism, verdict)) {
+    if (out.by_nearness.named) {
+        name_nearest(out.by_nearness, mechanism, verdict);
         verdict.causes[static_cast<std::size_t>(verdict.best)] = size_by_nearest(out, verdict.best);
         return;
     }

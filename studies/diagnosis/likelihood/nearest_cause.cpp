@@ -29,7 +29,8 @@ NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals,
     const double least = evidence.distance[best];
     const auto apart = [&](double distance) { return evidence.numbers * std::log(distance / least); };
     out.gain = apart(evidence.healthy);
-    out.named = out.healthy_p <= rule.far && least <= rule.nearer * evidence.healthy;
+    out.named =
+        out.healthy_p <= rule.far && least <= rule.nearer * evidence.healthy && evidence.gain_p_value <= rule.likely;
 
     double sum = std::exp(-out.gain);
     std::vector<std::pair<double, int>> others;
@@ -48,12 +49,8 @@ NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals,
     return out;
 }
 
-bool name_nearest(NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict,
-                  const NearnessRule& rule)
+void name_nearest(const NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict)
 {
-    nearest.named = nearest.named && verdict.p_value <= rule.likely;
-    if (!nearest.named)
-        return false;
     const auto of = [&](int candidate) { return mechanism[static_cast<std::size_t>(candidate)]; };
     if (of(verdict.best) != of(nearest.best) || verdict.probability < nearest.probability) {
         verdict.probability = nearest.probability;
@@ -65,7 +62,6 @@ bool name_nearest(NearestCause& nearest, const std::vector<int>& mechanism, Ense
     verdict.named = true;
     verdict.second = -1;
     verdict.contrasts = verdict.unexplained = false;
-    return true;
 }
 
 bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism, const NearnessRule& rule)

@@ -27,13 +27,16 @@ struct NearnessEvidence {
     std::vector<double> nulls;    ///< the same of healthy campaigns that are like the measured one, from the others
     double numbers = 0;           ///< that are independent
     std::vector<int> mechanism;   ///< (candidates)
+    double gain_p_value = 1;      ///< of the likelihood's largest gain
 };
 
 struct NearestCause {
-    int best = -1;              ///< the candidate; -1: there is none
-    double healthy_p = 1;       ///< of the distance of healthy campaigns among those of nulls
-    double gain = 0;            ///< of the best candidate over healthy campaigns [nats]
-    bool named = false;         ///< no healthy law gives the measured campaign, and the candidate is much nearer
+    int best = -1;        ///< the candidate; -1: there is none
+    double healthy_p = 1; ///< of the distance of healthy campaigns among those of nulls
+    double gain = 0;      ///< of the best candidate over healthy campaigns [nats]
+    /// No healthy law gives the measured campaign, the candidate is much nearer, and the likelihood shows something,
+    /// too.
+    bool named = false;
     double probability = 0;     ///< of its mechanism among those of all candidates, each as likely before
     std::vector<int> set;       ///< other mechanisms about as near, the nearest first
     double set_probability = 0; ///< that it is the best candidate's mechanism or one of the first `rivals` of the set
@@ -42,12 +45,11 @@ struct NearestCause {
 /// @param rivals as `EnsembleRule::rivals`
 NearestCause nearest_cause(const NearnessEvidence& evidence, std::size_t rivals, const NearnessRule& rule = {});
 
-/// Puts the nearest cause into the place of the likelihood's, unless the likelihood shows nothing: then nothing is
-/// named by nearness. Of few independent numbers, distances tell mechanisms apart badly; so where the likelihood's best
-/// cause is of the same mechanism, the surer of the two says how probable it is, and what is like it.
-/// @param mechanism (candidates)   @returns whether it did
-bool name_nearest(NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict,
-                  const NearnessRule& rule = {});
+/// Puts the nearest cause into the place of the likelihood's. Of few independent numbers, distances tell mechanisms
+/// apart badly; so where the likelihood's best cause is of the same mechanism, the surer of the two says how probable
+/// it is, and what is like it.
+/// @param mechanism (candidates)   @pre both have a best candidate
+void name_nearest(const NearestCause& nearest, const std::vector<int>& mechanism, EnsembleVerdict& verdict);
 
 /// Whether campaigns of a mechanism have come nearer to the measured one than healthy ones.
 bool nearer_than_healthy(const NearnessEvidence& evidence, int mechanism, const NearnessRule& rule = {});

@@ -21,6 +21,7 @@ NearnessEvidence evidence(double healthy, const std::vector<double>& distance, c
     e.distance = distance;
     e.mechanism = mechanism;
     e.numbers = 10;
+    e.gain_p_value = 0.05;
     for (int i = 0; i < 199; ++i)
         e.nulls.push_back(0.5 + i / 198.0);
     return e;
@@ -60,21 +61,19 @@ TEST(NearestCause, RivalsAreInTheSet)
 TEST(NearestCause, TakesThePlaceOfTheLikelihoodsWithTheSurerProbabilityWhereBothAgree)
 {
     const std::vector<int> mechanism = {0, 1, 1, 2};
-    const auto joined = [&](int best, double p_value, double probability) {
-        NearestCause nearest; // of mechanism 1, and hardly nearer than that of mechanism 2
-        nearest.named = true;
-        nearest.best = 2;
-        nearest.healthy_p = 0.005;
-        nearest.probability = 0.4;
-        nearest.set = {2};
-        nearest.set_probability = 0.45;
+    NearestCause nearest; // of mechanism 1, and hardly nearer than that of mechanism 2
+    nearest.best = 2;
+    nearest.healthy_p = 0.005;
+    nearest.probability = 0.4;
+    nearest.set = {2};
+    nearest.set_probability = 0.45;
+    const auto joined = [&](int best, bool named, double probability) {
         EnsembleVerdict verdict;
         verdict.best = best;
-        verdict.p_value = p_value;
+        verdict.named = named;
         verdict.probability = verdict.set_probability = probability;
         verdict.unexplained = true;
-        EXPECT_TRUE(name_nearest(nearest, mechanism, verdict));
-        EXPECT_TRUE(nearest.named);
+        name_nearest(nearest, mechanism, verdict);
         EXPECT_EQ(verdict.best, 2);
         EXPECT_TRUE(verdict.named);
         EXPECT_FALSE(verdict.unexplained);
@@ -82,26 +81,19 @@ TEST(NearestCause, TakesThePlaceOfTheLikelihoodsWithTheSurerProbabilityWhereBoth
         return std::pair(verdict.probability, verdict.set);
     };
     const std::pair by_nearness(0.4, std::vector<int>{2});
-    EXPECT_EQ(joined(1, 0.01, 0.9), std::pair(0.9, std::vector<int>{})) << "the same mechanism at another place";
-    EXPECT_EQ(joined(1, 0.03, 0.9), std::pair(0.9, std::vector<int>{})) << "which the likelihood alone does not name";
-    EXPECT_EQ(joined(1, 0.01, 0.3), by_nearness) << "less sure";
-    EXPECT_EQ(joined(3, 0.01, 0.9), by_nearness) << "another mechanism";
+    EXPECT_EQ(joined(1, true, 0.9), std::pair(0.9, std::vector<int>{})) << "the same mechanism at another place";
+    EXPECT_EQ(joined(1, false, 0.9), std::pair(0.9, std::vector<int>{})) << "which the likelihood alone does not name";
+    EXPECT_EQ(joined(1, true, 0.3), by_nearness) << "less sure";
+    EXPECT_EQ(joined(3, true, 0.9), by_nearness) << "another mechanism";
 }
 
 TEST(NearestCause, IsNotNamedWhereTheLikelihoodShowsNothing)
 {
-    NearestCause nearest;
-    nearest.named = true;
-    nearest.best = 0;
-    EnsembleVerdict verdict;
-    verdict.best = 1;
-    verdict.p_value = 0.11;
-    verdict.probability = 0.3;
-    EXPECT_FALSE(name_nearest(nearest, {0, 1}, verdict));
-    EXPECT_FALSE(nearest.named);
-    EXPECT_FALSE(verdict.named);
-    EXPECT_EQ(verdict.best, 1);
-    EXPECT_EQ(verdict.probability, 0.3);
+    NearnessEvidence e = evidence(3, {2.9, 1}, {0, 1});
+    EXPECT_TRUE(nearest_cause(e, 2).named);
+    e.gain_p_value = 0.11;
+    EXPECT_FALSE(nearest_cause(e, 2).named);
+    EXPECT_EQ(nearest_cause(e, 2).best, 1);
 }
 
 TEST(NearestCause, WithoutCampaignsThereIsNone)
