@@ -39,6 +39,8 @@ void add(const EnsembleDiagnosis& found, Power& power)
     for (const SimulatedCampaign& row : found.ensemble.campaigns) {
         if (row.cause < 0)
             continue;
+        if (i == found.by_statistics.labelled_right.size())
+            break; // what follows are the rounds of the causes' own
         const CandidateCause& cause = found.causes[static_cast<std::size_t>(row.cause)];
         const double part = std::fabs(row.z) / (row.z < 0 ? -cause.least : cause.most);
         const std::string name = cause.cause.mechanism + (cause.ratio && cause.at_one > 1 ? ", more"

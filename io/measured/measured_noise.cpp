@@ -68,4 +68,14 @@ std::size_t samples_at_rest(const MeasuredRun& run)
     return quiet / 2 >= fewest ? quiet / 2 : 0;
 }
 
+std::vector<double> places_at_rest(const Specimen& specimen, const MeasuredRun& run, std::size_t samples)
+{
+    const std::size_t blocks = specimen.rest_x_m.size();
+    const double shift = run.table.x_m.empty() ? 0 : mean_seen(run.table.x_m.values, samples, 0, 1);
+    std::vector<double> out;
+    for (std::size_t b = 0; b < blocks; ++b)
+        out.push_back(mean_seen(run.blocks.x_m.values, samples, b, blocks) - specimen.rest_x_m[b] - shift);
+    return out;
+}
+
 } // namespace stylobate

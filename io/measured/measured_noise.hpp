@@ -1,10 +1,11 @@
 #pragma once
-/// What samples say of themselves: their noise, and how long nothing moves.
+/// What samples say of themselves: their noise, how long nothing moves, and where the blocks lie meanwhile.
 
 #include "ensemble/model/campaign.hpp"
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace stylobate {
 
@@ -22,5 +23,10 @@ double mean_seen(std::span<const double> values, std::size_t samples, std::size_
 /// How many samples a run begins with before its base moves: half of those whose acceleration stays what it was in the
 /// first ten, as slow beginnings are seen late. 0 where these are fewer than 20, or no acceleration was measured.
 std::size_t samples_at_rest(const MeasuredRun& run);
+
+/// (blocks) Where each block lies before the base moves, beside its nominal place [m]: from the table where the cameras
+/// see it, else from their own zero. Means of the first samples. NaN: not seen
+/// @param samples that are counted   @pre the places of the blocks were measured
+std::vector<double> places_at_rest(const Specimen& specimen, const MeasuredRun& run, std::size_t samples);
 
 } // namespace stylobate

@@ -276,8 +276,7 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
 bool beyond_simulation(const DirectResult& direct)
 {
     return std::any_of(direct.found.begin(), direct.found.end(), [](const CauseFit& fit) {
-        return fit.cause.mechanism == "drum_offset" ||
-               (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio");
+        return fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio";
     });
 }
 

@@ -63,8 +63,8 @@ struct Decided {
     double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind in healthy campaigns [nats]
 };
 
-/// Whether a direct test found what simulated campaigns cannot contain (an offset drum, a vertical motion of a
-/// frequency of its own): joints and blocks cannot be judged beside it.
+/// Whether a direct test found what simulated campaigns cannot contain (a vertical motion of a frequency of its own):
+/// joints and blocks cannot be judged beside it.
 bool beyond_simulation(const DirectResult& direct);
 
 /// @param ensemble null: no campaigns were simulated, and only direct tests name a cause

@@ -222,7 +222,7 @@ bool Pipeline::simulate_campaigns()
     }
     if (beyond_simulation(direct_)) {
         add_missing(d_, "joints and blocks",
-                    "The simulated campaigns by which they are judged cannot contain what was found of base or rest.");
+                    "The simulated campaigns by which they are judged cannot contain what was found of the base.");
         return true;
     }
     EnsemblePlan plan = options_.plan;
@@ -252,8 +252,7 @@ bool Pipeline::simulate_campaigns()
                         plan.nulls, least_p, EnsembleRule{}.named));
     d_.nulls.push_back({"area, two_corner and points", plan.healthy() - plan.scouts(),
                         "healthy contact laws of a wide family that are like the measured one, friction of the joints, "
-                        "widths, masses and places of the "
-                        "blocks, noise of the cameras"});
+                        "widths and masses of the blocks, noise of the cameras; the blocks where they were put"});
     return true;
 }
 

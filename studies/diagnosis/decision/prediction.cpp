@@ -262,6 +262,7 @@ std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedC
 {
     HealthyScatter scatter;
     scatter.contacts = false;
+    scatter.placed_as_seen = true;
     std::vector<double> share(of.runs.size(), 0);
     const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(of), s.baseline, s.seed, 0, collapse_ensemble,
                                                     scatter, {causes}, s.options, s.observer);
@@ -292,7 +293,8 @@ CollapsePrediction predict_collapse(const Campaign& rest, const Campaign& rest_c
     collapse.score_before = b0;
     collapse.score_after = b1;
     collapse.text = fmt::format(
-        "From {} simulations of each whole run, with the scatter of specimens and their placement.", collapse_ensemble);
+        "From {} simulations of each whole run, with the scatter of specimens, and the blocks where they were put.",
+        collapse_ensemble);
     return collapse;
 }
 

@@ -242,6 +242,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
             break;
         const Portion portion(options.ranks, first, end);
         HealthyScatter scatter;
+        scatter.placed_as_seen = true;
         std::vector<std::vector<SizedCause>> acting(portion.count, known);
         std::vector<SimulatedCampaign> rows(portion.count);
         for (std::uint64_t i = 0; i < portion.count; ++i) {

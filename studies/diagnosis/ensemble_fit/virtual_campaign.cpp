@@ -6,6 +6,7 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
+#include "io/measured/measured_noise.hpp"
 #include "io/store/result_seal.hpp"
 #include "studies/diagnosis/ensemble_fit/joint_paths.hpp"
 #include "studies/version.hpp"
@@ -201,6 +202,24 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
     }
 }
 
+/// @param draw one number for each block, in any case
+void put_blocks(const VirtualLaboratory& laboratory, std::size_t run, const HealthyScatter& scatter, Draws& draw,
+                Realization& r)
+{
+    const std::vector<double>& seen = laboratory.placed_m[run];
+    std::vector<double> place(r.blocks.size(), 0),
+        sd(r.blocks.size(), laboratory.measured.specimen.placement_tolerance_m);
+    if (scatter.placed_as_seen && !seen.empty())
+        for (std::size_t b = 0; b < seen.size(); ++b) {
+            const auto k = static_cast<std::size_t>(laboratory.built.block[b]);
+            place[k] = seen[b];
+            sd[k] = laboratory.placed_sd_m[run];
+        }
+    for (std::size_t k = 0; k < r.blocks.size(); ++k)
+        if (!r.blocks[k].fixed)
+            r.blocks[k].x_m += place[k] + sd[k] * draw.normal();
+}
+
 } // namespace
 
 std::string campaign_key(const Campaign& campaign, const Study& study, std::uint64_t seed)
@@ -218,6 +237,8 @@ std::string campaign_key(const Campaign& campaign, const Study& study, std::uint
         sum = crc(run.time_s, sum);
         sum = crc(run.base_displacement_m.values, sum);
         sum = crc(run.base_acceleration_m_s2.values, sum);
+        if (!run.blocks.x_m.empty())
+            sum = crc(places_at_rest(s, run, std::min(run.time_s.size(), samples_at_rest(run))), sum);
         sum = crc({run.blocks.x_m.noise_sd.value_or(-1), run.blocks.y_m.noise_sd.value_or(-1),
                    run.blocks.theta_rad.noise_sd.value_or(-1)},
                   sum);
@@ -244,7 +265,35 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
             seen->push_back(t - run.time_s.front());
         times_s[i] = seen;
     });
+    for (std::size_t i = 0; i < measured.runs.size(); ++i)
+        see_placement(i);
     before = joint_paths(measured, track_scales(measured), base_m).before;
+}
+
+void VirtualLaboratory::see_placement(std::size_t i)
+{
+    const MeasuredRun& run = measured.runs[i];
+    placed_m.emplace_back();
+    placed_sd_m.push_back(0);
+    constexpr std::size_t fewest = 20; // of which the base may move in the last ones: slowly at first
+    const std::size_t rest = std::max(fewest, samples_at_rest(run));
+    if (!base[i] || run.time_s.size() < rest)
+        return;
+    std::vector<double> place = places_at_rest(measured.specimen, run, rest);
+    if (run.table.x_m.empty()) { // the cameras' zero is not known: what stands on the base tells where this is
+        double sum = 0, count = 0;
+        for (const auto& [lower, upper] : measured.specimen.joints)
+            if (lower < 0) {
+                sum += place[static_cast<std::size_t>(upper)];
+                ++count;
+            }
+        for (double& x : place)
+            x -= sum / count;
+    }
+    if (std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); })) {
+        placed_m.back() = std::move(place);
+        placed_sd_m.back() = run.blocks.x_m.noise_sd.value_or(0) / std::sqrt(static_cast<double>(rest));
+    }
 }
 
 VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,
@@ -278,9 +327,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
             campaign.runs[i].table = {};
             FollowJob job;
             job.realization = specimen.realization;
-            for (Block& block : job.realization.blocks)
-                if (!block.fixed)
-                    block.x_m += measured.specimen.placement_tolerance_m * put.normal();
+            put_blocks(laboratory, i, scatter, put, job.realization);
             if (!laboratory.base[i])
                 continue;
             for (const SizedCause& cause : acting)

@@ -5,7 +5,7 @@
 /// What a diagnosis would find in them is what it may find by chance. The contacts are drawn anew for each campaign, as
 /// those of a real specimen are unknown: their form, stiffness, exponent, damping and where it acts, and its rate. So
 /// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
-/// the blocks were put.
+/// the blocks were put, unless the cameras saw that.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
@@ -32,6 +32,9 @@ struct HealthyScatter {
     double least_damping = 0.03;   ///< damping ratios, uniform in the logarithm
     double most_damping = 0.5;
     double most_exponent = 1.4; ///< of the force, uniform from 1; contact form "area" alone
+    /// Put the blocks where the measured ones were seen before the base moved, as well as that is known. False, and
+    /// where they were not seen: anew in each run, with the specimen's tolerance.
+    bool placed_as_seen = false;
     double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
     /// Of each campaign, from a wide family (`law_family.hpp`): they take the place of the contacts and of the common
     /// friction above. Empty: none.
@@ -63,8 +66,14 @@ struct VirtualLaboratory {
     std::vector<std::shared_ptr<const Motion>> base;
     std::vector<std::shared_ptr<const std::vector<double>>> times_s; ///< the cameras', from the first one
     std::vector<std::vector<double>> base_m;                         ///< as `VirtualCampaigns::base_m`
-    std::vector<JointPath> before; ///< paths of the joints in the runs before each, as measured: wear that goes on
-                                   ///< from run to run is taken to have gone so far in a simulated one, too
+    /// (runs)(blocks) beside their nominal places; inner one empty: not seen
+    std::vector<std::vector<double>> placed_m;
+    std::vector<double> placed_sd_m; ///< (runs) of one block's, by the cameras' noise
+    std::vector<JointPath> before;   ///< paths of the joints in the runs before each, as measured: wear that goes on
+                                     ///< from run to run is taken to have gone so far in a simulated one, too
+
+private:
+    void see_placement(std::size_t run);
 };
 
 /// @param study contacts about which is drawn; its structure is the specimen's

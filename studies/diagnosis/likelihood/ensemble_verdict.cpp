@@ -72,7 +72,11 @@ public:
 
     Eigen::VectorXd residual(const CampaignTable& table, Eigen::Index row) const
     {
-        return law_->residual(table.descriptors.row(row), table.statistics.row(row));
+        return residual(table.descriptors.row(row), table.statistics.row(row));
+    }
+    Eigen::VectorXd residual(const Eigen::VectorXd& descriptors, const Eigen::VectorXd& statistics) const
+    {
+        return law_->decorrelated(law_->residual(descriptors, statistics));
     }
     const LawAdjustment& law() const { return *law_; }
     const SyntheticLikelihood& likelihood() const { return *likelihood_; }
@@ -255,7 +259,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     const std::vector<bool> wanted = finite(evidence.statistics);
     const Fit fit(evidence, wanted, out.contrasts, -1);
     out.used = fit.law().used();
-    out.residual = fit.law().residual(evidence.descriptors, evidence.statistics);
+    out.residual = fit.residual(evidence.descriptors, evidence.statistics);
     if (fit.models().empty())
         return out;
     const auto found = fit.likelihood().of(out.residual);

@@ -61,7 +61,7 @@ struct EnsembleVerdict {
     bool contrasts = false;     ///< the law is outside the family: only contrasts between joints were used
     double left_p_value = 1;    ///< of what is left beside the best cause
     bool unexplained = false;
-    Eigen::VectorXd residual;                     ///< (used) of the measured campaign
+    Eigen::VectorXd residual;                     ///< (used) of the measured campaign, decorrelated
     Eigen::VectorXd shift;                        ///< (used) what the best cause makes of it
     std::vector<Eigen::Index> used;               ///< columns of the statistics
     std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out

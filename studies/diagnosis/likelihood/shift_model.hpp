@@ -16,7 +16,7 @@ namespace stylobate {
 
 class ShiftModel {
 public:
-    /// @param residuals (n x p) of the labelled campaigns, of scatter 1 (`LawAdjustment::residual`)
+    /// @param residuals (n x p) of the labelled campaigns, of scatter 1 (`LawAdjustment::decorrelated`)
     /// @param sizes     (n) z, not all 0
     ShiftModel(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& sizes);
 

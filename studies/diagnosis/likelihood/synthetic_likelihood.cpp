@@ -54,9 +54,12 @@ SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::ve
                                          const Eigen::MatrixXd& common)
     : freedom_(law.freedom())
 {
-    Eigen::MatrixXd covariance = law.scale() * law.correlation();
-    if (common.rows() > 0)
-        covariance += unknown * common.transpose() * common;
+    const auto used = static_cast<Eigen::Index>(law.used().size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(used, used);
+    for (const auto& pattern : common.rowwise()) {
+        const Eigen::VectorXd along = law.decorrelated(pattern.transpose());
+        covariance += unknown * along * along.transpose();
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
     axes_ = solver.eigenvectors();
     variances_ = solver.eigenvalues().cwiseMax(1e-9);

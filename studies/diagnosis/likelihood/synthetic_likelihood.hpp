@@ -21,10 +21,13 @@ struct CauseLikelihood {
 
 class SyntheticLikelihood {
 public:
+    /// All residuals here are decorrelated ones (`LawAdjustment::decorrelated`).
+    ///
     /// @param law    what healthy campaigns give at this campaign's descriptors
-    /// @param causes what each cause does, in the same residuals
-    /// @param common (directions x used) patterns along which the residuals may lie with any size: shifts that are
-    ///        common to all joints, of a campaign whose healthy law the family of laws does not have; usually none
+    /// @param causes what each cause does
+    /// @param common (directions x used) patterns along which the residuals, not yet decorrelated, may lie with any
+    ///        size: shifts that are common to all joints, of a campaign whose healthy law the family of laws does not
+    ///        have; usually none
     SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
                         const Eigen::MatrixXd& common = {});
 
@@ -32,7 +35,7 @@ public:
     /// @returns one for each cause
     std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual, const Eigen::VectorXd& given = {}) const;
 
-    /// Squared Mahalanobis distance of the residual, over the scale of the tails.
+    /// Squared Mahalanobis distance of the campaign.
     double distance2(const Eigen::VectorXd& residual) const;
 
 private:

@@ -121,10 +121,10 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
             continue;
         const std::size_t rest = std::max(fewest, samples_at_rest(run));
         variance += 1 / static_cast<double>(rest);
-        const double shift = table ? mean_seen(run.table.x_m.values, rest, 0, 1) : 0;
+        const std::vector<double> seen = places_at_rest(s, run, rest);
         for (std::size_t b = 0; b < n; ++b) {
             angle[b].push_back(mean_seen(run.blocks.theta_rad.values, rest, b, n));
-            place[b].push_back(mean_seen(run.blocks.x_m.values, rest, b, n) - s.rest_x_m[b] - shift);
+            place[b].push_back(seen[b]);
         }
     }
     if (angle.front().empty()) {

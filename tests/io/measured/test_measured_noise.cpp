@@ -48,5 +48,18 @@ TEST(SamplesAtRest, AreNoneWhereThatIsNotKnownOrTooShort)
     EXPECT_EQ(samples_at_rest(run), 0U) << "35 samples, of which 15 would count";
 }
 
+TEST(PlacesAtRest, AreBesideTheNominalOnesAndFromTheTableWhereItIsSeen)
+{
+    Specimen specimen;
+    specimen.rest_x_m = {0, 0.5};
+    MeasuredRun run;
+    run.blocks.x_m.values = {0.01, 0.52, 0.03, 0.54, 9, 9}; // of the third sample nothing counts
+    EXPECT_EQ(places_at_rest(specimen, run, 2).size(), 2U);
+    EXPECT_NEAR(places_at_rest(specimen, run, 2)[0], 0.02, 1e-12);
+    EXPECT_NEAR(places_at_rest(specimen, run, 2)[1], 0.03, 1e-12);
+    run.table.x_m.values = {0.001, 0.003, 9};
+    EXPECT_NEAR(places_at_rest(specimen, run, 2)[1], 0.028, 1e-12);
+}
+
 } // namespace
 } // namespace stylobate

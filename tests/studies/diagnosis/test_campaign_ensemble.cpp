@@ -516,9 +516,9 @@ TEST(EnsembleDiagnosis, NothingIsNamedWhereNothingIsHidden)
     EXPECT_FALSE(found.by_nearness.named);
     // a cause that the simulations cannot contain: joints are not judged, whatever they show
     DirectResult direct;
-    CauseFit offset;
-    offset.cause = {"drum_offset", "block 1", "offset_m", "m"};
-    direct.found = {offset};
+    CauseFit vertical;
+    vertical.cause = {"vertical_motion", "base", "amplitude_m", "m"};
+    direct.found = {vertical};
     EXPECT_EQ(decide(direct, {}, &found, {}).named.size(), 1U);
 }
 

@@ -301,10 +301,10 @@ TEST(Decision, DirectFindingsAreNamedFirst)
     EXPECT_EQ(alone.named.front().channel, Channel::direct);
     EXPECT_EQ(names(decide(direct, {}, &some, {}).named), (Names{"wedge", "joint_friction"}));
     // what the simulations cannot contain: joints and blocks are not judged
-    direct.found = {fit_of("drum_offset", 50, 0.002)};
-    EXPECT_EQ(names(decide(direct, {}, &some, {}).named), Names{"drum_offset"});
+    direct.found = {fit_of("vertical_motion", 50, 0.002)};
+    EXPECT_EQ(names(decide(direct, {}, &some, {}).named), Names{"vertical_motion"});
     // without simulated campaigns
-    EXPECT_EQ(names(decide(direct, {}, nullptr, {}).named), Names{"drum_offset"});
+    EXPECT_EQ(names(decide(direct, {}, nullptr, {}).named), Names{"vertical_motion"});
     EXPECT_EQ(decide({}, {}, nullptr, {}).verdict, Verdict::none);
 }
 

@@ -177,6 +177,38 @@ TEST(LawFamily, PutsItsNumbersIntoTheJoints)
     EXPECT_LE(soft.step_s, 0.9 * step_bound(linear).dt_s);
 }
 
+TEST(VirtualCampaigns, PutTheBlocksWhereTheyWereSeen)
+{
+    Campaign campaign = still_campaign(3);
+    campaign.specimen.placement_tolerance_m = 0.002;
+    const std::vector<double> placed = {0.03, 0.031, 0.028}; // the cameras' zero is 30 mm off
+    Series& x = campaign.runs[0].blocks.x_m;
+    for (std::size_t i = 0; i < x.values.size(); ++i)
+        x.values[i] = campaign.specimen.rest_x_m[i % 3] + placed[i % 3] + (i < 60 ? 0 : 0.5); // they are moved later
+    HealthyScatter scatter;
+    scatter.contacts = false;
+    Observer observer;
+    const auto offsets = [&](bool as_seen) { // of blocks 1 and 2 against block 0, of two campaigns
+        scatter.placed_as_seen = as_seen;
+        std::vector<double> out;
+        for (const Campaign& c : virtual_campaigns(VirtualLaboratory(campaign), default_study(campaign), 1, 0, 2,
+                                                   scatter, {}, {best_isa(), 1}, observer)
+                                     .campaigns)
+            for (const std::size_t b : {1UL, 2UL})
+                out.push_back(c.runs[0].blocks.x_m.values[b] - c.runs[0].blocks.x_m.values[0]);
+        return out;
+    };
+    const std::vector<double> seen = offsets(true), drawn = offsets(false);
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_NEAR(seen[k], k % 2 == 0 ? 0.001 : -0.002, 1e-5) << k; // (beds give way under what stands askew)
+    EXPECT_GT(std::fabs(drawn[0] - drawn[2]), 1e-4) << "each campaign is put up anew";
+    // where cameras are noisy the places are known no better
+    x.noise_sd = 0.0005;
+    const std::vector<double> noisy = offsets(true);
+    EXPECT_GT(std::fabs(noisy[0] - noisy[2]), 1e-5);
+    EXPECT_NEAR(noisy[0], 0.001, 5 * 0.0005 * std::sqrt(2.0) * std::sqrt(1 + 1 / 20.0));
+}
+
 TEST(LawFamily, CampaignsAreTheSameForEveryNumberOfThreads)
 {
     const Campaign campaign = measure({.runs = 2, .drums = 2, .strong_s = 0.6});

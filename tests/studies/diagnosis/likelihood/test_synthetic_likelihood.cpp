@@ -68,6 +68,30 @@ TEST(LawAdjustment, CorrelationIsThatOfTheWorld)
     EXPECT_NEAR(adjustment.scale(), 1, 0.35);
 }
 
+TEST(LawAdjustment, DecorrelatedResidualsStayNearTheirStatistics)
+{
+    World world(2);
+    const LawAdjustment adjustment(world.nulls(400), Eigen::VectorXd::Ones(400), all_wanted);
+    const int n = 4000;
+    Eigen::MatrixXd before(n, statistics), after(n, statistics);
+    for (int i = 0; i < n; ++i) {
+        const Eigen::VectorXd law = world.law(), residual = adjustment.residual(law, world.campaign(law, -1, 0));
+        before.row(i) = residual.transpose();
+        after.row(i) = adjustment.decorrelated(residual).transpose();
+    }
+    const Eigen::MatrixXd covariance = after.transpose() * after / n;
+    Eigen::MatrixXd off = covariance;
+    off.diagonal().setZero();
+    EXPECT_LT(off.cwiseAbs().mean(), 0.06);
+    EXPECT_NEAR(covariance.diagonal().mean(), 1, 0.2);
+    const Eigen::MatrixXd both = after.transpose() * before;
+    for (Eigen::Index j = 0; j < statistics; ++j) {
+        Eigen::Index nearest = -1;
+        both.row(j).cwiseAbs().maxCoeff(&nearest);
+        EXPECT_EQ(nearest, j);
+    }
+}
+
 TEST(LawAdjustment, AStatisticThatIsMissingSaysNothing)
 {
     World world(3);
@@ -136,7 +160,7 @@ TEST(SyntheticLikelihoodStatistics, NamesThePlantedCauseWithItsSize)
         const int rank = i / causes;
         const double size = 0.4 + 0.024 * rank;
         const Eigen::VectorXd law = world.law();
-        const auto found = likelihood.of(adjustment.residual(law, world.campaign(law, cause, size)));
+        const auto found = likelihood.of(seen(adjustment, law, world.campaign(law, cause, size)));
         const auto best =
             std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
         ++total;
@@ -160,7 +184,7 @@ TEST(SyntheticLikelihoodStatistics, FindsASecondCauseBesideAGivenOne)
     for (int i = 0; i < 50; ++i) {
         const Eigen::VectorXd law = world.law();
         const Eigen::VectorXd both = world.campaign(law, 2, 0.8) + 0.8 * world.shift(5);
-        const auto found = likelihood.of(adjustment.residual(law, both), models[2].mean(0.8));
+        const auto found = likelihood.of(seen(adjustment, law, both), models[2].mean(0.8));
         right +=
             std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; }) -
                         found.begin() ==
@@ -178,7 +202,7 @@ TEST(SyntheticLikelihoodStatistics, PValuesOfNullsAreUniform)
     const SyntheticLikelihood likelihood(adjustment, world.learnt(adjustment));
     const auto score = [&] {
         const Eigen::VectorXd law = world.law();
-        return most(likelihood.of(adjustment.residual(law, world.campaign(law, -1, 0))));
+        return most(likelihood.of(seen(adjustment, law, world.campaign(law, -1, 0))));
     };
     std::vector<double> held_out;
     for (int i = 0; i < 999; ++i)
@@ -196,6 +220,49 @@ TEST(SyntheticLikelihoodStatistics, PValuesOfNullsAreUniform)
         EXPECT_NEAR(count, 0.1 * n, 60);
 }
 
+/// Ten pairs of statistics, of which each two scatter by 1.5 together and by 0.3 alone. The cause moves one of the
+/// first pair by 1.5: once its scatter, and nearly four times that of the pair's difference.
+TEST(SyntheticLikelihood, FindsAShiftThatOnlyAContrastShows)
+{
+    constexpr int pairs = 10;
+    std::mt19937 random(12);
+    std::normal_distribution<double> normal;
+    const auto campaign = [&](double shift) {
+        Eigen::VectorXd out(2 * pairs);
+        for (int k = 0; k < pairs; ++k) {
+            const double common = 1.5 * normal(random);
+            out(2 * k) = common + 0.3 * normal(random);
+            out(2 * k + 1) = common + 0.3 * normal(random);
+        }
+        out(0) += shift;
+        return out;
+    };
+    CampaignTable nulls{Eigen::MatrixXd(300, 1), Eigen::MatrixXd(300, 2 * pairs)};
+    for (int i = 0; i < 300; ++i) {
+        nulls.descriptors(i, 0) = normal(random);
+        nulls.statistics.row(i) = campaign(0).transpose();
+    }
+    const LawAdjustment adjustment(nulls, Eigen::VectorXd::Ones(300), std::vector<bool>(2 * pairs, true));
+    const Eigen::VectorXd law = Eigen::VectorXd::Zero(1);
+    Eigen::MatrixXd residuals(12, 2 * pairs);
+    Eigen::VectorXd sizes(12);
+    for (int i = 0; i < 12; ++i) {
+        sizes(i) = (i + 1) / 12.0;
+        residuals.row(i) = seen(adjustment, law, campaign(1.5 * sizes(i))).transpose();
+    }
+    const SyntheticLikelihood likelihood(adjustment, {ShiftModel(residuals, sizes)});
+    const auto mean_gain = [&](double shift) {
+        double sum = 0;
+        for (int i = 0; i < 200; ++i)
+            sum += likelihood.of(seen(adjustment, law, campaign(shift))).front().gain / 200;
+        return sum;
+    };
+    // an observer who knows all gains (1.5 / 0.42)^2 / 2 = 6.4 nats at the size 1, less the prior's 1 or 2; by the
+    // statistic alone it would be 0.5
+    EXPECT_GT(mean_gain(1.5), 2);
+    EXPECT_LT(mean_gain(0), 0);
+}
+
 TEST(SyntheticLikelihood, AShiftCommonToAllIsNoCause)
 {
     World world(10);
@@ -203,7 +270,8 @@ TEST(SyntheticLikelihood, AShiftCommonToAllIsNoCause)
     const std::vector<ShiftModel> models = world.learnt(adjustment);
     const Eigen::MatrixXd common = Eigen::MatrixXd::Ones(1, statistics) / std::sqrt(double{statistics});
     const SyntheticLikelihood plain(adjustment, models), contrasts(adjustment, models, common);
-    Eigen::VectorXd residual = Eigen::VectorXd::Constant(statistics, 3); // a law that the family does not have
+    // a law that the family does not have
+    Eigen::VectorXd residual = adjustment.decorrelated(Eigen::VectorXd::Constant(statistics, 3));
     EXPECT_GT(plain.distance2(residual), 100);
     EXPECT_LT(contrasts.distance2(residual), 1);
     EXPECT_LT(most(contrasts.of(residual)), 2);

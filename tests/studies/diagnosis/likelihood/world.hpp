@@ -11,6 +11,13 @@ namespace stylobate::test_world {
 
 inline constexpr int descriptors = 3, statistics = 40, causes = 8;
 
+/// What is counted of a campaign.
+inline Eigen::VectorXd seen(const LawAdjustment& adjustment, const Eigen::VectorXd& law,
+                            const Eigen::VectorXd& campaign)
+{
+    return adjustment.decorrelated(adjustment.residual(law, campaign));
+}
+
 class World {
 public:
     explicit World(unsigned seed) : random_(seed)
@@ -61,7 +68,7 @@ public:
             for (int i = 0; i < 12; ++i) {
                 sizes(i) = (1 + i % 3) / 3.0;
                 const Eigen::VectorXd l = law();
-                residuals.row(i) = adjustment.residual(l, campaign(l, c, sizes(i))).transpose();
+                residuals.row(i) = seen(adjustment, l, campaign(l, c, sizes(i))).transpose();
             }
             models.emplace_back(residuals, sizes);
         }
