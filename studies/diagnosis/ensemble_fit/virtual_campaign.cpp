@@ -202,6 +202,13 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
     }
 }
 
+/// How many of a run's first samples tell where the blocks were put.
+std::size_t samples_of_places(const MeasuredRun& run)
+{
+    constexpr std::size_t fewest = 20; // in the last of these the base may move: slowly at first
+    return std::max(fewest, samples_at_rest(run));
+}
+
 /// @param draw one number for each block, in any case
 void put_blocks(const VirtualLaboratory& laboratory, std::size_t run, const HealthyScatter& scatter, Draws& draw,
                 Realization& r)
@@ -237,8 +244,8 @@ std::string campaign_key(const Campaign& campaign, const Study& study, std::uint
         sum = crc(run.time_s, sum);
         sum = crc(run.base_displacement_m.values, sum);
         sum = crc(run.base_acceleration_m_s2.values, sum);
-        if (!run.blocks.x_m.empty())
-            sum = crc(places_at_rest(s, run, std::min(run.time_s.size(), samples_at_rest(run))), sum);
+        if (!run.blocks.x_m.empty() && run.time_s.size() >= samples_of_places(run))
+            sum = crc(places_at_rest(s, run, samples_of_places(run)), sum);
         sum = crc({run.blocks.x_m.noise_sd.value_or(-1), run.blocks.y_m.noise_sd.value_or(-1),
                    run.blocks.theta_rad.noise_sd.value_or(-1)},
                   sum);
@@ -275,8 +282,7 @@ void VirtualLaboratory::see_placement(std::size_t i)
     const MeasuredRun& run = measured.runs[i];
     placed_m.emplace_back();
     placed_sd_m.push_back(0);
-    constexpr std::size_t fewest = 20; // of which the base may move in the last ones: slowly at first
-    const std::size_t rest = std::max(fewest, samples_at_rest(run));
+    const std::size_t rest = samples_of_places(run);
     if (!base[i] || run.time_s.size() < rest)
         return;
     std::vector<double> place = places_at_rest(measured.specimen, run, rest);
