@@ -398,6 +398,10 @@ TEST(Detectability, WhatAHealthyLawMakesIsNoEffect)
     one_block.bodies[1].eccentricity_m = 0.003;
     EXPECT_GT(share(everywhere), 0.8);
     EXPECT_LT(share(one_block), 0.5);
+
+    // an exponent is that of all joints: a law, whatever its size
+    wish.effects = {"hertz"};
+    EXPECT_FALSE(detectability_of(make_campaign(2, wish))[0].detectable());
 }
 
 TEST(Campaigns, AreTheirSeeds)

@@ -216,7 +216,9 @@ std::vector<Detectability> detectability_of(const VirtualCampaign& made)
         const std::vector<double> by_effect = differences(made, twin);
         const double moving = norm(by_effect);
         Detectability found;
-        if (moving > rest.snr_noise)
+        if (made.effects[k].name == "hertz") // an exponent that all joints have is a law, however far from others
+            found.law_share = 1;
+        else if (moving > rest.snr_noise)
             found.law_share = share_of_laws(by_effect, laws, most_steps);
         found.snr_noise = std::max(rest.snr_noise, moving);
         found.snr_scatter = std::max(rest.snr_scatter, moving / std::max(by_scatter, 1e-9));
