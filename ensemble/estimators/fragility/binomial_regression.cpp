@@ -1,6 +1,7 @@
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/eigen_blocks.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

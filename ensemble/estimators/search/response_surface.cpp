@@ -1,5 +1,7 @@
 #include "ensemble/estimators/search/response_surface.hpp"
 
+#include "ensemble/numerics/eigen_blocks.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>

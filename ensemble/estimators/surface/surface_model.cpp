@@ -1,5 +1,6 @@
 #include "ensemble/estimators/surface/surface_model.hpp"
 
+#include "ensemble/numerics/eigen_blocks.hpp"
 #include "ensemble/numerics/elementary.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 

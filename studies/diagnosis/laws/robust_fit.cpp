@@ -1,5 +1,6 @@
 #include "studies/diagnosis/laws/robust_fit.hpp"
 
+#include "ensemble/numerics/eigen_blocks.hpp"
 #include "ensemble/numerics/log_gamma.hpp"
 
 #include <Eigen/Cholesky>
