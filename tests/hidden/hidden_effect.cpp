@@ -113,6 +113,7 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
          [](Drawing& d) {
              const double more = d.size("exponent_change", d.draws.uniform(-0.5, 1.5));
              d.made.size_comparable = false;
+             d.made.is_law = true;
              d.all_beds([&](BedEffect& bed) { bed.exponent_change = more; });
          }},
         {"rate_damping",

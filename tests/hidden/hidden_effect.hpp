@@ -17,6 +17,7 @@ struct HiddenEffect {
     std::string parameter;       ///< what `size` is
     double size = 0;             ///< in the unit of the parameter
     bool size_comparable = true; ///< false: the parameter belongs to this laboratory's law alone
+    bool is_law = false;         ///< all joints have it: a healthy law, and nothing to be found
     Effects effects;             ///< this effect alone
 };
 

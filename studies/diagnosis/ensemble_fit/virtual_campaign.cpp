@@ -202,29 +202,19 @@ void see(const Campaign& measured, const MeasuredRun& source, const SpecimenStru
     }
 }
 
-/// How many of a run's first samples tell where the blocks were put.
-std::size_t samples_of_places(const MeasuredRun& run)
-{
-    constexpr std::size_t fewest = 20; // in the last of these the base may move: slowly at first
-    return std::max(fewest, samples_at_rest(run));
-}
-
 /// @param draw one number for each block, in any case
 void put_blocks(const VirtualLaboratory& laboratory, std::size_t run, const HealthyScatter& scatter, Draws& draw,
                 Realization& r)
 {
-    const std::vector<double>& seen = laboratory.placed_m[run];
-    std::vector<double> place(r.blocks.size(), 0),
-        sd(r.blocks.size(), laboratory.measured.specimen.placement_tolerance_m);
-    if (scatter.placed_as_seen && !seen.empty())
-        for (std::size_t b = 0; b < seen.size(); ++b) {
-            const auto k = static_cast<std::size_t>(laboratory.built.block[b]);
-            place[k] = seen[b];
-            sd[k] = laboratory.placed_sd_m[run];
-        }
-    for (std::size_t k = 0; k < r.blocks.size(); ++k)
-        if (!r.blocks[k].fixed)
-            r.blocks[k].x_m += place[k] + sd[k] * draw.normal();
+    const SeenPlaces& seen = laboratory.placed[run];
+    const bool as_seen = scatter.placed_as_seen && !seen.offset_m.empty();
+    if (as_seen)
+        for (std::size_t b = 0; b < seen.offset_m.size(); ++b)
+            r.blocks[static_cast<std::size_t>(laboratory.built.block[b])].x_m += seen.offset_m[b];
+    const double sd = as_seen ? seen.sd_m : laboratory.measured.specimen.placement_tolerance_m;
+    for (Block& block : r.blocks)
+        if (!block.fixed)
+            block.x_m += sd * draw.normal();
 }
 
 } // namespace
@@ -244,8 +234,7 @@ std::string campaign_key(const Campaign& campaign, const Study& study, std::uint
         sum = crc(run.time_s, sum);
         sum = crc(run.base_displacement_m.values, sum);
         sum = crc(run.base_acceleration_m_s2.values, sum);
-        if (!run.blocks.x_m.empty() && run.time_s.size() >= samples_of_places(run))
-            sum = crc(places_at_rest(s, run, samples_of_places(run)), sum);
+        sum = crc(seen_places(s, run).offset_m, sum);
         sum = crc({run.blocks.x_m.noise_sd.value_or(-1), run.blocks.y_m.noise_sd.value_or(-1),
                    run.blocks.theta_rad.noise_sd.value_or(-1)},
                   sum);
@@ -253,6 +242,28 @@ std::string campaign_key(const Campaign& campaign, const Study& study, std::uint
     const ContactSpec& c = study.contact;
     sum = crc({c.normal_stiffness_n_m2, c.tangential_stiffness_n_m, c.friction, static_cast<double>(seed)}, sum);
     return fmt::format("{} {:08x}", code_version(), sum);
+}
+
+SeenPlaces seen_places(const Specimen& specimen, const MeasuredRun& run)
+{
+    constexpr std::size_t fewest = 20; // in the last of these the base may move: slowly at first
+    const std::size_t rest = std::max(fewest, samples_at_rest(run));
+    if (run.blocks.x_m.empty() || run.time_s.size() < rest)
+        return {};
+    std::vector<double> place = places_at_rest(specimen, run, rest);
+    if (run.table.x_m.empty()) {
+        double sum = 0, count = 0;
+        for (const auto& [lower, upper] : specimen.joints)
+            if (lower < 0) {
+                sum += place[static_cast<std::size_t>(upper)];
+                ++count;
+            }
+        for (double& x : place)
+            x -= sum / count;
+    }
+    if (!std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }))
+        return {};
+    return {std::move(place), run.blocks.x_m.noise_sd.value_or(0) / std::sqrt(static_cast<double>(rest))};
 }
 
 VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
@@ -272,34 +283,9 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
             seen->push_back(t - run.time_s.front());
         times_s[i] = seen;
     });
-    for (std::size_t i = 0; i < measured.runs.size(); ++i)
-        see_placement(i);
+    for (const MeasuredRun& run : measured.runs)
+        placed.push_back(seen_places(measured.specimen, run));
     before = joint_paths(measured, track_scales(measured), base_m).before;
-}
-
-void VirtualLaboratory::see_placement(std::size_t i)
-{
-    const MeasuredRun& run = measured.runs[i];
-    placed_m.emplace_back();
-    placed_sd_m.push_back(0);
-    const std::size_t rest = samples_of_places(run);
-    if (!base[i] || run.time_s.size() < rest)
-        return;
-    std::vector<double> place = places_at_rest(measured.specimen, run, rest);
-    if (run.table.x_m.empty()) { // the cameras' zero is not known: what stands on the base tells where this is
-        double sum = 0, count = 0;
-        for (const auto& [lower, upper] : measured.specimen.joints)
-            if (lower < 0) {
-                sum += place[static_cast<std::size_t>(upper)];
-                ++count;
-            }
-        for (double& x : place)
-            x -= sum / count;
-    }
-    if (std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); })) {
-        placed_m.back() = std::move(place);
-        placed_sd_m.back() = run.blocks.x_m.noise_sd.value_or(0) / std::sqrt(static_cast<double>(rest));
-    }
 }
 
 VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,

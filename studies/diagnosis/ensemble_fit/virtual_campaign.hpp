@@ -32,10 +32,10 @@ struct HealthyScatter {
     double least_damping = 0.03;   ///< damping ratios, uniform in the logarithm
     double most_damping = 0.5;
     double most_exponent = 1.4; ///< of the force, uniform from 1; contact form "area" alone
+    double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
     /// Put the blocks where the measured ones were seen before the base moved, as well as that is known. False, and
     /// where they were not seen: anew in each run, with the specimen's tolerance.
     bool placed_as_seen = false;
-    double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
     /// Of each campaign, from a wide family (`law_family.hpp`): they take the place of the contacts and of the common
     /// friction above. Empty: none.
     std::vector<HealthyLaw> laws = {};
@@ -55,6 +55,16 @@ struct VirtualCampaigns {
 /// contacts and seed.
 std::string campaign_key(const Campaign& measured, const Study& study, std::uint64_t seed);
 
+/// Where the blocks of a run were put.
+struct SeenPlaces {
+    std::vector<double> offset_m; ///< (blocks) beside their nominal places; empty: not seen
+    double sd_m = 0;              ///< of each, by the cameras' noise
+};
+
+/// By the samples before the base moves, at least 20. Where the cameras do not see the table, their zero is not known,
+/// and offsets count from what stands on the base.
+SeenPlaces seen_places(const Specimen& specimen, const MeasuredRun& run);
+
 /// A measured campaign, ready to be simulated many times: its specimen, and the base motion of each run from all
 /// sensors that saw it.
 struct VirtualLaboratory {
@@ -66,14 +76,9 @@ struct VirtualLaboratory {
     std::vector<std::shared_ptr<const Motion>> base;
     std::vector<std::shared_ptr<const std::vector<double>>> times_s; ///< the cameras', from the first one
     std::vector<std::vector<double>> base_m;                         ///< as `VirtualCampaigns::base_m`
-    /// (runs)(blocks) beside their nominal places; inner one empty: not seen
-    std::vector<std::vector<double>> placed_m;
-    std::vector<double> placed_sd_m; ///< (runs) of one block's, by the cameras' noise
-    std::vector<JointPath> before;   ///< paths of the joints in the runs before each, as measured: wear that goes on
-                                     ///< from run to run is taken to have gone so far in a simulated one, too
-
-private:
-    void see_placement(std::size_t run);
+    std::vector<SeenPlaces> placed;                                  ///< (runs)
+    std::vector<JointPath> before; ///< paths of the joints in the runs before each, as measured: wear that goes on
+                                   ///< from run to run is taken to have gone so far in a simulated one, too
 };
 
 /// @param study contacts about which is drawn; its structure is the specimen's

@@ -18,8 +18,6 @@ namespace {
 constexpr double least_share = 0.8;
 // Ridge on standardized descriptors: two of them may show the same, and there are many for the campaigns there are.
 constexpr double ridge = 0.05;
-// Along a principal axis; the shrinkage keeps the correlation farther from singular than this.
-constexpr double least_variance = 1e-9;
 constexpr int parts = 5;
 constexpr std::array freedoms = {4.0, 6.0, 9.0, 14.0, 22.0, 35.0, 60.0, 120.0, 1000.0};
 
@@ -84,10 +82,8 @@ LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& 
         residuals.row(i) = residual(nulls.descriptors.row(i), nulls.statistics.row(i)).transpose();
     correlation_ = shrunk_correlation(residuals, weights);
     find_tails(residuals, weights);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale_ * correlation_);
-    whitening_ = solver.eigenvectors() *
-                 solver.eigenvalues().cwiseMax(least_variance).cwiseSqrt().cwiseInverse().asDiagonal() *
-                 solver.eigenvectors().transpose();
+    // (the shrinkage keeps it far from singular)
+    whitening_ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale_ * correlation_).operatorInverseSqrt();
 }
 
 Eigen::VectorXd LawAdjustment::standardized(const Eigen::VectorXd& descriptors) const

@@ -62,7 +62,7 @@ SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::ve
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
     axes_ = solver.eigenvectors();
-    variances_ = solver.eigenvalues().cwiseMax(1e-9);
+    variances_ = solver.eigenvalues();
     log_determinant_ = half_log_determinant(variances_);
     for (const ShiftModel& cause : causes) {
         std::vector<Point> points;

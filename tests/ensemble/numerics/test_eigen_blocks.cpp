@@ -1,4 +1,4 @@
-/// Sizes of Eigen's blocks, which must not be those of this machine.
+/// Sizes of Eigen's blocks. That programs have the fixed ones is tested where they are linked: `RobustFit`.
 
 #include "ensemble/numerics/eigen_blocks.hpp"
 
@@ -7,14 +7,7 @@
 namespace stylobate {
 namespace {
 
-TEST(EigenBlocks, AreTheSameOnEveryMachine)
-{
-    EXPECT_EQ(Eigen::l1CacheSize(), block_caches[0]);
-    EXPECT_EQ(Eigen::l2CacheSize(), block_caches[1]);
-    EXPECT_EQ(Eigen::l3CacheSize(), block_caches[2]);
-}
-
-/// What this is for: with the blocks of another processor a product has other bits.
+/// What they are fixed for: with the blocks of another processor a product has other bits.
 TEST(EigenBlocks, DecideTheLastDigits)
 {
     const Eigen::MatrixXd tall = Eigen::MatrixXd::Random(4000, 60);

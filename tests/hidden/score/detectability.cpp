@@ -216,7 +216,7 @@ std::vector<Detectability> detectability_of(const VirtualCampaign& made)
         const std::vector<double> by_effect = differences(made, twin);
         const double moving = norm(by_effect);
         Detectability found;
-        if (made.effects[k].name == "hertz") // an exponent that all joints have is a law, however far from others
+        if (made.effects[k].is_law) // however far it is from those that `laws` reach
             found.law_share = 1;
         else if (moving > rest.snr_noise)
             found.law_share = share_of_laws(by_effect, laws, most_steps);

@@ -300,6 +300,9 @@ TEST(Decision, DirectFindingsAreNamedFirst)
     EXPECT_EQ(names(alone.named), Names{"wedge"});
     EXPECT_EQ(alone.named.front().channel, Channel::direct);
     EXPECT_EQ(names(decide(direct, {}, &some, {}).named), (Names{"wedge", "joint_friction"}));
+    // an offset drum is in the simulations
+    direct.found = {fit_of("drum_offset", 50, 0.002)};
+    EXPECT_EQ(names(decide(direct, {}, &some, {}).named), (Names{"drum_offset", "joint_friction"}));
     // what the simulations cannot contain: joints and blocks are not judged
     direct.found = {fit_of("vertical_motion", 50, 0.002)};
     EXPECT_EQ(names(decide(direct, {}, &some, {}).named), Names{"vertical_motion"});

@@ -32,6 +32,14 @@ TEST(LocalCubic, ASeriesAndItsSamplesHaveTheSameBits)
     EXPECT_EQ(LocalCubic(7, 0.01).apply(0, {1, 2, 3}), std::vector<double>(3, 0.0)) << "shorter than the window";
 }
 
+/// This file does not include what fixes them: the program has them by linking the fit.
+TEST(RobustFit, SumsInBlocksThatAreNotThoseOfThisMachine)
+{
+    EXPECT_EQ(Eigen::l1CacheSize(), 32 << 10);
+    EXPECT_EQ(Eigen::l2CacheSize(), 1 << 20);
+    EXPECT_EQ(Eigen::l3CacheSize(), 32 << 20);
+}
+
 TEST(LocalCubic, IsExactOnCubics)
 {
     const double dt = 0.002;
