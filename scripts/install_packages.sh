@@ -23,7 +23,7 @@ for_tests=(
     python3-h5netcdf python3-matplotlib python3-pil
     chromium python3-h5py                               # pages of reports in a browser
     mkdocs mkdocs-material                              # the site of docs/
-    libopenmpi-dev openmpi-bin                          # several processes (`run --mpi`)
+    libopenmpi-dev openmpi-bin iproute2                 # several processes (`run --mpi`), on several hosts
     groff python3-jinja2 python3-yaml                   # the manual page, recipes of packages
 )
 if [[ ${1:-} == --tests ]]; then

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The scripts of scripts/slurm on a cluster of one machine: eight shards as an array job, one of which is requeued while
+# The scripts of scripts/slurm on a cluster of one machine, or of the hosts of hosts.sh: eight shards as an array job, one of which is requeued while
 # it runs, and an array of one task, or three processes as an MPI job that is requeued. The results have the bytes of
 # one run.
 #
@@ -58,7 +58,9 @@ for ((i = 0; ; ++i)); do # until the last job has ended
         { echo "the results are not there: '$state'"; squeue; tail ./*.log; exit 1; }
     sleep 0.1
 done
-squeue --states=all --format="%.12i %.16j %.10T %.8M %r"
+squeue --states=all --format="%.12i %.16j %.10T %.8M %r %N"
+[[ -z ${HOSTS:-} || $(scontrol show hostnames "$(squeue --states=all --noheader --format=%N | paste -sd,)" | sort -u | wc -l) -gt 1 ]] ||
+    { echo "one of the hosts did everything"; exit 1; }
 [[ $(scontrol show job "$requeued" | grep -o 'Restarts=[0-9]*') == Restarts=1 ]] ||
     { echo "$requeued was not started twice"; exit 1; }
 cmp whole.h5 study.h5
