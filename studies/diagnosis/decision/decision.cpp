@@ -1,6 +1,7 @@
 #include "studies/diagnosis/decision/decision.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/diagnosis/tests/direct_findings.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,10 @@ namespace stylobate {
 
 namespace {
 
-// A direct test is as sure as its thresholds are far.
-constexpr double direct_probability = 0.97;
+// Of each cause before the data: half of the campaigns show something, and there are some fifteen mechanisms.
+constexpr double probable_before = 1.0 / 30;
+// No finding is surer: what a test leaves out is not in its standard deviation.
+constexpr double surest_finding = 0.97;
 constexpr double half_width90 = 1.6449; // of a normal interval of 90 %, in standard deviations
 // The balance of forces sees a cause where this gains so much there [nats].
 constexpr double clear_by_forces = 8;
@@ -22,6 +25,21 @@ double quantile95(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
     return values.empty() ? 0 : sorted_quantile(values, 0.95, QuantileDefinition::linear);
+}
+
+/// How probable a finding at one of `places` is by chance.
+double chance_of(const CauseFit& fit, std::size_t places)
+{
+    const double at_one = std::erfc(std::sqrt(std::max(fit.gain, 0.0))); // beyond sqrt(2 gain) standard deviations
+    return std::min(1.0, static_cast<double>(places) * at_one);
+}
+
+std::size_t places_tested(const DirectResult& direct, const std::string& name)
+{
+    const auto at = [&](const DataTest& test) { return test.name == name; };
+    return static_cast<std::size_t>(
+        std::max<std::ptrdiff_t>(1, std::count_if(direct.base_tests.begin(), direct.base_tests.end(), at) +
+                                        std::count_if(direct.sensor_tests.begin(), direct.sensor_tests.end(), at)));
 }
 
 /// What the direct tests of base and sensors found is named (rule 1).
@@ -33,8 +51,8 @@ std::vector<JudgedCause> named_directly(const DirectResult& direct)
         j.fit = fit;
         j.channel = Channel::direct;
         j.considered = true;
-        j.chance = 0;
-        j.probability = direct_probability;
+        j.chance = chance_of(fit, places_tested(direct, fit.cause.mechanism));
+        j.probability = std::min(surest_finding, probability_of_finding(j.chance, probable_before));
         named.push_back(std::move(j));
     }
     return named;

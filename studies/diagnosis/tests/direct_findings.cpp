@@ -31,6 +31,14 @@ DataTest told(std::string name, std::string place, double value, double sd, doub
     return test;
 }
 
+double probability_of_finding(double p, double before)
+{
+    if (p <= 0)
+        return 1;
+    const double chance = p < std::exp(-1) ? -std::exp(1) * p * std::log(p) : 1;
+    return before / (before + (1 - before) * chance);
+}
+
 DataTest cannot(std::string name, const std::string& why)
 {
     DataTest test;

@@ -184,9 +184,11 @@ void judge_distortion(const TableDistortion& distortion, const DirectThresholds&
     }
 }
 
-double pitch_threshold(const PitchFit& pitch, const DirectThresholds& limits)
+/// Of the pitch where there is none: of what was fitted, and of what healthy campaigns show.
+double pitch_scatter(const PitchFit& pitch, const DirectThresholds& limits)
 {
-    return pitch.apart ? limits.pitch_apart_rad_s2_m : limits.pitch_rad_s2_m;
+    const double healthy = (pitch.apart ? limits.pitch_apart_rad_s2_m : limits.pitch_rad_s2_m) / limits.pitch_sds;
+    return std::hypot(pitch.sd, healthy);
 }
 
 void judge_pitch(const PitchFit& pitch, bool found, const std::string& what, const DirectThresholds& limits,
@@ -196,14 +198,14 @@ void judge_pitch(const PitchFit& pitch, bool found, const std::string& what, con
         out.base_tests.push_back(cannot("table_pitch", "Rotations were not measured."));
         return;
     }
-    const double threshold = pitch_threshold(pitch, limits);
+    const double scatter = pitch_scatter(pitch, limits);
     out.base_tests.push_back(
-        told("table_pitch", base_place, pitch.slope, pitch.sd, threshold, "rad s2/m", found,
+        told("table_pitch", base_place, pitch.slope, pitch.sd, limits.pitch_sds * scatter, "rad s2/m", found,
              fmt::format("{} rotates by {:.2e} rad for each m/s2 of the base{}.", what, pitch.slope,
                          pitch.apart && what != "the table" ? ", without the lean of soft beds" : "")));
     if (found)
-        out.found.push_back(
-            cause_of("table_pitch", base_place, "rotation_rad_s2_m", "rad s2/m", 0, pitch.slope, pitch.sd, pitch.gain));
+        out.found.push_back(cause_of("table_pitch", base_place, "rotation_rad_s2_m", "rad s2/m", 0, pitch.slope,
+                                     pitch.sd, std::min(pitch.gain, 0.5 * std::pow(pitch.slope / scatter, 2))));
 }
 
 void judge_offset(const BaseFit& base, const std::string& what, double threshold_s, double sds, DirectResult& out)
@@ -246,7 +248,7 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
         return;
     }
     const PitchFit pitch = fit_pitch(campaign, scales, prepared);
-    const bool pitches = pitch.seen && beyond(pitch.slope, pitch.sd, pitch_threshold(pitch, limits), limits.sds);
+    const bool pitches = pitch.seen && std::fabs(pitch.slope) > limits.pitch_sds * pitch_scatter(pitch, limits);
     const double slope = pitches ? pitch.slope : 0;
     const BaseFit base = base_fit(scales, slope, prepared);
     const double narrower = prepared.table ? limits.with_table : 1;

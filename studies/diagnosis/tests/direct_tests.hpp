@@ -21,15 +21,18 @@ struct DirectThresholds {
     double distortion = 0.02;             ///< of a harmonic, over the fundamental, in acceleration
     double pitch_rad_s2_m = 4e-4;         ///< soft contacts lean by a tenth of it
     double pitch_apart_rad_s2_m = 1.2e-4; ///< where their lean is not in it
-    double vertical = 0.6;                ///< rms of the common vertical motion over the cameras' noise
-    double vertical_ratio = 0.02;         ///< of the horizontal motion, over whole runs
-    double vertical_line = 12;            ///< power of a line of the table's own over its neighbours'
-    double offset_s = 8e-4;               ///< without a view of the table; a fifth of it with one
-    double gain = 0.02;                   ///< likewise
-    double with_table = 0.2;              ///< factor of the two above where the cameras see the table
-    double wedge_rad = 3e-4;              ///< between two blocks at rest
-    double placed_by_chance = 4e-3;       ///< probability that any block of a campaign is so far off in the mean
-    double sds = 5;                       ///< and every one of them must be so many of its own standard deviations
+    /// The two above are so many standard deviations of what healthy campaigns show, and the pitch that was fitted must
+    /// be so many of both together.
+    double pitch_sds = 3.5;
+    double vertical = 0.6;            ///< rms of the common vertical motion over the cameras' noise
+    double vertical_ratio = 0.02;     ///< of the horizontal motion, over whole runs
+    double vertical_line = 12;        ///< power of a line of the table's own over its neighbours'
+    double offset_s = 8e-4;           ///< without a view of the table; a fifth of it with one
+    double gain = 0.02;               ///< likewise
+    double with_table = 0.2;          ///< factor of the two above where the cameras see the table
+    double wedge_rad = 3e-4;          ///< between two blocks at rest
+    double placed_by_chance = 1.5e-3; ///< probability that any block of a campaign is so far off in the mean
+    double sds = 5;                   ///< and every one of them must be so many of its own standard deviations
 };
 
 /// Harmonics that the table adds to its motion: as a polynomial of the displacement (all motions), or as second and

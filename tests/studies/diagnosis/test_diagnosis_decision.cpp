@@ -311,6 +311,26 @@ TEST(Decision, DirectFindingsAreNamedFirst)
     EXPECT_EQ(decide({}, {}, nullptr, {}).verdict, Verdict::none);
 }
 
+TEST(Decision, DirectFindingsAreAsProbableAsTheyAreFar)
+{
+    DirectResult direct;
+    for (int block = 0; block < 6; ++block) {
+        DataTest test;
+        test.name = "drum_offset";
+        direct.sensor_tests.push_back(test);
+    }
+    const auto at = [&](double sds) {
+        direct.found = {fit_of("drum_offset", 0.5 * sds * sds, 0.002, "block 2")};
+        return decide(direct, {}, nullptr, {}).named.front();
+    };
+    // 3.83 standard deviations have a two-sided probability of 1.2814e-4, at one of six blocks of 7.6886e-4
+    EXPECT_NEAR(at(3.83).chance, 7.6886e-4, 1e-8);
+    EXPECT_NEAR(at(3.83).probability, 0.6971, 1e-4); // odds 1/29 over e p ln(1/p)
+    EXPECT_EQ(at(8).probability, 0.97);
+    direct.sensor_tests.clear();
+    EXPECT_NEAR(at(3.83).chance, 1.2814e-4, 1e-8);
+}
+
 TEST(Balance, TheBestOfEachMechanismAndPlaceThatIsPossible)
 {
     const std::vector<CauseFit> best =

@@ -2,6 +2,7 @@
 
 #include "tests/io/measured/measured_samples.hpp"
 
+#include "studies/diagnosis/tests/direct_findings.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 #include "studies/diagnosis/tests/pitch_test.hpp"
 
@@ -234,6 +235,27 @@ TEST_P(DirectTests, SoftBedsLeanAndAreNoPitch)
     }
 }
 
+TEST_P(DirectTests, PitchIsHeldAgainstWhatHealthyCampaignsShowAndItsOwnError)
+{
+    for (const double pitch : {0.0, 2e-4, 2e-3}) {
+        const DirectResult result = tested(campaign_with({.pitch_rad_s2_m = pitch}, 7, GetParam()));
+        const DataTest* test = test_of(result, "table_pitch");
+        ASSERT_TRUE(test && test->value && test->sd && test->threshold);
+        EXPECT_NEAR(*test->threshold, std::hypot(1.2e-4, 3.5 * *test->sd), 1e-12);
+        EXPECT_EQ(test->outcome == TestOutcome::failed, std::fabs(*test->value) > *test->threshold);
+    }
+}
+
+TEST(ProbabilityOfAFinding, IsThatOfSellkeBayarriAndBerger)
+{
+    // their table of the least probability of chance, where both were equally probable before
+    EXPECT_NEAR(1 - probability_of_finding(0.05, 0.5), 0.289, 5e-4);
+    EXPECT_NEAR(1 - probability_of_finding(0.01, 0.5), 0.111, 5e-4);
+    EXPECT_NEAR(1 - probability_of_finding(0.001, 0.5), 0.0184, 5e-5);
+    EXPECT_EQ(probability_of_finding(0.5, 0.1), 0.1) << "no evidence";
+    EXPECT_EQ(probability_of_finding(0, 0.1), 1);
+}
+
 TEST(LeanOfBeds, ByHand)
 {
     const std::vector<double> lean = lean_of_beds(sample_specimen());
@@ -347,7 +369,7 @@ Campaign resting_campaign(unsigned seed, bool table, double off_m)
 
 TEST_P(DirectTests, AnOffsetThatManyRunsTellFromThePlacing)
 {
-    // 1.3 tolerances: 5.2 standard deviations of the mean of 24 runs, or 6.4 where the table is seen; 3.2 are asked for
+    // 1.3 tolerances: 5.2 standard deviations of the mean of 24 runs, or 6.4 where the table is seen; 3.5 are asked for
     const double off = 1.3 * sample_specimen().placement_tolerance_m;
     int found = 0, false_alarms = 0;
     for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -357,8 +379,8 @@ TEST_P(DirectTests, AnOffsetThatManyRunsTellFromThePlacing)
             ++found;
         false_alarms += tested(resting_campaign(1000 + seed, GetParam(), 0)).found.empty() ? 0 : 1;
     }
-    EXPECT_GE(found, 55);
-    EXPECT_LE(false_alarms, 2); // 4 in 1000 are meant: more than 2 of 60 with a probability of 0.002
+    EXPECT_GE(found, 50);
+    EXPECT_LE(false_alarms, 1); // 1.5 in 1000 are meant: more than 1 of 60 with a probability of 0.004
 }
 
 TEST_P(DirectTests, TwoAtOnce)
