@@ -1,6 +1,7 @@
 #include "studies/diagnosis/decision/decision.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/diagnosis/decision/named_by_forces.hpp"
 #include "studies/diagnosis/tests/direct_findings.hpp"
 
 #include <fmt/format.h>
@@ -144,10 +145,8 @@ std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const 
         listed = std::max(listed, fit.gain);
     const Structure& wanted = ensemble.scored.structures[static_cast<std::size_t>(scores.variant)];
     for (const StructureFit& fit : balance.structures) {
-        if (fit.structure.text != wanted.text || fit.gain_by_run.size() < 2)
-            continue;
-        const double most = *std::max_element(fit.gain_by_run.begin(), fit.gain_by_run.end());
-        if (fit.gain > listed + rule.structure_better && fit.gain - most > rule.without_best * fit.gain)
+        if (fit.structure.text == wanted.text && fit.gain > listed + rule.structure_better &&
+            not_by_one_run(fit.gain, fit.gain_by_run, rule.without_best))
             return fit;
     }
     return std::nullopt;
@@ -271,15 +270,79 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     out.named.push_back(std::move(second));
 }
 
+/// What the statistics say of a mechanism [nats].
+double gain_by_statistics(const EnsembleDiagnosis& ensemble, const std::string& mechanism)
+{
+    double gain = 0;
+    for (std::size_t c = 0; c < ensemble.causes.size(); ++c)
+        if (ensemble.causes[c].cause.mechanism == mechanism)
+            gain = std::max(gain, ensemble.by_statistics.causes[c].gain);
+    return gain;
+}
+
+/// What the forces name, the likeliest first: of what explains the forces about as well the statistics choose.
+std::vector<JudgedCause> judged_by_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble)
+{
+    std::vector<JudgedCause> all;
+    for (std::size_t k = 0; k < forces.causes.size(); ++k) {
+        JudgedCause j;
+        j.fit = forces.causes[k];
+        j.channel = Channel::forces;
+        j.considered = true;
+        j.chance = forces.p_value;
+        j.probability = forces.probability[k];
+        all.push_back(std::move(j));
+    }
+    const auto nats = [&](const JudgedCause& j) {
+        return j.fit.gain + gain_by_statistics(ensemble, j.fit.cause.mechanism);
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const JudgedCause& a, const JudgedCause& b) { return nats(a) > nats(b); });
+    return all;
+}
+
+/// What the forces name beside what the statistics do (rule 4).
+void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble, Decided& out)
+{
+    std::vector<JudgedCause> by_forces = judged_by_forces(forces, ensemble);
+    if (by_forces.empty() || forces.beside)
+        return;
+    const auto by_statistics = [](const JudgedCause& j) { return j.channel == Channel::statistics; };
+    if (std::none_of(out.named.begin(), out.named.end(), by_statistics)) {
+        out.unexplained.reset(); // a tie stands for forces: these are those of a known cause
+        out.by_tie = false;
+        out.in_set.clear();
+        out.named.push_back(by_forces.front());
+        by_forces.erase(by_forces.begin());
+    }
+    for (JudgedCause& named : out.named) {
+        const auto same = std::find_if(by_forces.begin(), by_forces.end(), [&](const JudgedCause& j) {
+            return j.fit.cause.mechanism == named.fit.cause.mechanism;
+        });
+        if (!by_statistics(named) || same == by_forces.end())
+            continue;
+        same->probability = std::max(same->probability, named.probability);
+        named = std::move(*same);
+        by_forces.erase(same);
+        out.in_set.clear(); // of the statistics: forces tell more apart
+    }
+    for (JudgedCause& j : by_forces)
+        if (!contains(out.in_set, j.fit.cause.mechanism))
+            out.in_set.push_back(std::move(j));
+}
+
 /// Rule 5.
-void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
-                      Decided& out)
+void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const NamedByForces& forces,
+                      const DecisionRule& rule, Decided& out)
 {
     if (out.by_tie)
         return;
-    out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force);
-    out.unexplained_chance = ensemble.forces.p_value;
-    if (!out.unexplained && ensemble.by_statistics.unexplained) {
+    if (forces.beside) {
+        out.unexplained = forces.beside;
+        out.unexplained_chance = forces.p_value;
+    } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
+        out.unexplained_chance = ensemble.forces.p_value;
+    } else if (forces.causes.empty() && ensemble.by_statistics.unexplained) {
         out.unexplained = left_over(ensemble);
         out.unexplained_chance = ensemble.by_statistics.left_p_value;
     }
@@ -307,8 +370,10 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         out.structure95 = nats_of_score(quantile95(ensemble->forces.nulls));
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
-            find_unexplained(balance, *ensemble, rule, out);
             share_what_remains(ensemble->by_statistics, out);
+            const NamedByForces forces = named_by_forces(balance, ensemble->scored, ensemble->listed, ensemble->forces);
+            judge_forces(forces, *ensemble, out);
+            find_unexplained(balance, *ensemble, forces, rule, out);
         }
     }
     out.verdict = out.unexplained ? Verdict::unexplained : out.named.empty() ? Verdict::none : Verdict::named;
@@ -320,6 +385,10 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
 std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
 {
     std::vector<std::string> lines;
+    if (const ForceTest& listed = ensemble.listed; listed.variant >= 0)
+        lines.push_back(fmt::format("balance of forces: {}, p = {:.2g}",
+                                    ensemble.scored.causes[static_cast<std::size_t>(listed.variant)].label(),
+                                    listed.p_value));
     const ForceTest& forces = ensemble.forces;
     if (forces.variant >= 0)
         lines.push_back(fmt::format("forces of no known kind: {}, p = {:.2g}, {:.1f} nats",

@@ -1,11 +1,31 @@
 #include "studies/diagnosis/decision/evidence.hpp"
 
+#include "studies/diagnosis/ensemble_fit/candidate_causes.hpp"
 #include "studies/diagnosis/statistics/balance_scores.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace stylobate {
+
+namespace {
+
+/// A centre of mass farther aside than in any simulated campaign, by two standard deviations: no block of one stone has
+/// it, and a sideways force looks like it.
+bool too_eccentric(const CauseFit& fit, const Specimen& specimen)
+{
+    return fit.cause.mechanism == "eccentricity" &&
+           std::fabs(fit.size) - 2 * fit.sd >
+               largest_eccentricity * 2 * specimen.half_width_m[static_cast<std::size_t>(fit.cause.block)];
+}
+
+} // namespace
+
+bool not_by_one_run(double gain, const std::vector<double>& gain_by_run, double part)
+{
+    return gain_by_run.size() > 1 && gain - *std::max_element(gain_by_run.begin(), gain_by_run.end()) > part * gain;
+}
 
 std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits)
 {
@@ -29,7 +49,8 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
     }
     std::vector<CauseFit> fits;
     for (const Cause& cause : balance_causes(campaign.specimen, scales))
-        fits.push_back(out.fit->fit(cause, given));
+        if (CauseFit fit = out.fit->fit(cause, given); !too_eccentric(fit, campaign.specimen))
+            fits.push_back(std::move(fit));
     out.causes = best_of_each(std::move(fits));
     out.structures = out.fit->describe(given);
     return out;

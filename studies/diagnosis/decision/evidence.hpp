@@ -12,17 +12,19 @@
 
 namespace stylobate {
 
-/// By which of the two ways a cause is found.
+/// By which of three ways a cause is found.
 enum class Channel {
     direct,    ///< base and sensors, while the lowest block rides on the table; blocks at rest
+    forces,    ///< the balance of forces, compared with that of simulated campaigns
     statistics ///< statistics of the whole campaign, compared with simulated campaigns
 };
 
 /// The forces of a campaign.
 struct BalanceEvidence {
     TrackScales scales;
-    std::optional<BalanceFit> fit;        ///< nothing where no joint slid or rocked long enough
-    std::vector<CauseFit> causes;         ///< one for each mechanism and place, physically possible ones, best first
+    std::optional<BalanceFit> fit; ///< nothing where no joint slid or rocked long enough
+    /// One for each mechanism and place, best first; possible ones, of sizes that a damaged specimen may have.
+    std::vector<CauseFit> causes;
     std::vector<StructureFit> structures; ///< most telling first
     std::string why_not;                  ///< where there is no fit
 };
@@ -34,5 +36,8 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
 
 /// The best of each mechanism and place (over sides and second parameters), possible ones alone, best first.
 std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits);
+
+/// Whether a gain is not that of one run alone: without the best run this part of it is left.
+bool not_by_one_run(double gain, const std::vector<double>& gain_by_run, double part);
 
 } // namespace stylobate

@@ -278,12 +278,16 @@ void Pipeline::state_verdict()
         d_.figures.push_back(candidates_figure(d_.candidates));
     if (!ensemble_)
         return;
-    for (std::size_t i = 0; i < decided_.named.size(); ++i)
-        if (const EnsembleVerdict& statistics = ensemble_->by_statistics;
-            decided_.named[i].channel == Channel::statistics &&
-            ensemble_->causes[static_cast<std::size_t>(statistics.best)].cause.mechanism ==
-                decided_.named[i].fit.cause.mechanism)
+    for (std::size_t i = 0; i < decided_.named.size(); ++i) {
+        const JudgedCause& j = decided_.named[i];
+        const int best = ensemble_->by_statistics.best;
+        if (j.channel == Channel::forces)
+            d_.figures.push_back(
+                carrying_figure(carrying_score(*ensemble_, options_.plan.scouts(), j.fit.cause), d_.candidates[i]));
+        else if (j.channel == Channel::statistics &&
+                 ensemble_->causes[static_cast<std::size_t>(best)].cause.mechanism == j.fit.cause.mechanism)
             d_.figures.push_back(carrying_figure(ensemble_->carrying, d_.candidates[i]));
+    }
     for (const Missing& missing : hardly_shown(*ensemble_, decided_))
         d_.missing.push_back(missing);
 }
@@ -445,7 +449,10 @@ void Pipeline::tell_method_and_cost()
             "The largest gain over all causes is compared with the same of the healthy campaigns. A cause is named if "
             "its p-value is at most 0.015, and if such names are right in more than half of the campaigns with a known "
             "cause. Where no healthy campaign is like the measured one, each cause is simulated beside laws of its "
-            "own; the cause is named then whose campaigns come much nearer to the measured one than healthy ones.");
+            "own; the cause is named then whose campaigns come much nearer to the measured one than healthy ones. The "
+            "scores of the balance of forces are a test of their own, because contact laws move them little: where "
+            "they are beyond those of the healthy campaigns (p of 0.015), the cause that explains the forces best is "
+            "named, unless a force of no known kind is left beside it.");
     d_.cost.simulations = count_.simulations;
     d_.cost.window_simulations = count_.window_simulations;
     d_.cost.block_steps = count_.block_steps;

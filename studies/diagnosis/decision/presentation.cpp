@@ -71,10 +71,10 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         }
     }
     c.gain_nats = j.fit.gain;
-    if (j.channel != Channel::direct && chance_known) {
-        c.null95 = j.chance95;
+    if (j.channel != Channel::direct && chance_known)
         c.p = j.chance;
-    }
+    if (j.channel == Channel::statistics && chance_known)
+        c.null95 = j.chance95;
     if (j.channel == Channel::direct || chance_known)
         c.probability = j.probability;
     for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
@@ -82,6 +82,10 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
     c.decision = decision;
     const std::string found = j.channel == Channel::direct ? "found by a direct test"
+                              : j.channel == Channel::forces
+                                  ? fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores "
+                                                "is {:.2g}",
+                                                j.fit.gain, j.chance)
                               : j.nearer > 0
                                   ? fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one "
                                                 "as healthy ones, none of which is like it (p = {:.2g})",
@@ -134,6 +138,37 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
         if (!series.x.empty())
             figure.series.push_back(std::move(series));
     return figure;
+}
+
+CarryingNumber carrying_score(const EnsembleDiagnosis& ensemble, std::uint64_t scouts, const Cause& cause)
+{
+    const auto same = [&](const Cause& other) {
+        return other.label() == cause.label() && other.parameter == cause.parameter;
+    };
+    const std::vector<Cause>& scored = ensemble.scored.causes;
+    const auto at = std::find_if(scored.begin(), scored.end(),
+                                 [&](const Cause& other) { return same(other) && other.fixed == cause.fixed; });
+    CarryingNumber out;
+    if (at == scored.end())
+        return out;
+    const auto column = static_cast<std::size_t>(at - scored.begin());
+    out.text = fmt::format("score of {} in the balance of forces", cause.label());
+    out.measured = ensemble.scores[column];
+    for (const SimulatedCampaign& row : ensemble.ensemble.campaigns) {
+        if (row.number < scouts)
+            continue;
+        const double score = row.scores[column];
+        if (row.cause < 0) {
+            if (std::isfinite(score))
+                out.nulls.push_back(score);
+            else
+                ++out.hidden;
+        } else if (const CandidateCause& candidate = ensemble.causes[static_cast<std::size_t>(row.cause)];
+                   same(candidate.cause) && std::isfinite(score)) {
+            out.labelled.emplace_back(candidate.size_of(row.z), score);
+        }
+    }
+    return out;
 }
 
 DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& named)

@@ -25,6 +25,10 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);
 /// A number that carries a named cause, against healthy campaigns and ones with that cause.
 DiagnosisFigure carrying_figure(const CarryingNumber& number, const Candidate& named);
 
+/// The score of a cause that the balance of forces names.
+/// @param scouts first campaigns, which are not of laws like the measured one
+CarryingNumber carrying_score(const EnsembleDiagnosis& ensemble, std::uint64_t scouts, const Cause& cause);
+
 /// Mechanisms that these data would hardly show, and how often, for the list of what could not be judged.
 /// @param decided what is named or in the set is left out
 std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decided& decided);

@@ -20,7 +20,6 @@ constexpr double worn_at_one = 0.6;    // of the friction, after the path of a w
 constexpr double most_wear = 3;        // z: nothing is left of the friction after half of a run's path
 constexpr double chip_at_one = 0.15;   // over the width of the face
 constexpr double drag_at_one = 0.3;    // of the weight, at the largest speeds of the campaign
-constexpr double centre_at_one = 0.08; // over the width
 constexpr double hold_at_one = 1.0;    // of a dowel or of adhesion, over the friction of the joint at rest
 constexpr double dowel_slip = 0.005;   // at which a dowel yields, over the width
 constexpr double rate_at_one = 10;     // Hunt and Crossley's lambda, over the velocity 0.1 sqrt(g H) of impacts
@@ -137,7 +136,7 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Tra
          drag_at_one * mass * specimen.gravity_m_s2 / std::pow(std::max(paths.speed_m_s, least_speed * speed), 2)});
     for (int b = 0; b < specimen.blocks(); ++b) {
         CandidateCause centre{at_block("eccentricity", b, "offset_m", "m"),
-                              centre_at_one * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};
+                              largest_eccentricity * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};
         centre.least = -1;
         all.push_back(centre);
     }

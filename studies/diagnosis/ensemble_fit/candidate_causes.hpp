@@ -11,6 +11,9 @@
 
 namespace stylobate {
 
+/// Of a centre of mass, over the block's width: the strongest that is simulated.
+inline constexpr double largest_eccentricity = 0.08;
+
 /// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.
 struct CandidateCause {
     Cause cause;

@@ -65,14 +65,20 @@ std::vector<double> weights_of(const std::vector<double>& distance)
     return out;
 }
 
-/// (rows x structures) scores of the forces of no known kind, which are the last ones.
-Eigen::MatrixXd force_scores(const std::vector<const SimulatedCampaign*>& rows, std::size_t structures)
+/// Test of the scores of `count` causes or forces, from `first` on.
+ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const std::vector<double>& likeness,
+                     const std::vector<double>& measured, std::size_t first, std::size_t count)
 {
-    const auto count = static_cast<Eigen::Index>(structures);
-    Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), count);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        out.row(static_cast<Eigen::Index>(i)) = vector_of(rows[i]->scores).tail(count).transpose();
-    return out;
+    const auto part = [&](const std::vector<double>& scores) -> Eigen::VectorXd {
+        return vector_of(scores).segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+    };
+    ForceEvidence evidence;
+    evidence.nulls.resize(static_cast<Eigen::Index>(nulls.size()), static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < nulls.size(); ++i)
+        evidence.nulls.row(static_cast<Eigen::Index>(i)) = part(nulls[i]->scores).transpose();
+    evidence.likeness = likeness;
+    evidence.campaign = part(measured);
+    return force_test(evidence);
 }
 
 /// @param column of all tables   @param of says whether a candidate's campaigns are the labelled ones
@@ -305,11 +311,9 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.by_statistics = ensemble_verdict(evidence);
     judge_by_nearness(plan, out, evidence.mechanism);
 
-    ForceEvidence forces;
-    forces.nulls = force_scores(nulls, out.scored.structures.size());
-    forces.likeness = evidence.likeness;
-    forces.campaign = vector_of(out.scores).tail(forces.nulls.cols());
-    out.forces = force_test(forces);
+    const std::size_t causes = out.scored.causes.size(), structures = out.scored.structures.size();
+    out.listed = score_test(nulls, evidence.likeness, out.scores, 0, causes);
+    out.forces = score_test(nulls, evidence.likeness, out.scores, causes, structures);
     find_carrying_number(rows, evidence, out);
 }
 

@@ -36,7 +36,7 @@ struct EnsembleDiagnosis {
     // default where the observer stopped it
     EnsembleVerdict by_statistics; ///< with the cause that is named by nearness, where one is
     NearestCause by_nearness;
-    ForceTest forces;
+    ForceTest listed, forces; ///< of the scores of the causes, and of those of forces of no known kind
 
     /// Share of labelled campaigns of a mechanism, with z of at least this, that are named rightly: what these data can
     /// show. Nothing: no campaign has it.

@@ -70,6 +70,8 @@ public:
         return out;
     }
 
+    const std::vector<double>& each() const { return unit_; }
+
 private:
     std::vector<double> unit_;
 };
@@ -83,7 +85,10 @@ double nats_of_score(double score)
 
 ForceTest force_test(const ForceEvidence& evidence)
 {
-    ForceTest out = Units(evidence, -1).largest(evidence.campaign);
+    const Units all(evidence, -1);
+    ForceTest out = all.largest(evidence.campaign);
+    out.unit = all.each();
+    out.likeness = evidence.likeness;
     std::vector<Units> without;
     for (int part = 0; part < score_parts; ++part)
         without.emplace_back(evidence, part);

@@ -1,10 +1,11 @@
 #pragma once
-/// Whether a force of no known kind acts: the largest score of the balance of forces over all such forces, against the
-/// same of healthy campaigns.
+/// Whether the balance of forces asks for something: its largest score over all causes of the list, or over all forces
+/// of no known kind, against the same of healthy campaigns.
 ///
-/// Forces (on a block, in a direction, in proportion to position, velocity and so on) are not equally noisy, and a law
-/// that the balance of forces does not have moves some of them more than others. Each score is therefore counted in
-/// units of what it is in healthy campaigns, so that the noisiest one does not set the bar for all.
+/// Variants (a cause at a place; a force on a block, in a direction, in proportion to position, velocity and so on) are
+/// not equally noisy, and a law that the balance of forces does not have moves some of them more than others. Each
+/// score is therefore counted in units of what it is in healthy campaigns, so that the noisiest one does not set the
+/// bar for all.
 
 #include <Eigen/Core>
 
@@ -12,7 +13,7 @@
 
 namespace stylobate {
 
-/// Scores of the forces (variants): NaN where a campaign does not show one.
+/// Scores of the variants: NaN where a campaign does not show one.
 struct ForceEvidence {
     Eigen::MatrixXd nulls;        ///< (n x variants)
     std::vector<double> likeness; ///< (n) how much each tells of the measured campaign, at most 1; empty: 1
@@ -24,7 +25,9 @@ struct ForceTest {
     int variant = -1; ///< -1: none is shown
     double score = 0;
     double p_value = 1;
-    std::vector<double> nulls; ///< the same of each healthy campaign
+    std::vector<double> nulls;    ///< the same of each healthy campaign
+    std::vector<double> likeness; ///< (nulls) as of the evidence
+    std::vector<double> unit;     ///< (variants) what a score is counted in
 };
 
 /// A score as nats: a unit is the 90 % quantile of healthy campaigns, 1.64 standard deviations of normal ones.

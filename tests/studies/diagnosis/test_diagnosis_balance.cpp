@@ -2,7 +2,7 @@
 
 #include "tests/ensemble/motion/formula_motions.hpp"
 
-#include "studies/diagnosis/decision/evidence.hpp"
+#include "studies/diagnosis/decision/named_by_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -334,6 +334,65 @@ TEST(BalanceFit, ScoresAreSignedRootsOfGains)
         for (const Structure& structure : balance_structures(campaign.specimen))
             EXPECT_FALSE(std::isinf(evidence.fit->score(structure))) << structure.text;
     }
+}
+
+TEST(BalanceFit, AnEccentricityThatNoBlockHasIsNoCause)
+{
+    const auto found = [](double offset) {
+        const BalanceEvidence evidence = evidence_of(rocking_campaign(offset));
+        return std::any_of(evidence.causes.begin(), evidence.causes.end(),
+                           [](const CauseFit& fit) { return fit.cause.mechanism == "eccentricity"; });
+    };
+    EXPECT_TRUE(found(0.0045)); // 7.5 % of the width
+    EXPECT_FALSE(found(0.009)); // 15 %
+}
+
+/// Of scores that no healthy campaign has: nulls of 0.5, in units of 1.
+ForceTest beyond_all(std::size_t variants)
+{
+    ForceTest test;
+    test.variant = 0;
+    test.score = 9;
+    test.nulls.assign(300, 0.5);
+    test.p_value = 1.0 / 301;
+    test.unit.assign(variants, 1);
+    return test;
+}
+
+NamedByForces named_in(const Campaign& campaign, double unit = 1)
+{
+    const ScorePlan plan = score_plan(campaign.specimen, track_scales(campaign));
+    ForceTest listed = beyond_all(plan.causes.size());
+    listed.unit.assign(plan.causes.size(), unit);
+    return named_by_forces(evidence_of(campaign), plan, listed, beyond_all(plan.structures.size()));
+}
+
+TEST(NamedByForces, ACauseThatLeavesNothingBesideIt)
+{
+    const NamedByForces named =
+        named_in(coasting_campaign([](double v) { return 0.5 * formula_gravity + 0.4 * v * v; }));
+    ASSERT_EQ(named.causes.size(), 1U);
+    EXPECT_EQ(named.causes.front().cause.mechanism, "drag");
+    EXPECT_FALSE(named.beside) << named.beside->structure.text;
+    EXPECT_NEAR(named.probability.front(), 0.8, 0.02);
+    EXPECT_NEAR(named.p_value, 1.0 / 301, 1e-12);
+}
+
+TEST(NamedByForces, AForceBesideTheCauseIsNoneOfTheList)
+{
+    const NamedByForces named = named_in(coasting_campaign([](double v) { return 0.5 * formula_gravity + 1.2 * v; }));
+    ASSERT_FALSE(named.causes.empty()) << "drag looks like it";
+    ASSERT_TRUE(named.beside);
+    EXPECT_GT(named.beside->gain, 8);
+}
+
+TEST(NamedByForces, NotWhatHealthyCampaignsShowAsWell)
+{
+    const Campaign drag = coasting_campaign([](double v) { return 0.5 * formula_gravity + 0.4 * v * v; });
+    const double gain = evidence_of(drag).causes.front().gain;
+    // a score is the root of twice the gain: 1.5 units of it are asked for
+    EXPECT_FALSE(named_in(drag, std::sqrt(2 * gain) / 1.51).causes.empty());
+    EXPECT_TRUE(named_in(drag, std::sqrt(2 * gain) / 1.49).causes.empty());
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 /// The rule that names causes, on evidence that is written down here.
 
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/decision/named_by_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -289,6 +290,75 @@ TEST(Decision, WhatTheBestCauseLeavesIsUnexplained)
     EXPECT_EQ(decided.unexplained->structure.depends_on, "rotation_path") << "what stands out most";
     EXPECT_EQ(decided.unexplained->structure.block, 1);
     EXPECT_EQ(decided.unexplained_chance, 0.004);
+}
+
+/// Forces that are beyond healthy campaigns, and what explains them.
+std::pair<BalanceEvidence, EnsembleDiagnosis> with_forces(EnsembleDiagnosis e, const std::vector<CauseFit>& fits)
+{
+    BalanceEvidence balance;
+    balance.causes = fits;
+    for (const CauseFit& fit : fits)
+        e.scored.causes.push_back(fit.cause);
+    e.listed.unit.assign(fits.size(), 1);
+    e.listed.p_value = 0.004;
+    return {balance, e};
+}
+
+TEST(NamedByForces, SetAndProbabilitiesByHand)
+{
+    const auto [balance, e] =
+        with_forces(ensemble_of(1, 1, 1), {fit_of("drag", 20), fit_of("drag", 19.5, 0.5, "block 1"),
+                                           fit_of("corner_loss", 19), fit_of("dowel", 15)});
+    const auto named = [&, &b = balance, &d = e](double p) {
+        ForceTest listed = d.listed;
+        listed.p_value = p;
+        return named_by_forces(b, d.scored, listed, d.forces);
+    };
+    const NamedByForces forces = named(0.015);
+    ASSERT_EQ(forces.causes.size(), 2U) << "the best of a mechanism, within 3 nats";
+    const double sum = 1 + std::exp(-1) + std::exp(-5);
+    EXPECT_NEAR(forces.probability[0], 0.8 / sum, 1e-12);
+    EXPECT_NEAR(forces.probability[1], 0.8 * std::exp(-1) / sum, 1e-12);
+    EXPECT_TRUE(named(0.016).causes.empty());
+    const auto [weak, of_weak] = with_forces(ensemble_of(1, 1, 1), {fit_of("drag", 7.9)});
+    EXPECT_TRUE(named_by_forces(weak, of_weak.scored, of_weak.listed, of_weak.forces).causes.empty());
+}
+
+TEST(Decision, ForcesNameWhatTheStatisticsDoNot)
+{
+    const auto [balance, e] = with_forces(ensemble_of(5, 1, 1), {fit_of("drag", 20, 0.3)});
+    const Decided decided = decide({}, balance, &e, {});
+    ASSERT_EQ(names(decided.named), Names{"drag"});
+    EXPECT_EQ(decided.named.front().channel, Channel::forces);
+    EXPECT_EQ(decided.named.front().fit.size, 0.3);
+    EXPECT_EQ(decided.named.front().chance, 0.004);
+    EXPECT_NEAR(decided.named.front().probability, 0.8, 1e-12);
+}
+
+TEST(Decision, TheStatisticsChooseBetweenWhatForcesDoNotTellApart)
+{
+    const auto [balance, e] = with_forces(ensemble_of(5, 1, 4), {fit_of("drag", 20), fit_of("dowel", 18)});
+    const Decided decided = decide({}, balance, &e, {}); // 20 + 1 nats against 18 + 4
+    EXPECT_EQ(names(decided.named), Names{"dowel"});
+    EXPECT_EQ(names(decided.in_set), Names{"drag"});
+}
+
+TEST(Decision, WhereForcesAndStatisticsAgreePlaceAndSizeAreThoseOfTheForces)
+{
+    const auto [balance, e] = with_forces(ensemble_of(30, 1, 1), {fit_of("joint_friction", 20, 0.7, "joint 2")});
+    const Decided decided = decide({}, balance, &e, {});
+    ASSERT_EQ(names(decided.named), Names{"joint_friction"});
+    EXPECT_EQ(decided.named.front().fit.cause.place, "joint 2");
+    EXPECT_EQ(decided.named.front().fit.size, 0.7);
+    EXPECT_NEAR(decided.named.front().probability, 0.8, 1e-12);
+}
+
+TEST(Decision, WhereForcesAndStatisticsDisagreeBothAreInTheSet)
+{
+    const auto [balance, e] = with_forces(ensemble_of(30, 1, 1), {fit_of("drag", 20)});
+    const Decided decided = decide({}, balance, &e, {});
+    EXPECT_EQ(names(decided.named), Names{"joint_friction"});
+    EXPECT_EQ(names(decided.in_set), Names{"drag"});
 }
 
 TEST(Decision, DirectFindingsAreNamedFirst)
