@@ -1,7 +1,5 @@
 #include "studies/diagnosis/decision/named_by_forces.hpp"
 
-#include "studies/diagnosis/likelihood/conformal.hpp"
-
 #include <algorithm>
 #include <cmath>
 

@@ -6,8 +6,7 @@
 /// joint that never slides by itself) it says nothing.
 
 #include "studies/diagnosis/decision/evidence.hpp"
-#include "studies/diagnosis/likelihood/force_test.hpp"
-#include "studies/diagnosis/statistics/balance_scores.hpp"
+#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
 
 #include <optional>
 #include <vector>
