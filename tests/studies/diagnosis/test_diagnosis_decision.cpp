@@ -2,6 +2,7 @@
 
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/decision/named_by_forces.hpp"
+#include "studies/diagnosis/decision/presentation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -359,6 +360,32 @@ TEST(Decision, WhereForcesAndStatisticsDisagreeBothAreInTheSet)
     const Decided decided = decide({}, balance, &e, {});
     EXPECT_EQ(names(decided.named), Names{"joint_friction"});
     EXPECT_EQ(names(decided.in_set), Names{"drag"});
+}
+
+TEST(CarryingScore, IsThatOfTheCauseInHealthyAndLabelledCampaigns)
+{
+    EnsembleDiagnosis e = ensemble_of(1, 1, 1); // candidates: joint_friction, drag, dowel
+    e.scored.causes = {e.causes[0].cause, e.causes[1].cause};
+    e.scores = {0.5, 4};
+    const auto row = [&](std::uint64_t number, int cause, double z, double score) {
+        SimulatedCampaign campaign;
+        campaign.number = number;
+        campaign.cause = cause;
+        campaign.z = z;
+        campaign.scores = {-7, score};
+        e.ensemble.campaigns.push_back(campaign);
+    };
+    row(0, -1, 0, 9); // a scout
+    row(1, -1, 0, 0.3);
+    row(2, -1, 0, std::nan(""));
+    row(3, 1, 1, 3); // size 0.5
+    row(4, 0, 1, 2); // of another cause
+    const CarryingNumber number = carrying_score(e, 1, e.causes[1].cause);
+    EXPECT_EQ(number.measured, 4);
+    EXPECT_EQ(number.nulls, std::vector<double>{0.3});
+    EXPECT_EQ(number.hidden, 1U);
+    ASSERT_EQ(number.labelled.size(), 1U);
+    EXPECT_EQ(number.labelled.front(), (std::pair{0.5, 3.0}));
 }
 
 TEST(Decision, DirectFindingsAreNamedFirst)
