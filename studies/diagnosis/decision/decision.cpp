@@ -371,7 +371,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             share_what_remains(ensemble->by_statistics, out);
-            const NamedByForces forces = named_by_forces(balance, ensemble->scored, ensemble->listed, ensemble->forces);
+            const NamedByForces forces = named_by_forces(balance, *ensemble);
             judge_forces(forces, *ensemble, out);
             find_unexplained(balance, *ensemble, forces, rule, out);
         }

@@ -13,6 +13,13 @@ double in_units(double gain, double unit)
     return std::sqrt(2 * std::max(gain, 0.0)) / unit;
 }
 
+bool is_candidate(const Cause& cause, const std::vector<CandidateCause>& candidates)
+{
+    return std::any_of(candidates.begin(), candidates.end(), [&](const CandidateCause& c) {
+        return c.cause.mechanism == cause.mechanism && c.cause.place == cause.place;
+    });
+}
+
 /// Whether the score of this very cause is beyond those of healthy campaigns: another one may have made the test fail.
 bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed, const ForceRule& rule)
 {
@@ -44,18 +51,18 @@ std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits
 
 } // namespace
 
-NamedByForces named_by_forces(const BalanceEvidence& balance, const ScorePlan& scored, const ForceTest& listed,
-                              const ForceTest& unlisted, const ForceRule& rule)
+NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const ForceRule& rule)
 {
+    const ScorePlan& scored = ensemble.scored;
     NamedByForces out;
-    out.p_value = listed.p_value;
-    if (listed.p_value > rule.named)
+    out.p_value = ensemble.listed.p_value;
+    if (out.p_value > rule.named)
         return out;
     double best = 0, sum = 0;
     for (const CauseFit& fit : balance.causes) { // best first
         const auto same = [&](const CauseFit& other) { return other.cause.mechanism == fit.cause.mechanism; };
         if (std::any_of(out.causes.begin(), out.causes.end(), same) || !matters(fit) ||
-            !shown(fit, scored, listed, rule))
+            !is_candidate(fit.cause, ensemble.causes) || !shown(fit, scored, ensemble.listed, rule))
             continue;
         if (out.causes.empty() && fit.gain < rule.clear)
             break;
@@ -70,7 +77,7 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const ScorePlan& s
     out.probability.resize(static_cast<std::size_t>(far - out.causes.begin()));
     out.causes.erase(far, out.causes.end());
     if (balance.fit && !out.causes.empty())
-        out.beside = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, unlisted, rule);
+        out.beside = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, ensemble.forces, rule);
     return out;
 }
 

@@ -33,9 +33,8 @@ struct NamedByForces {
     std::optional<StructureFit> beside;
 };
 
-/// @param listed   test of the scores of `scored.causes`
-/// @param unlisted test of those of `scored.structures`
-NamedByForces named_by_forces(const BalanceEvidence& balance, const ScorePlan& scored, const ForceTest& listed,
-                              const ForceTest& unlisted, const ForceRule& rule = {});
+/// @param ensemble its candidates (a cause is named at places where they are), and the tests of the scores
+NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
+                              const ForceRule& rule = {});
 
 } // namespace stylobate

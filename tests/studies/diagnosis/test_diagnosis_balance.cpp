@@ -361,10 +361,14 @@ ForceTest beyond_all(std::size_t variants)
 
 NamedByForces named_in(const Campaign& campaign, double unit = 1)
 {
-    const ScorePlan plan = score_plan(campaign.specimen, track_scales(campaign));
-    ForceTest listed = beyond_all(plan.causes.size());
-    listed.unit.assign(plan.causes.size(), unit);
-    return named_by_forces(evidence_of(campaign), plan, listed, beyond_all(plan.structures.size()));
+    EnsembleDiagnosis ensemble;
+    ensemble.scored = score_plan(campaign.specimen, track_scales(campaign));
+    ensemble.listed = beyond_all(ensemble.scored.causes.size());
+    ensemble.listed.unit.assign(ensemble.scored.causes.size(), unit);
+    ensemble.forces = beyond_all(ensemble.scored.structures.size());
+    for (const Cause& cause : ensemble.scored.causes)
+        ensemble.causes.push_back({cause});
+    return named_by_forces(evidence_of(campaign), ensemble);
 }
 
 TEST(NamedByForces, ACauseThatLeavesNothingBesideIt)

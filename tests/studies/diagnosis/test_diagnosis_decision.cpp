@@ -294,12 +294,18 @@ TEST(Decision, WhatTheBestCauseLeavesIsUnexplained)
 }
 
 /// Forces that are beyond healthy campaigns, and what explains them.
-std::pair<BalanceEvidence, EnsembleDiagnosis> with_forces(EnsembleDiagnosis e, const std::vector<CauseFit>& fits)
+std::pair<BalanceEvidence, EnsembleDiagnosis> with_forces(EnsembleDiagnosis e, const std::vector<CauseFit>& fits,
+                                                          bool candidates = true)
 {
     BalanceEvidence balance;
     balance.causes = fits;
-    for (const CauseFit& fit : fits)
+    for (const CauseFit& fit : fits) {
         e.scored.causes.push_back(fit.cause);
+        if (candidates) {
+            e.causes.push_back({fit.cause, 0.5, true});
+            e.by_statistics.causes.emplace_back();
+        }
+    }
     e.listed.unit.assign(fits.size(), 1);
     e.listed.p_value = 0.004;
     return {balance, e};
@@ -311,9 +317,9 @@ TEST(NamedByForces, SetAndProbabilitiesByHand)
         with_forces(ensemble_of(1, 1, 1), {fit_of("drag", 20), fit_of("drag", 19.5, 0.5, "block 1"),
                                            fit_of("corner_loss", 19), fit_of("dowel", 15)});
     const auto named = [&, &b = balance, &d = e](double p) {
-        ForceTest listed = d.listed;
-        listed.p_value = p;
-        return named_by_forces(b, d.scored, listed, d.forces);
+        EnsembleDiagnosis with_p = d;
+        with_p.listed.p_value = p;
+        return named_by_forces(b, with_p);
     };
     const NamedByForces forces = named(0.015);
     ASSERT_EQ(forces.causes.size(), 2U) << "the best of a mechanism, within 3 nats";
@@ -322,7 +328,9 @@ TEST(NamedByForces, SetAndProbabilitiesByHand)
     EXPECT_NEAR(forces.probability[1], 0.8 * std::exp(-1) / sum, 1e-12);
     EXPECT_TRUE(named(0.016).causes.empty());
     const auto [weak, of_weak] = with_forces(ensemble_of(1, 1, 1), {fit_of("drag", 7.9)});
-    EXPECT_TRUE(named_by_forces(weak, of_weak.scored, of_weak.listed, of_weak.forces).causes.empty());
+    EXPECT_TRUE(named_by_forces(weak, of_weak).causes.empty());
+    const auto [nowhere, of_nowhere] = with_forces(ensemble_of(1, 1, 1), {fit_of("drag", 20, 0.3, "block 1")}, false);
+    EXPECT_TRUE(named_by_forces(nowhere, of_nowhere).causes.empty()) << "no candidate has this place";
 }
 
 TEST(Decision, ForcesNameWhatTheStatisticsDoNot)
