@@ -321,8 +321,12 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
         });
         if (!by_statistics(named) || same == by_forces.end())
             continue;
-        same->probability = std::max(same->probability, named.probability);
-        named = std::move(*same);
+        const double gain = named.fit.gain; // in a list with the gains of others by the statistics
+        named.fit = std::move(same->fit);
+        named.fit.gain = gain;
+        named.fit.gain_by_run.clear();
+        named.probability = std::max(same->probability, named.probability);
+        named.forces_too = same->chance;
         by_forces.erase(same);
         out.in_set.clear(); // of the statistics: forces tell more apart
     }

@@ -53,6 +53,9 @@ struct JudgedCause {
     /// Named by nearness: how far its campaigns are from the measured one, over healthy ones; `chance` is then that of
     /// these being so far. 0: not by it.
     double nearer = 0;
+    /// Named by the statistics and by the balance of forces: the p-value of the latter. `fit` has its place and size,
+    /// and the gain of the statistics.
+    std::optional<double> forces_too;
     std::string why_not;
 };
 

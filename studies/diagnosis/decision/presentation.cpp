@@ -97,6 +97,9 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
                               : unexplained ? "a force of unknown kind has a significantly larger gain"
                                             : "another cause explains the same data better";
     c.why += (c.why.empty() ? "" : "; ") + (j.why_not.empty() ? found : j.why_not);
+    if (j.forces_too)
+        c.why +=
+            fmt::format("; the balance of forces names it, too (p = {:.2g}): place and size are its", *j.forces_too);
     return c;
 }
 
@@ -108,7 +111,8 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
     figure.caption =
         "Gain in log likelihood over the baseline. The dot is the 95 % quantile of the null distribution from "
         "simulated campaigns without a hidden effect. A "
-        "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold.";
+        "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold, or by "
+        "the balance of forces alone.";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";
     FigureSeries named{"named as the cause", SeriesKind::bars, {}, {}, {}, {}},

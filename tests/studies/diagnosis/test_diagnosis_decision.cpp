@@ -359,6 +359,8 @@ TEST(Decision, WhereForcesAndStatisticsAgreePlaceAndSizeAreThoseOfTheForces)
     ASSERT_EQ(names(decided.named), Names{"joint_friction"});
     EXPECT_EQ(decided.named.front().fit.cause.place, "joint 2");
     EXPECT_EQ(decided.named.front().fit.size, 0.7);
+    EXPECT_EQ(decided.named.front().fit.gain, 30) << "of the statistics, as those beside it in the table";
+    EXPECT_EQ(decided.named.front().forces_too, 0.004);
     EXPECT_NEAR(decided.named.front().probability, 0.8, 1e-12);
 }
 
