@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The scripts of scripts/slurm on a cluster of one machine, or of the hosts of hosts.sh: eight shards as an array job, one of which is requeued while
-# it runs, and an array of one task, or three processes as an MPI job that is requeued. The results have the bytes of
-# one run.
+# The scripts of scripts/slurm on a cluster of one machine, or of the hosts of hosts.sh: eight shards as an array job,
+# one of which is requeued while it runs, and an array of one task, or three processes as an MPI job that is requeued.
+# The results have the bytes of one run.
 #
 #   tests/cluster/check_job.sh array|mpi PROGRAM SOURCE
 set -euo pipefail
@@ -59,8 +59,8 @@ for ((i = 0; ; ++i)); do # until the last job has ended
     sleep 0.1
 done
 squeue --states=all --format="%.12i %.16j %.10T %.8M %r %N"
-[[ -z ${HOSTS:-} || $(scontrol show hostnames "$(squeue --states=all --noheader --format=%N | paste -sd,)" | sort -u | wc -l) -gt 1 ]] ||
-    { echo "one of the hosts did everything"; exit 1; }
+used=$(scontrol show hostnames "$(squeue --states=all --noheader --format=%N | paste -sd,)" | sort -u | wc -l)
+[[ -z ${HOSTS:-} || $used -gt 1 ]] || { echo "one of the hosts did everything"; exit 1; }
 [[ $(scontrol show job "$requeued" | grep -o 'Restarts=[0-9]*') == Restarts=1 ]] ||
     { echo "$requeued was not started twice"; exit 1; }
 cmp whole.h5 study.h5
