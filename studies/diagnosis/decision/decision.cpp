@@ -19,8 +19,6 @@ constexpr double probable_before = 1.0 / 30;
 // No finding is surer: what a test leaves out is not in its standard deviation.
 constexpr double surest_finding = 0.97;
 constexpr double half_width90 = 1.6449; // of a normal interval of 90 %, in standard deviations
-// The balance of forces sees a cause where this gains so much there [nats].
-constexpr double clear_by_forces = 8;
 
 double quantile95(std::vector<double> values)
 {
@@ -80,20 +78,24 @@ const CauseFit* seen_by_forces(const BalanceEvidence& balance, const CauseFit& w
     for (const CauseFit& fit : balance.causes)
         if (fit.cause.mechanism == wanted.cause.mechanism && fit.cause.place == wanted.cause.place &&
             fit.cause.parameter == wanted.cause.parameter && fit.cause.persists == wanted.cause.persists &&
-            fit.gain >= clear_by_forces)
+            fit.gain >= DecisionRule{}.clear)
             return &fit;
     return nullptr;
 }
 
-/// The size by the balance of forces: it is not limited to simulated sizes.
+/// Place and size by the balance of forces: its sizes are not limited to simulated ones. The gain stays that of the
+/// statistics, as those beside it in the list: the other is no likelihood of the same data.
+void take_fit_of_forces(CauseFit fit, JudgedCause& j)
+{
+    fit.gain = j.fit.gain;
+    fit.gain_by_run.clear();
+    j.fit = std::move(fit);
+}
+
 void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
 {
-    if (const CauseFit* fit = seen_by_forces(balance, j.fit)) {
-        const double gain = j.fit.gain;
-        j.fit = *fit;
-        j.fit.gain = gain; // that of the statistics: the other is no likelihood of the same data
-        j.fit.gain_by_run.clear();
-    }
+    if (const CauseFit* fit = seen_by_forces(balance, j.fit))
+        take_fit_of_forces(*fit, j);
 }
 
 /// More friction of one joint lets it slide less, and so do contact laws that are not of the family. Only forces that
@@ -281,58 +283,77 @@ double gain_by_statistics(const EnsembleDiagnosis& ensemble, const std::string& 
 }
 
 /// What the forces name, the likeliest first: of what explains the forces about as well the statistics choose.
-std::vector<JudgedCause> judged_by_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble)
+std::vector<JudgedCause> judged_by_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble,
+                                          const DecisionRule& rule)
 {
     std::vector<JudgedCause> all;
-    for (std::size_t k = 0; k < forces.causes.size(); ++k) {
-        JudgedCause j;
-        j.fit = forces.causes[k];
-        j.channel = Channel::forces;
-        j.considered = true;
-        j.chance = forces.p_value;
-        j.probability = forces.probability[k];
-        all.push_back(std::move(j));
-    }
     const auto nats = [&](const JudgedCause& j) {
         return j.fit.gain + gain_by_statistics(ensemble, j.fit.cause.mechanism);
     };
+    for (const CauseFit& fit : forces.causes) {
+        JudgedCause j;
+        j.fit = fit;
+        j.channel = Channel::forces;
+        j.considered = true;
+        j.chance = forces.p_value;
+        all.push_back(std::move(j));
+    }
     std::stable_sort(all.begin(), all.end(),
                      [&](const JudgedCause& a, const JudgedCause& b) { return nats(a) > nats(b); });
+    double sum = 0;
+    for (const JudgedCause& j : all)
+        sum += std::exp(nats(j) - nats(all.front()));
+    for (JudgedCause& j : all)
+        j.probability = rule.of_known_kind * std::exp(nats(j) - nats(all.front())) / sum;
     return all;
 }
 
-/// What the forces name beside what the statistics do (rule 4).
-void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble, Decided& out)
+/// Into the set, with no more of the probability than the named cause leaves.
+void add_rivals(std::vector<JudgedCause> rivals, double named, std::vector<JudgedCause>& in_set)
 {
-    std::vector<JudgedCause> by_forces = judged_by_forces(forces, ensemble);
+    double sum = 0;
+    for (const JudgedCause& j : rivals)
+        sum += j.probability;
+    for (JudgedCause& j : rivals) {
+        j.probability *= std::min(1.0, (1 - named) / sum);
+        if (!contains(in_set, j.fit.cause.mechanism))
+            in_set.push_back(std::move(j));
+    }
+}
+
+/// What the forces name beside what the statistics do (rule 4).
+void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
+                  Decided& out)
+{
+    std::vector<JudgedCause> by_forces = judged_by_forces(forces, ensemble, rule);
     if (by_forces.empty() || forces.beside)
         return;
     const auto by_statistics = [](const JudgedCause& j) { return j.channel == Channel::statistics; };
+    double most = 0; // of what is named
     if (std::none_of(out.named.begin(), out.named.end(), by_statistics)) {
         out.unexplained.reset(); // a tie stands for forces: these are those of a known cause
         out.by_tie = false;
         out.in_set.clear();
         out.named.push_back(by_forces.front());
+        most = by_forces.front().probability;
         by_forces.erase(by_forces.begin());
     }
     for (JudgedCause& named : out.named) {
+        if (!by_statistics(named))
+            continue;
         const auto same = std::find_if(by_forces.begin(), by_forces.end(), [&](const JudgedCause& j) {
             return j.fit.cause.mechanism == named.fit.cause.mechanism;
         });
-        if (!by_statistics(named) || same == by_forces.end())
-            continue;
-        const double gain = named.fit.gain; // in a list with the gains of others by the statistics
-        named.fit = std::move(same->fit);
-        named.fit.gain = gain;
-        named.fit.gain_by_run.clear();
-        named.probability = std::max(same->probability, named.probability);
-        named.forces_too = same->chance;
-        by_forces.erase(same);
-        out.in_set.clear(); // of the statistics: forces tell more apart
+        if (same != by_forces.end()) {
+            take_fit_of_forces(std::move(same->fit), named);
+            named.probability = std::max(same->probability, named.probability);
+            named.forces_too = same->chance;
+            by_forces.erase(same);
+            out.in_set.clear(); // of the statistics: forces tell more apart
+        }
+        most = std::max(most, named.probability);
     }
-    for (JudgedCause& j : by_forces)
-        if (!contains(out.in_set, j.fit.cause.mechanism))
-            out.in_set.push_back(std::move(j));
+    add_rivals(std::move(by_forces), most, out.in_set);
 }
 
 /// Rule 5.
@@ -343,6 +364,7 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         return;
     if (forces.beside) {
         out.unexplained = forces.beside;
+        out.beside = forces.causes.front();
         out.unexplained_chance = forces.p_value;
     } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
         out.unexplained_chance = ensemble.forces.p_value;
@@ -375,8 +397,8 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             share_what_remains(ensemble->by_statistics, out);
-            const NamedByForces forces = named_by_forces(balance, *ensemble);
-            judge_forces(forces, *ensemble, out);
+            const NamedByForces forces = named_by_forces(balance, *ensemble, rule);
+            judge_forces(forces, *ensemble, rule, out);
             find_unexplained(balance, *ensemble, forces, rule, out);
         }
     }

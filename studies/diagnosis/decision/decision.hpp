@@ -35,10 +35,13 @@ namespace stylobate {
 /// Less probable causes are not named.
 inline constexpr double least_probability = 0.5;
 
-/// Of forces of no known kind; that of causes is `EnsembleRule`.
+/// Of the balance of forces; p-values and what is in a set are those of `EnsembleRule`.
 struct DecisionRule {
-    double without_best = 0.4;   ///< part of the gain that must be left without the best run
-    double structure_clear = 6;  ///< nats beyond the 95 % quantile of healthy campaigns, for 'unexplained'
+    double clear = 8;           ///< nats by which a cause, or a force beside it, explains the forces better
+    double shown = 1.5;         ///< score of a cause that forces name, in units of healthy campaigns
+    double of_known_kind = 0.8; ///< probability that what forces name is in the list of causes at all
+    double without_best = 0.4;  ///< part of the gain of a force of no known kind that must be left without the best run
+    double structure_clear = 6; ///< nats beyond the 95 % quantile of healthy campaigns, for 'unexplained'
     double structure_better = 8; ///< nats by which it must explain more of the balance of forces than every cause
 };
 
@@ -65,6 +68,7 @@ struct Decided {
     std::vector<JudgedCause> in_set; ///< that these data do not distinguish from a named one
     std::vector<JudgedCause> judged; ///< all
     std::optional<StructureFit> unexplained;
+    std::optional<CauseFit> beside; ///< the cause beside which it is left; nothing: it stands by itself
     bool by_tie =
         false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not tell from it
     double unexplained_chance = 1;

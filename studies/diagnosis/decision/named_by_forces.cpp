@@ -21,19 +21,16 @@ bool is_candidate(const Cause& cause, const std::vector<CandidateCause>& candida
 }
 
 /// Whether the score of this very cause is beyond those of healthy campaigns: another one may have made the test fail.
-bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed, const ForceRule& rule)
+bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed, const DecisionRule& rule)
 {
-    for (std::size_t c = 0; c < scored.causes.size(); ++c)
-        if (const Cause& cause = scored.causes[c]; cause.label() == fit.cause.label() &&
-                                                   cause.parameter == fit.cause.parameter &&
-                                                   cause.fixed == fit.cause.fixed)
-            return in_units(fit.gain, listed.unit[c]) >= rule.shown;
-    return false;
+    const auto at = std::find(scored.causes.begin(), scored.causes.end(), fit.cause);
+    return at != scored.causes.end() &&
+           in_units(fit.gain, listed.unit[static_cast<std::size_t>(at - scored.causes.begin())]) >= rule.shown;
 }
 
 /// The first force that stands out from those of healthy campaigns, and not by one run alone.
 std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits, const ScorePlan& scored,
-                                           const ForceTest& unlisted, const ForceRule& rule)
+                                           const ForceTest& unlisted, const DecisionRule& rule)
 {
     for (const StructureFit& fit : fits) {
         if (fit.gain < rule.clear)
@@ -42,7 +39,7 @@ std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits
                                      [&](const Structure& s) { return s.text == fit.structure.text; });
         const double score =
             in_units(fit.gain, unlisted.unit[static_cast<std::size_t>(at - scored.structures.begin())]);
-        if (conformal_p_value(unlisted.nulls, unlisted.likeness, score) <= rule.beside &&
+        if (conformal_p_value(unlisted.nulls, unlisted.likeness, score) <= EnsembleRule{}.force &&
             not_by_one_run(fit.gain, fit.gain_by_run, rule.without_best))
             return fit;
     }
@@ -51,31 +48,23 @@ std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits
 
 } // namespace
 
-NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const ForceRule& rule)
+NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
+                              const DecisionRule& rule)
 {
     const ScorePlan& scored = ensemble.scored;
     NamedByForces out;
     out.p_value = ensemble.listed.p_value;
-    if (out.p_value > rule.named)
+    if (out.p_value > EnsembleRule{}.named)
         return out;
-    double best = 0, sum = 0;
     for (const CauseFit& fit : balance.causes) { // best first
         const auto same = [&](const CauseFit& other) { return other.cause.mechanism == fit.cause.mechanism; };
-        if (std::any_of(out.causes.begin(), out.causes.end(), same) || !matters(fit) ||
-            !is_candidate(fit.cause, ensemble.causes) || !shown(fit, scored, ensemble.listed, rule))
-            continue;
-        if (out.causes.empty() && fit.gain < rule.clear)
+        const double least = out.causes.empty() ? rule.clear : out.causes.front().gain - EnsembleRule{}.apart;
+        if (fit.gain < least)
             break;
-        best = std::max(best, fit.gain);
-        out.causes.push_back(fit);
-        sum += std::exp(fit.gain - best);
+        if (std::none_of(out.causes.begin(), out.causes.end(), same) && matters(fit) &&
+            is_candidate(fit.cause, ensemble.causes) && shown(fit, scored, ensemble.listed, rule))
+            out.causes.push_back(fit);
     }
-    for (const CauseFit& fit : out.causes)
-        out.probability.push_back(rule.of_known_kind * std::exp(fit.gain - best) / sum);
-    const auto far = std::find_if(out.causes.begin(), out.causes.end(),
-                                  [&](const CauseFit& fit) { return fit.gain < best - rule.apart; });
-    out.probability.resize(static_cast<std::size_t>(far - out.causes.begin()));
-    out.causes.erase(far, out.causes.end());
     if (balance.fit && !out.causes.empty())
         out.beside = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, ensemble.forces, rule);
     return out;

@@ -146,12 +146,8 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
 
 CarryingNumber carrying_score(const EnsembleDiagnosis& ensemble, std::uint64_t scouts, const Cause& cause)
 {
-    const auto same = [&](const Cause& other) {
-        return other.label() == cause.label() && other.parameter == cause.parameter;
-    };
     const std::vector<Cause>& scored = ensemble.scored.causes;
-    const auto at = std::find_if(scored.begin(), scored.end(),
-                                 [&](const Cause& other) { return same(other) && other.fixed == cause.fixed; });
+    const auto at = std::find(scored.begin(), scored.end(), cause);
     CarryingNumber out;
     if (at == scored.end())
         return out;
@@ -168,7 +164,8 @@ CarryingNumber carrying_score(const EnsembleDiagnosis& ensemble, std::uint64_t s
             else
                 ++out.hidden;
         } else if (const CandidateCause& candidate = ensemble.causes[static_cast<std::size_t>(row.cause)];
-                   same(candidate.cause) && std::isfinite(score)) {
+                   candidate.cause.label() == cause.label() && candidate.cause.parameter == cause.parameter &&
+                   std::isfinite(score)) {
             out.labelled.emplace_back(candidate.size_of(row.z), score);
         }
     }

@@ -33,6 +33,7 @@ struct Cause {
                            ///< path after which friction wears no more (0: never)
     std::string side = {}; ///< of a corner: "left" or "right"
     bool persists = false; ///< of wear: it goes on from run to run
+    friend bool operator==(const Cause&, const Cause&) = default;
     std::string label() const
     {
         return mechanism + " at " + place + (side.empty() ? "" : " " + side) + (persists ? " from run to run" : "");

@@ -32,7 +32,7 @@ struct DirectThresholds {
     double with_table = 0.2;          ///< factor of the two above where the cameras see the table
     double wedge_rad = 3e-4;          ///< between two blocks at rest
     double placed_by_chance = 1.5e-3; ///< probability that any block of a campaign is so far off in the mean
-    double sds = 5;                   ///< and every one of them must be so many of its own standard deviations
+    double sds = 5;                   ///< and every other one must be so many of its own standard deviations
 };
 
 /// Harmonics that the table adds to its motion: as a polynomial of the displacement (all motions), or as second and

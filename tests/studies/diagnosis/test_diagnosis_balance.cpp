@@ -359,16 +359,24 @@ ForceTest beyond_all(std::size_t variants)
     return test;
 }
 
-NamedByForces named_in(const Campaign& campaign, double unit = 1)
+/// @param unit of the scores of causes   @param null score of a force of no known kind in healthy campaigns
+EnsembleDiagnosis beyond_healthy(const Campaign& campaign, double unit = 1, double null = 0.5)
 {
     EnsembleDiagnosis ensemble;
     ensemble.scored = score_plan(campaign.specimen, track_scales(campaign));
     ensemble.listed = beyond_all(ensemble.scored.causes.size());
     ensemble.listed.unit.assign(ensemble.scored.causes.size(), unit);
     ensemble.forces = beyond_all(ensemble.scored.structures.size());
+    ensemble.forces.nulls.assign(300, null);
     for (const Cause& cause : ensemble.scored.causes)
         ensemble.causes.push_back({cause});
-    return named_by_forces(evidence_of(campaign), ensemble);
+    ensemble.by_statistics.causes.resize(ensemble.causes.size());
+    return ensemble;
+}
+
+NamedByForces named_in(const Campaign& campaign, double unit = 1, double null = 0.5)
+{
+    return named_by_forces(evidence_of(campaign), beyond_healthy(campaign, unit, null));
 }
 
 TEST(NamedByForces, ACauseThatLeavesNothingBesideIt)
@@ -378,16 +386,29 @@ TEST(NamedByForces, ACauseThatLeavesNothingBesideIt)
     ASSERT_EQ(named.causes.size(), 1U);
     EXPECT_EQ(named.causes.front().cause.mechanism, "drag");
     EXPECT_FALSE(named.beside) << named.beside->structure.text;
-    EXPECT_NEAR(named.probability.front(), 0.8, 0.02);
     EXPECT_NEAR(named.p_value, 1.0 / 301, 1e-12);
 }
 
 TEST(NamedByForces, AForceBesideTheCauseIsNoneOfTheList)
 {
-    const NamedByForces named = named_in(coasting_campaign([](double v) { return 0.5 * formula_gravity + 1.2 * v; }));
+    const Campaign campaign = coasting_campaign([](double v) { return 0.5 * formula_gravity + 1.2 * v; });
+    const NamedByForces named = named_in(campaign);
     ASSERT_FALSE(named.causes.empty()) << "drag looks like it";
     ASSERT_TRUE(named.beside);
     EXPECT_GT(named.beside->gain, 8);
+    // where healthy campaigns have as much, it is none
+    const double score = std::sqrt(2 * named.beside->gain);
+    EXPECT_FALSE(named_in(campaign, 1, 1.01 * std::sqrt(2 * evidence_of(campaign).structures.front().gain)).beside);
+    EXPECT_TRUE(named_in(campaign, 1, 0.99 * score).beside);
+
+    const BalanceEvidence evidence = evidence_of(campaign);
+    const EnsembleDiagnosis ensemble = beyond_healthy(campaign);
+    const Decided decided = decide({}, evidence, &ensemble, {});
+    EXPECT_EQ(decided.verdict, Verdict::unexplained);
+    EXPECT_TRUE(decided.named.empty());
+    ASSERT_TRUE(decided.unexplained && decided.beside);
+    EXPECT_EQ(decided.beside->cause.label(), named.causes.front().cause.label());
+    EXPECT_EQ(decided.unexplained->structure.text, named.beside->structure.text);
 }
 
 TEST(NamedByForces, NotWhatHealthyCampaignsShowAsWell)
