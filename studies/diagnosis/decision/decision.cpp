@@ -326,7 +326,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
                   Decided& out)
 {
     std::vector<JudgedCause> by_forces = judged_by_forces(forces, ensemble, rule);
-    if (by_forces.empty() || forces.beside)
+    if (by_forces.empty() || forces.unknown)
         return;
     const auto by_statistics = [](const JudgedCause& j) { return j.channel == Channel::statistics; };
     double most = 0; // of what is named
@@ -362,9 +362,10 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
 {
     if (out.by_tie)
         return;
-    if (forces.beside) {
-        out.unexplained = forces.beside;
-        out.beside = forces.causes.front();
+    if (forces.unknown) {
+        out.unexplained = forces.unknown;
+        if (!forces.causes.empty())
+            out.beside = forces.causes.front();
         out.unexplained_chance = forces.p_value;
     } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
         out.unexplained_chance = ensemble.forces.p_value;

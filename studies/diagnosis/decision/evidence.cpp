@@ -48,9 +48,13 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
         return out;
     }
     std::vector<CauseFit> fits;
-    for (const Cause& cause : balance_causes(campaign.specimen, scales))
-        if (CauseFit fit = out.fit->fit(cause, given); !too_eccentric(fit, campaign.specimen))
+    for (const Cause& cause : balance_causes(campaign.specimen, scales)) {
+        CauseFit fit = out.fit->fit(cause, given);
+        if (possible(fit) && !too_eccentric(fit, campaign.specimen))
             fits.push_back(std::move(fit));
+        else if (std::isfinite(fit.gain) && fit.gain > (out.impossible ? out.impossible->gain : 0))
+            out.impossible = std::move(fit);
+    }
     out.causes = best_of_each(std::move(fits));
     out.structures = out.fit->describe(given);
     return out;

@@ -25,6 +25,8 @@ struct BalanceEvidence {
     std::optional<BalanceFit> fit; ///< nothing where no joint slid or rocked long enough
     /// One for each mechanism and place, best first; possible ones, of sizes that a damaged specimen may have.
     std::vector<CauseFit> causes;
+    /// The best fit of a size that no specimen may have: a drag that drives, a turning point outside its corner.
+    std::optional<CauseFit> impossible;
     std::vector<StructureFit> structures; ///< most telling first
     std::string why_not;                  ///< where there is no fit
 };

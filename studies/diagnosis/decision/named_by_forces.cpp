@@ -46,6 +46,26 @@ std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits
     return std::nullopt;
 }
 
+/// Whether what explains the forces best is of a size that no specimen has: causes that explain less are no rivals.
+bool none_of_the_list(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const DecisionRule& rule)
+{
+    if (!balance.impossible)
+        return false;
+    const double most = balance.causes.empty() ? 0 : balance.causes.front().gain;
+    const CauseFit& best = *balance.impossible;
+    return best.gain >= rule.clear && best.gain > most + EnsembleRule{}.apart &&
+           shown(best, ensemble.scored, ensemble.listed, rule);
+}
+
+/// The force of no known kind that explains most, if not by one run alone.
+std::optional<StructureFit> in_place_of_all(const std::vector<StructureFit>& structures, const DecisionRule& rule)
+{
+    const auto found = std::find_if(structures.begin(), structures.end(), [&](const StructureFit& fit) {
+        return not_by_one_run(fit.gain, fit.gain_by_run, rule.without_best);
+    });
+    return found != structures.end() && found->gain >= rule.clear ? std::optional(*found) : std::nullopt;
+}
+
 } // namespace
 
 NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
@@ -56,6 +76,10 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiag
     out.p_value = ensemble.listed.p_value;
     if (out.p_value > EnsembleRule{}.named)
         return out;
+    if (none_of_the_list(balance, ensemble, rule)) {
+        out.unknown = in_place_of_all(balance.structures, rule);
+        return out;
+    }
     for (const CauseFit& fit : balance.causes) { // best first
         const auto same = [&](const CauseFit& other) { return other.cause.mechanism == fit.cause.mechanism; };
         const double least = out.causes.empty() ? rule.clear : out.causes.front().gain - EnsembleRule{}.apart;
@@ -66,7 +90,7 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiag
             out.causes.push_back(fit);
     }
     if (balance.fit && !out.causes.empty())
-        out.beside = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, ensemble.forces, rule);
+        out.unknown = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, ensemble.forces, rule);
     return out;
 }
 

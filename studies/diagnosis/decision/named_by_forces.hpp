@@ -16,8 +16,8 @@ struct NamedByForces {
     /// The best one, and the best of each other mechanism that explains about as much; empty: none is named.
     std::vector<CauseFit> causes;
     double p_value = 1; ///< of such scores in healthy campaigns
-    /// Beside the best one still a force of no known kind: it is none of the list.
-    std::optional<StructureFit> beside;
+    /// A force of no known kind: beside the best one, or, where there is none, in the place of all.
+    std::optional<StructureFit> unknown;
 };
 
 /// @param ensemble its candidates (a cause is named at places where they are), and the tests of the scores

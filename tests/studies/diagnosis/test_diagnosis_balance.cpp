@@ -385,7 +385,7 @@ TEST(NamedByForces, ACauseThatLeavesNothingBesideIt)
         named_in(coasting_campaign([](double v) { return 0.5 * formula_gravity + 0.4 * v * v; }));
     ASSERT_EQ(named.causes.size(), 1U);
     EXPECT_EQ(named.causes.front().cause.mechanism, "drag");
-    EXPECT_FALSE(named.beside) << named.beside->structure.text;
+    EXPECT_FALSE(named.unknown) << named.unknown->structure.text;
     EXPECT_NEAR(named.p_value, 1.0 / 301, 1e-12);
 }
 
@@ -394,12 +394,12 @@ TEST(NamedByForces, AForceBesideTheCauseIsNoneOfTheList)
     const Campaign campaign = coasting_campaign([](double v) { return 0.5 * formula_gravity + 1.2 * v; });
     const NamedByForces named = named_in(campaign);
     ASSERT_FALSE(named.causes.empty()) << "drag looks like it";
-    ASSERT_TRUE(named.beside);
-    EXPECT_GT(named.beside->gain, 8);
+    ASSERT_TRUE(named.unknown);
+    EXPECT_GT(named.unknown->gain, 8);
     // where healthy campaigns have as much, it is none
-    const double score = std::sqrt(2 * named.beside->gain);
-    EXPECT_FALSE(named_in(campaign, 1, 1.01 * std::sqrt(2 * evidence_of(campaign).structures.front().gain)).beside);
-    EXPECT_TRUE(named_in(campaign, 1, 0.99 * score).beside);
+    const double score = std::sqrt(2 * named.unknown->gain);
+    EXPECT_FALSE(named_in(campaign, 1, 1.01 * std::sqrt(2 * evidence_of(campaign).structures.front().gain)).unknown);
+    EXPECT_TRUE(named_in(campaign, 1, 0.99 * score).unknown);
 
     const BalanceEvidence evidence = evidence_of(campaign);
     const EnsembleDiagnosis ensemble = beyond_healthy(campaign);
@@ -408,7 +408,35 @@ TEST(NamedByForces, AForceBesideTheCauseIsNoneOfTheList)
     EXPECT_TRUE(decided.named.empty());
     ASSERT_TRUE(decided.unexplained && decided.beside);
     EXPECT_EQ(decided.beside->cause.label(), named.causes.front().cause.label());
-    EXPECT_EQ(decided.unexplained->structure.text, named.beside->structure.text);
+    EXPECT_EQ(decided.unexplained->structure.text, named.unknown->structure.text);
+}
+
+TEST(NamedByForces, WhatOnlyAnImpossibleSizeExplainsIsNoneOfTheList)
+{
+    // a force that drives with the square of the velocity: a drag of a negative size, and of no known kind
+    const Campaign campaign = coasting_campaign([](double v) { return 0.5 * formula_gravity - 0.25 * v * v; });
+    BalanceEvidence evidence = evidence_of(campaign);
+    ASSERT_TRUE(evidence.impossible);
+    EXPECT_EQ(evidence.impossible->cause.mechanism, "drag");
+    EXPECT_LT(evidence.impossible->size, 0);
+    const EnsembleDiagnosis ensemble = beyond_healthy(campaign);
+    const NamedByForces named = named_by_forces(evidence, ensemble);
+    EXPECT_TRUE(named.causes.empty());
+    ASSERT_TRUE(named.unknown);
+    EXPECT_EQ(named.unknown->structure.text, evidence.structures.front().structure.text);
+    const Decided decided = decide({}, evidence, &ensemble, {});
+    EXPECT_EQ(decided.verdict, Verdict::unexplained);
+    EXPECT_TRUE(decided.named.empty());
+    EXPECT_FALSE(decided.beside);
+    // a possible cause that explains nearly as much is a rival, and is named
+    CauseFit rival = evidence.impossible.value();
+    rival.gain -= 2.9;
+    rival.cause = ensemble.causes.front().cause;
+    rival.size = 0.5;
+    evidence.causes.insert(evidence.causes.begin(), rival);
+    EXPECT_FALSE(named_by_forces(evidence, ensemble).causes.empty());
+    evidence.causes.front().gain -= 0.2;
+    EXPECT_TRUE(named_by_forces(evidence, ensemble).causes.empty());
 }
 
 TEST(NamedByForces, NotWhatHealthyCampaignsShowAsWell)

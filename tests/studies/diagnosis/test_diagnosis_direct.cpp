@@ -52,6 +52,8 @@ struct RampedSine {
     }
 };
 
+constexpr RampedSine motions[] = {{0.006, 2}, {0.004, 2.5}, {0.005, 2}, {0.003, 3}}; // of the runs
+
 Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
 {
     Campaign campaign;
@@ -59,7 +61,6 @@ Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
     const Specimen& s = campaign.specimen;
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
-    const RampedSine motions[] = {{0.006, 2}, {0.004, 2.5}, {0.005, 2}, {0.003, 3}};
     for (int r = 0; r < 4; ++r) {
         const RampedSine& motion = motions[r];
         const auto moved = [&](double t) {
@@ -466,6 +467,47 @@ TEST(DirectTestsMissing, BlocksThatNeverRide)
         for (std::size_t i = 0; i < run.time_s.size(); ++i) // 20 m/s2: everything rocks
             run.blocks.x_m.values[3 * i] += 0.02 * std::sin(2 * std::numbers::pi * 5 * run.time_s[i]);
     expect_not_judged(tested(campaign), {"table_pitch", "time_offset", "sensor_gain"});
+}
+
+/// Block 0 slides on a base that nearly has no friction, and carries the others: explicit Euler of Coulomb's law.
+void let_slide(Campaign& campaign, double friction)
+{
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
+        MeasuredRun& run = campaign.runs[r];
+        const int steps = 40; // of a sample
+        const double dt = 1 / (run.rate_hz * steps), most = friction * campaign.specimen.gravity_m_s2;
+        double x = 0, v = 0;
+        for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+            const double moved = motions[r].displacement_m(run.time_s[i]);
+            for (std::size_t b = 0; b < 3; ++b)
+                run.blocks.x_m.values[3 * i + b] += x - moved;
+            for (int k = 0; k < steps; ++k) {
+                const double t = run.time_s[i] + k * dt;
+                const double ahead =
+                    (motions[r].displacement_m(t + dt) - motions[r].displacement_m(t - dt)) / (2 * dt) - v;
+                v += std::clamp(ahead, -most * dt, most * dt);
+                x += v * dt;
+            }
+        }
+    }
+}
+
+TEST(DirectTestsMissing, ABlockThatSlidesWhereItShouldRideShowsNothingOfTheBase)
+{
+    const std::vector<std::string> all = {"harmonic_distortion", "table_pitch", "vertical_motion", "time_offset",
+                                          "sensor_gain"};
+    Campaign slides = campaign_with({}, 1, false);
+    let_slide(slides, 0.02); // the base has 0.1 g
+    const DirectResult result = tested(slides);
+    expect_not_judged(result, all);
+    EXPECT_NE(test_of(result, "sensor_gain")->sentence.find("block 0 slides"), std::string::npos);
+    EXPECT_TRUE(result.found.empty()) << found_in(result);
+    Campaign rides = campaign_with({}, 1, false);
+    let_slide(rides, 0.3);
+    EXPECT_EQ(test_of(tested(rides), "sensor_gain")->outcome, TestOutcome::passed);
+    Campaign seen = campaign_with({}, 1, true); // the table is looked at instead
+    let_slide(seen, 0.02);
+    EXPECT_EQ(test_of(tested(seen), "sensor_gain")->outcome, TestOutcome::passed);
 }
 
 } // namespace
