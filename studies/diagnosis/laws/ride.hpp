@@ -86,6 +86,7 @@ struct RideFit {
     std::vector<double> size, sd;
     std::vector<double> gain; ///< of each, over the fit without it [nats]
     double scale = 1;
+    double log_likelihood = 0; ///< of all samples [nats]
     std::size_t samples = 0;
 };
 
@@ -145,6 +146,7 @@ RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value,
         }
     const RobustFit fit = robust_fit(data);
     out.scale = fit.scale(0);
+    out.log_likelihood = fit.log_density.sum();
     for (int k = 0; k < regressors; ++k) {
         const auto c = static_cast<std::size_t>(k);
         if (unit[c] == 0)

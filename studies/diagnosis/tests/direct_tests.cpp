@@ -62,19 +62,19 @@ double distortion_term(bool polynomial, const Ride& r, double omega, std::size_t
     return r.harmonic && omega > 0 ? harmonic_term(r.base[i] - r.middle, r.rate[i] / omega, 2 + k / 2, k % 2 == 0) : 0;
 }
 
-/// From the fit of gain, offset and the terms.
-TableDistortion distortion_of(bool polynomial, const RideFit& fit)
+/// From a fit whose last regressors are the terms.
+TableDistortion distortion_of(bool polynomial, double gain, const RideFit& fit)
 {
     TableDistortion d;
     d.polynomial = polynomial;
-    d.size.assign(fit.size.begin() + 2, fit.size.end());
+    const std::size_t before = fit.size.size() - static_cast<std::size_t>(distortion_terms(polynomial));
+    d.size.assign(fit.size.begin() + static_cast<std::ptrdiff_t>(before), fit.size.end());
     bool negative = false; // quadratures have no sign
     for (int order = 2; order < 4; ++order) {
-        const std::size_t first =
-            polynomial ? static_cast<std::size_t>(order) : 2 * static_cast<std::size_t>(order) - 2;
+        const std::size_t first = before + static_cast<std::size_t>(polynomial ? order - 2 : 2 * order - 4);
         const std::size_t last = polynomial ? first : first + 1;
         // acceleration over displacement of a harmonic, and its part of the polynomial's term
-        const double per = order * order * (polynomial ? (order == 2 ? 0.5 : 0.25) : 1) / fit.size[0];
+        const double per = order * order * (polynomial ? (order == 2 ? 0.5 : 0.25) : 1) / gain;
         double size = 0, sd = 0;
         for (std::size_t k = first; k <= last; ++k) {
             size = std::hypot(size, fit.size[k]);
@@ -148,61 +148,129 @@ double rms_of(const std::vector<Ride>& rides)
     return std::sqrt(sum / samples);
 }
 
-/// @param pitch of the table that was found; 0: none [rad s2/m]
-/// @param prepared its rides are shifted by the offset
-BaseFit base_fit(const TrackScales& scales, double pitch, Prepared& prepared)
-{
-    const auto lean = [&](const Ride& r, std::size_t i) {
-        return pitch != 0 ? -r.foot_height_m * pitch * r.acceleration[i] : 0;
+/// What rides show of the base.
+class BaseRides {
+public:
+    /// @param pitch of the table that was found; 0: none [rad s2/m]
+    BaseRides(const TrackScales& scales, double pitch, Prepared& prepared)
+        : scales_(scales), pitch_(pitch), rides_(prepared.rides)
+    {
+    }
+
+    /// Offset, gain and distortion together. Shifts the rides by the offset.
+    BaseFit together();
+
+    struct Part {
+        RideFit fit;
+        TableDistortion distortion;
     };
-    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{r.foot[i] - lean(r, i), r.noise_foot}; };
+    // of rides that are shifted, with what is left of the offset
+    Part gain_alone() const;
+    Part distortion_alone() const { return with_distortion(false); }
+
+private:
+    double seen(const Ride& r, std::size_t i) const
+    {
+        return r.foot[i] + (pitch_ != 0 ? r.foot_height_m * pitch_ * r.acceleration[i] : 0);
+    }
+    /// The distortion in either form: that which the data like better.
+    /// @param gain_too the gain is fitted beside it; else it is 1
+    Part with_distortion(bool gain_too) const;
+
+    const TrackScales& scales_;
+    double pitch_;
+    std::vector<Ride>& rides_;
+};
+
+BaseRides::Part BaseRides::gain_alone() const
+{
+    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{seen(r, i), r.noise_foot}; };
+    const auto column = [](const Ride& r, std::size_t i, int k) { return k == 0 ? r.base[i] : r.rate[i]; };
+    return {fit_over_runs(rides_, 2, value, column), {}};
+}
+
+BaseRides::Part BaseRides::with_distortion(bool gain_too) const
+{
+    const int before = gain_too ? 2 : 1;
+    const auto value = [&](const Ride& r, std::size_t i) {
+        return std::pair{seen(r, i) - (gain_too ? 0 : r.base[i]), r.noise_foot};
+    };
+    Part best;
+    for (const bool polynomial : {true, false}) {
+        const auto column = [&](const Ride& r, std::size_t i, int k) {
+            return k >= before       ? distortion_term(polynomial, r, r.omega, i, k - before)
+                   : k == before - 1 ? r.rate[i]
+                                     : r.base[i];
+        };
+        RideFit fit = fit_over_runs(rides_, before + distortion_terms(polynomial), value, column);
+        TableDistortion found = distortion_of(polynomial, gain_too ? fit.size[0] : 1, fit);
+        // beside a gain the surer one, alone the likelier one (Akaike's criterion)
+        const double more_terms = distortion_terms(false) - distortion_terms(true);
+        const bool likelier = fit.log_likelihood - more_terms > best.fit.log_likelihood;
+        if (polynomial || (gain_too ? found.gain > best.distortion.gain : likelier))
+            best = {std::move(fit), std::move(found)};
+    }
+    return best;
+}
+
+BaseFit BaseRides::together()
+{
+    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{seen(r, i), r.noise_foot}; };
+    const auto column = [](const Ride& r, std::size_t i, int k) { return k == 0 ? r.base[i] : r.rate[i]; };
     BaseFit out;
     // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
     // that the linear term is all there is to it.
     for (int i = 0; i < 4; ++i) {
-        const RideFit first = fit_rides(prepared.rides, 2, value, [](const Ride& r, std::size_t k, int which) {
-            return which == 0 ? r.base[k] : r.rate[k];
-        });
+        const RideFit first = fit_rides(rides_, 2, value, column);
         const double more = first.size[1] / first.size[0];
-        for (Ride& ride : prepared.rides)
-            ride.shift(more, scales);
+        for (Ride& ride : rides_)
+            ride.shift(more, scales_);
         out.offset_s += more;
     }
-    // the distortion in either form; that which the data like better
-    for (Ride& ride : prepared.rides)
+    for (Ride& ride : rides_)
         ride.omega = omega_of(ride);
-    RideFit fit;
-    for (const bool polynomial : {true, false}) {
-        const RideFit tried = fit_over_runs(
-            prepared.rides, 2 + distortion_terms(polynomial), value, [&](const Ride& r, std::size_t i, int k) {
-                return k == 0 ? r.base[i] : k == 1 ? r.rate[i] : distortion_term(polynomial, r, r.omega, i, k - 2);
-            });
-        const TableDistortion found = distortion_of(polynomial, tried);
-        if (polynomial || found.gain > out.distortion.gain) {
-            out.distortion = found;
-            fit = tried;
-        }
-    }
+    const Part all = with_distortion(true);
+    const RideFit& fit = all.fit;
+    out.distortion = all.distortion;
     out.gain = fit.size[0];
     out.gain_sd = fit.sd[0];
     out.offset_sd = fit.sd[1] / out.gain;
     out.offset_s += fit.size[1] / out.gain;
     out.apart_of_noise = fit.scale;
-    out.apart_of_motion =
-        fit.scale * prepared.rides.front().noise_foot / (std::fabs(out.gain) * rms_of(prepared.rides));
+    out.apart_of_motion = fit.scale * rides_.front().noise_foot / (std::fabs(out.gain) * rms_of(rides_));
     return out;
+}
+
+bool distorted(const TableDistortion& distortion, const DirectThresholds& limits)
+{
+    // what rides never reach can be fitted with anything: more than the motion itself is no distortion
+    return std::fabs(distortion.ratio) < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
+}
+
+/// Rides see the middle of the motion only, where a third harmonic looks like a gain: together both are known badly.
+/// Where neither is found beside the other, one is taken that explains what is seen by itself and clearly better.
+void take_one_alone(const BaseRides& rides, const DirectThresholds& limits, double least_gain, BaseFit& base)
+{
+    if (distorted(base.distortion, limits) || beyond(base.gain - 1, base.gain_sd, least_gain, limits.sds))
+        return;
+    const BaseRides::Part gain = rides.gain_alone(), distortion = rides.distortion_alone();
+    const double nats = distortion.fit.log_likelihood - gain.fit.log_likelihood;
+    if (nats > limits.alone && distorted(distortion.distortion, limits)) {
+        base.distortion = distortion.distortion;
+    } else if (nats < -limits.alone && beyond(gain.fit.size[0] - 1, gain.fit.sd[0], least_gain, limits.sds)) {
+        base.gain = gain.fit.size[0];
+        base.gain_sd = gain.fit.sd[0];
+    }
 }
 
 void judge_distortion(const TableDistortion& distortion, const DirectThresholds& limits, DirectResult& out)
 {
-    // what rides never reach can be fitted with anything: more than the motion itself is no distortion
-    const bool distorted =
-        std::fabs(distortion.ratio) < 1 && beyond(distortion.ratio, distortion.sd, limits.distortion, limits.sds);
+    const bool found = distorted(distortion, limits);
     out.base_tests.push_back(told("harmonic_distortion", base_place, distortion.ratio, distortion.sd, limits.distortion,
-                                  "", distorted,
+                                  "", found,
                                   fmt::format("Harmonic {} of the table's acceleration is {:.4f} of the fundamental.",
                                               distortion.order, distortion.ratio)));
-    if (distorted) {
+    if (found) {
         out.found.push_back(cause_of("harmonic_distortion", base_place, "ratio", "", 0, distortion.ratio, distortion.sd,
                                      distortion.gain));
         out.distortion = distortion;
@@ -281,12 +349,14 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
     const PitchFit pitch = fit_pitch(campaign, scales, prepared);
     const bool pitches = pitch.seen && std::fabs(pitch.slope) > limits.pitch_sds * pitch_scatter(pitch, limits);
     const double slope = pitches ? pitch.slope : 0;
-    const BaseFit base = base_fit(scales, slope, prepared);
+    BaseRides rides(scales, slope, prepared);
+    BaseFit base = rides.together();
     if (!prepared.table && base.apart_of_noise > apart_of_noise && base.apart_of_motion > apart_of_motion) {
         cannot_test_base(prepared.what + " slides where it should move with the table.", out);
         return;
     }
     const double narrower = prepared.table ? limits.with_table : 1;
+    take_one_alone(rides, limits, narrower * limits.gain, base);
     judge_distortion(base.distortion, limits, out);
     judge_pitch(pitch, pitches, prepared.what, limits, out);
     test_height(vertical_motion(campaign, prepared, scales, slope), prepared.what, limits, out);

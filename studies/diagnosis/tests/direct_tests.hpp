@@ -24,13 +24,14 @@ struct DirectThresholds {
     /// The two above are so many standard deviations of what healthy campaigns show, and the pitch that was fitted must
     /// be so many of both together.
     double pitch_sds = 3.5;
-    double vertical = 0.6;            ///< rms of the common vertical motion over the cameras' noise
-    double vertical_ratio = 0.02;     ///< of the horizontal motion, over whole runs
-    double vertical_line = 12;        ///< power of a line of the table's own over its neighbours'
-    double offset_s = 8e-4;           ///< without a view of the table; a fifth of it with one
-    double gain = 0.02;               ///< likewise
-    double with_table = 0.2;          ///< factor of the two above where the cameras see the table
-    double wedge_rad = 3e-4;          ///< between two blocks at rest
+    double vertical = 0.6;        ///< rms of the common vertical motion over the cameras' noise
+    double vertical_ratio = 0.02; ///< of the horizontal motion, over whole runs
+    double vertical_line = 12;    ///< power of a line of the table's own over its neighbours'
+    double offset_s = 8e-4;       ///< without a view of the table; a fifth of it with one
+    double gain = 0.02;           ///< likewise
+    double alone = 8;             ///< nats by which gain or distortion alone must explain more than the other one alone
+    double with_table = 0.2;      ///< factor of the two above where the cameras see the table
+    double wedge_rad = 3e-4;      ///< between two blocks at rest
     double placed_by_chance = 1.5e-3; ///< probability that any block of a campaign is so far off in the mean
     double sds = 5;                   ///< and every other one must be so many of its own standard deviations
 };

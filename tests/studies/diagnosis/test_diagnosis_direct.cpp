@@ -13,7 +13,7 @@ namespace {
 
 /// What is wrong, in units of the findings.
 struct Wrong {
-    double gain = 1, offset_s = 0, second_harmonic = 0, pitch_rad_s2_m = 0, vertical_ratio = 0;
+    double gain = 1, offset_s = 0, second_harmonic = 0, cube = 0, pitch_rad_s2_m = 0, vertical_ratio = 0;
     double wedge_rad = 0;     ///< at joint 1: it carries the blocks 1 and 2
     double placed_off_m = 0;  ///< block 1
     double rocks_rad = 0;     ///< block 0 rocks on the table, up to this
@@ -65,8 +65,10 @@ Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
         const RampedSine& motion = motions[r];
         const auto moved = [&](double t) {
             const double later = t + wrong.offset_s;
+            const double z = motion.displacement_m(later) / motion.amplitude_m;
             return wrong.gain *
-                   (motion.displacement_m(later) + wrong.second_harmonic * motion.displacement_m(later, 2));
+                   (motion.displacement_m(later) + wrong.second_harmonic * motion.displacement_m(later, 2) +
+                    wrong.cube * motion.amplitude_m * z * (z * z - 0.75)); // a third harmonic
         };
         double placed[3];
         for (double& x : placed)
@@ -211,6 +213,31 @@ TEST_P(DirectTests, SecondHarmonic)
 {
     expect_found({.second_harmonic = 0.04}, "harmonic_distortion", "base", 4 * 0.04, 0.012); // in acceleration
     EXPECT_LT(left_m({.second_harmonic = 0.04}, GetParam()), 5e-5);                          // uncorrected 1.7e-4
+}
+
+TEST(DirectTestsAlone, RidesThatSeeTheMiddleOfTheMotionTellAGainFromAThirdHarmonic)
+{
+    // no ride has more than 0.6 times the acceleration of the friction; the base has 0.1 g
+    const auto found = [](const Wrong& wrong, double friction, double alone) {
+        Campaign campaign = campaign_with(wrong, 7, false);
+        campaign.specimen.friction_nominal = friction;
+        DirectThresholds limits;
+        limits.alone = alone;
+        return direct_tests(campaign, track_scales(campaign), limits);
+    };
+    const double never = 1e9, usual = DirectThresholds{}.alone;
+    const Wrong harmonic{.cube = 0.06}, gain{.gain = 1.08};
+    EXPECT_TRUE(found(harmonic, 0.11, never).found.empty()) << "beside a gain it is known badly";
+    EXPECT_TRUE(found(gain, 0.12, never).found.empty()) << "beside a harmonic it is known badly";
+    const DirectResult third = found(harmonic, 0.11, usual), wider = found(gain, 0.12, usual);
+    ASSERT_EQ(third.found.size(), 1u) << found_in(third);
+    EXPECT_EQ(third.found.front().cause.mechanism, "harmonic_distortion");
+    EXPECT_NEAR(third.found.front().size, 9 * 0.06 / 4, 0.02); // in acceleration
+    ASSERT_EQ(wider.found.size(), 1u) << found_in(wider);
+    EXPECT_EQ(wider.found.front().cause.mechanism, "sensor_gain");
+    EXPECT_NEAR(wider.found.front().size, 1.08, 0.005);
+    for (const double friction : {0.11, 0.12})
+        EXPECT_TRUE(found({}, friction, usual).found.empty());
 }
 
 TEST_P(DirectTests, Pitch)
