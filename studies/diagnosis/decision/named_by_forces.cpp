@@ -28,12 +28,23 @@ bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed
            in_units(fit.gain, listed.unit[static_cast<std::size_t>(at - scored.causes.begin())]) >= rule.shown;
 }
 
+/// What a second cause gains at the most, with the first one given.
+double best_second(const BalanceEvidence& balance, const Cause& first)
+{
+    double best = 0;
+    for (const CauseFit& listed : balance.causes)
+        if (const CauseFit fit = balance.fit->fit(listed.cause, {first}); possible(fit))
+            best = std::max(best, fit.gain);
+    return best;
+}
+
 /// The first force that stands out from those of healthy campaigns, and not by one run alone.
-std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits, const ScorePlan& scored,
+/// @param least gain that it must have
+std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits, double least, const ScorePlan& scored,
                                            const ForceTest& unlisted, const DecisionRule& rule)
 {
     for (const StructureFit& fit : fits) {
-        if (fit.gain < rule.clear)
+        if (fit.gain < least)
             break;
         const auto at = std::find_if(scored.structures.begin(), scored.structures.end(),
                                      [&](const Structure& s) { return s.text == fit.structure.text; });
@@ -89,8 +100,11 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiag
             is_candidate(fit.cause, ensemble.causes) && shown(fit, scored, ensemble.listed, rule))
             out.causes.push_back(fit);
     }
-    if (balance.fit && !out.causes.empty())
-        out.unknown = beyond_healthy(balance.fit->describe({out.causes.front().cause}), scored, ensemble.forces, rule);
+    if (balance.fit && !out.causes.empty()) {
+        const Cause& first = out.causes.front().cause;
+        const double least = std::max(rule.clear, best_second(balance, first) + rule.structure_better);
+        out.unknown = beyond_healthy(balance.fit->describe({first}), least, scored, ensemble.forces, rule);
+    }
     return out;
 }
 

@@ -57,7 +57,8 @@ Campaign coasting_campaign(const std::function<double(double)>& slowed)
 }
 
 /// Block and slab slide together, or the block on the slab: frictions of the two joints.
-Campaign slab_campaign(double lower, double upper)
+/// @param drag slows both by so much times the square of the velocity [1/m]
+Campaign slab_campaign(double lower, double upper, double drag = 0)
 {
     Campaign campaign;
     campaign.specimen = block_on_slab();
@@ -65,7 +66,7 @@ Campaign slab_campaign(double lower, double upper)
     for (const double velocity : {1.5, -1.5, 1.0, -1.0, 1.8, -1.8}) {
         const bool together = seed % 4 < 2;
         const double mu = together ? lower : upper;
-        const std::vector<double> x = coasting(velocity, [&](double) { return mu * formula_gravity; });
+        const std::vector<double> x = coasting(velocity, [&](double v) { return mu * formula_gravity + drag * v * v; });
         campaign.runs.push_back(formula_run(
             campaign.specimen, static_cast<int>(x.size()),
             [&](int b, int i) {
@@ -409,6 +410,17 @@ TEST(NamedByForces, AForceBesideTheCauseIsNoneOfTheList)
     ASSERT_TRUE(decided.unexplained && decided.beside);
     EXPECT_EQ(decided.beside->cause.label(), named.causes.front().cause.label());
     EXPECT_EQ(decided.unexplained->structure.text, named.unknown->structure.text);
+}
+
+TEST(NamedByForces, ASecondCauseOfTheListIsNoUnknownForce)
+{
+    const Campaign campaign = slab_campaign(0.5, 0.3, 0.4);
+    const NamedByForces named = named_in(campaign);
+    ASSERT_FALSE(named.causes.empty());
+    // much is left beside the first one, of the friction's kind too
+    const BalanceEvidence evidence = evidence_of(campaign);
+    EXPECT_GT(evidence.fit->describe({named.causes.front().cause}).front().gain, 8);
+    EXPECT_FALSE(named.unknown) << named.unknown->structure.text;
 }
 
 TEST(NamedByForces, WhatOnlyAnImpossibleSizeExplainsIsNoneOfTheList)
