@@ -22,6 +22,11 @@ bool too_eccentric(const CauseFit& fit, const Specimen& specimen)
 
 } // namespace
 
+bool of_possible_size(const CauseFit& fit, const Specimen& specimen)
+{
+    return possible(fit) && !too_eccentric(fit, specimen);
+}
+
 bool not_by_one_run(double gain, const std::vector<double>& gain_by_run, double part)
 {
     return gain_by_run.size() > 1 && gain - *std::max_element(gain_by_run.begin(), gain_by_run.end()) > part * gain;
@@ -50,7 +55,7 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
     std::vector<CauseFit> fits;
     for (const Cause& cause : balance_causes(campaign.specimen, scales)) {
         CauseFit fit = out.fit->fit(cause, given);
-        if (possible(fit) && !too_eccentric(fit, campaign.specimen))
+        if (of_possible_size(fit, campaign.specimen))
             fits.push_back(std::move(fit));
         else if (std::isfinite(fit.gain) && fit.gain > (out.impossible ? out.impossible->gain : 0))
             out.impossible = std::move(fit);

@@ -36,6 +36,9 @@ struct BalanceEvidence {
 BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
                                  const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given = {});
 
+/// Whether a specimen may have it: a possible fit, and no centre of mass farther aside than in any simulated campaign.
+bool of_possible_size(const CauseFit& fit, const Specimen& specimen);
+
 /// The best of each mechanism and place (over sides and second parameters), possible ones alone, best first.
 std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits);
 

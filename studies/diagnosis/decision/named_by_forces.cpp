@@ -33,7 +33,8 @@ double best_second(const BalanceEvidence& balance, const Cause& first)
 {
     double best = 0;
     for (const CauseFit& listed : balance.causes)
-        if (const CauseFit fit = balance.fit->fit(listed.cause, {first}); possible(fit))
+        if (const CauseFit fit = balance.fit->fit(listed.cause, {first});
+            of_possible_size(fit, balance.fit->specimen()))
             best = std::max(best, fit.gain);
     return best;
 }

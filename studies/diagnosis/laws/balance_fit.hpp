@@ -95,6 +95,7 @@ public:
     BalanceFit(const Specimen& specimen, std::vector<LawSample> samples, double friction, int runs,
                const Scatter& scatter = {});
 
+    const Specimen& specimen() const { return *specimen_; }
     bool empty() const { return samples_.empty(); }
     const std::vector<LawSample>& samples() const { return samples_; }
     /// Of the baseline: mean friction over the nominal one.

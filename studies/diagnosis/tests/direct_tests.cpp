@@ -18,12 +18,6 @@ namespace {
 
 const std::string base_place = "base";
 
-// What moves otherwise than the base by this part of its motion, and by so many times the cameras' noise, does not ride
-// on it. (Of 114 virtual campaigns those that ride reach 0.16, and 1.5 times the noise; one whose block 0 hardly has
-// friction any more is at 0.56 and 5.9.)
-constexpr double apart_of_motion = 0.3;
-constexpr double apart_of_noise = 3;
-
 /// Circular frequency of a harmonic ride.
 double omega_of(const Ride& ride)
 {
@@ -157,52 +151,51 @@ public:
     {
     }
 
-    /// Offset, gain and distortion together. Shifts the rides by the offset.
-    BaseFit together();
-
-    struct Part {
+    struct Distorted {
         RideFit fit;
         TableDistortion distortion;
     };
+    /// Offset, gain and distortion together. Shifts the rides by the offset.
+    BaseFit together();
     // of rides that are shifted, with what is left of the offset
-    Part gain_alone() const;
-    Part distortion_alone() const { return with_distortion(false); }
+    RideFit gain_alone() const
+    {
+        return fit_over_runs(
+            rides_, 2, [this](const Ride& r, std::size_t i) { return seen(r, i); }, base_or_rate);
+    }
+    Distorted distortion_alone() const { return with_distortion(false); }
 
 private:
-    double seen(const Ride& r, std::size_t i) const
+    static double base_or_rate(const Ride& r, std::size_t i, int k) { return k == 0 ? r.base[i] : r.rate[i]; }
+    /// Without the lean of the table; and its noise.
+    std::pair<double, double> seen(const Ride& r, std::size_t i) const
     {
-        return r.foot[i] + (pitch_ != 0 ? r.foot_height_m * pitch_ * r.acceleration[i] : 0);
+        const double lean = pitch_ != 0 ? -r.foot_height_m * pitch_ * r.acceleration[i] : 0;
+        return {r.foot[i] - lean, r.noise_foot};
     }
     /// The distortion in either form: that which the data like better.
     /// @param gain_too the gain is fitted beside it; else it is 1
-    Part with_distortion(bool gain_too) const;
+    Distorted with_distortion(bool gain_too) const;
 
     const TrackScales& scales_;
     double pitch_;
     std::vector<Ride>& rides_;
 };
 
-BaseRides::Part BaseRides::gain_alone() const
+BaseRides::Distorted BaseRides::with_distortion(bool gain_too) const
 {
-    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{seen(r, i), r.noise_foot}; };
-    const auto column = [](const Ride& r, std::size_t i, int k) { return k == 0 ? r.base[i] : r.rate[i]; };
-    return {fit_over_runs(rides_, 2, value, column), {}};
-}
-
-BaseRides::Part BaseRides::with_distortion(bool gain_too) const
-{
-    const int before = gain_too ? 2 : 1;
+    const int others = gain_too ? 2 : 1; // the rate is the last of them
     const auto value = [&](const Ride& r, std::size_t i) {
-        return std::pair{seen(r, i) - (gain_too ? 0 : r.base[i]), r.noise_foot};
+        const auto [x, noise] = seen(r, i);
+        return std::pair{x - (gain_too ? 0 : r.base[i]), noise};
     };
-    Part best;
+    Distorted best;
     for (const bool polynomial : {true, false}) {
         const auto column = [&](const Ride& r, std::size_t i, int k) {
-            return k >= before       ? distortion_term(polynomial, r, r.omega, i, k - before)
-                   : k == before - 1 ? r.rate[i]
-                                     : r.base[i];
+            return k < others ? base_or_rate(r, i, k + 2 - others)
+                              : distortion_term(polynomial, r, r.omega, i, k - others);
         };
-        RideFit fit = fit_over_runs(rides_, before + distortion_terms(polynomial), value, column);
+        RideFit fit = fit_over_runs(rides_, others + distortion_terms(polynomial), value, column);
         TableDistortion found = distortion_of(polynomial, gain_too ? fit.size[0] : 1, fit);
         // beside a gain the surer one, alone the likelier one (Akaike's criterion)
         const double more_terms = distortion_terms(false) - distortion_terms(true);
@@ -215,13 +208,12 @@ BaseRides::Part BaseRides::with_distortion(bool gain_too) const
 
 BaseFit BaseRides::together()
 {
-    const auto value = [&](const Ride& r, std::size_t i) { return std::pair{seen(r, i), r.noise_foot}; };
-    const auto column = [](const Ride& r, std::size_t i, int k) { return k == 0 ? r.base[i] : r.rate[i]; };
     BaseFit out;
     // Gain and offset alone first: harmonics are those of the base at its own time. The offset is small at last, so
     // that the linear term is all there is to it.
     for (int i = 0; i < 4; ++i) {
-        const RideFit first = fit_rides(rides_, 2, value, column);
+        const RideFit first = fit_rides(
+            rides_, 2, [this](const Ride& r, std::size_t k) { return seen(r, k); }, base_or_rate);
         const double more = first.size[1] / first.size[0];
         for (Ride& ride : rides_)
             ride.shift(more, scales_);
@@ -229,7 +221,7 @@ BaseFit BaseRides::together()
     }
     for (Ride& ride : rides_)
         ride.omega = omega_of(ride);
-    const Part all = with_distortion(true);
+    const Distorted all = with_distortion(true);
     const RideFit& fit = all.fit;
     out.distortion = all.distortion;
     out.gain = fit.size[0];
@@ -253,13 +245,14 @@ void take_one_alone(const BaseRides& rides, const DirectThresholds& limits, doub
 {
     if (distorted(base.distortion, limits) || beyond(base.gain - 1, base.gain_sd, least_gain, limits.sds))
         return;
-    const BaseRides::Part gain = rides.gain_alone(), distortion = rides.distortion_alone();
-    const double nats = distortion.fit.log_likelihood - gain.fit.log_likelihood;
+    const RideFit gain = rides.gain_alone();
+    const BaseRides::Distorted distortion = rides.distortion_alone();
+    const double nats = distortion.fit.log_likelihood - gain.log_likelihood;
     if (nats > limits.alone && distorted(distortion.distortion, limits)) {
         base.distortion = distortion.distortion;
-    } else if (nats < -limits.alone && beyond(gain.fit.size[0] - 1, gain.fit.sd[0], least_gain, limits.sds)) {
-        base.gain = gain.fit.size[0];
-        base.gain_sd = gain.fit.sd[0];
+    } else if (nats < -limits.alone && beyond(gain.size[0] - 1, gain.sd[0], least_gain, limits.sds)) {
+        base.gain = gain.size[0];
+        base.gain_sd = gain.sd[0];
     }
 }
 
@@ -351,7 +344,8 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
     const double slope = pitches ? pitch.slope : 0;
     BaseRides rides(scales, slope, prepared);
     BaseFit base = rides.together();
-    if (!prepared.table && base.apart_of_noise > apart_of_noise && base.apart_of_motion > apart_of_motion) {
+    if (!prepared.table && base.apart_of_noise > limits.apart_of_noise &&
+        base.apart_of_motion > limits.apart_of_motion) {
         cannot_test_base(prepared.what + " slides where it should move with the table.", out);
         return;
     }
