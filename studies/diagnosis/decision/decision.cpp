@@ -398,7 +398,11 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             share_what_remains(ensemble->by_statistics, out);
-            const NamedByForces forces = named_by_forces(balance, *ensemble, rule);
+            std::vector<Cause> by_statistics;
+            for (const JudgedCause& j : out.named)
+                if (j.channel == Channel::statistics)
+                    by_statistics.push_back(j.fit.cause);
+            const NamedByForces forces = named_by_forces(balance, *ensemble, by_statistics, rule);
             judge_forces(forces, *ensemble, rule, out);
             find_unexplained(balance, *ensemble, forces, rule, out);
         }

@@ -28,13 +28,22 @@ bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed
            in_units(fit.gain, listed.unit[static_cast<std::size_t>(at - scored.causes.begin())]) >= rule.shown;
 }
 
-/// What a second cause gains at the most, with the first one given.
-double best_second(const BalanceEvidence& balance, const Cause& first)
+/// The first cause, and those of the others that the samples show and that are not the same.
+std::vector<Cause> with_seen(const BalanceFit& fit, const Cause& first, const std::vector<Cause>& others)
+{
+    std::vector<Cause> given{first};
+    for (const Cause& other : others)
+        if ((other.mechanism != first.mechanism || other.place != first.place) && !std::isnan(fit.score(other)))
+            given.push_back(other);
+    return given;
+}
+
+/// What a further cause gains at the most, beside those given.
+double best_further(const BalanceEvidence& balance, const std::vector<Cause>& given)
 {
     double best = 0;
     for (const CauseFit& listed : balance.causes)
-        if (const CauseFit fit = balance.fit->fit(listed.cause, {first});
-            of_possible_size(fit, balance.fit->specimen()))
+        if (const CauseFit fit = balance.fit->fit(listed.cause, given); of_possible_size(fit, balance.fit->specimen()))
             best = std::max(best, fit.gain);
     return best;
 }
@@ -81,7 +90,7 @@ std::optional<StructureFit> in_place_of_all(const std::vector<StructureFit>& str
 } // namespace
 
 NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
-                              const DecisionRule& rule)
+                              const std::vector<Cause>& by_statistics, const DecisionRule& rule)
 {
     const ScorePlan& scored = ensemble.scored;
     NamedByForces out;
@@ -102,9 +111,9 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiag
             out.causes.push_back(fit);
     }
     if (balance.fit && !out.causes.empty()) {
-        const Cause& first = out.causes.front().cause;
-        const double least = std::max(rule.clear, best_second(balance, first) + rule.structure_better);
-        out.unknown = beyond_healthy(balance.fit->describe({first}), least, scored, ensemble.forces, rule);
+        const std::vector<Cause> given = with_seen(*balance.fit, out.causes.front().cause, by_statistics);
+        const double least = std::max(rule.clear, best_further(balance, given) + rule.structure_better);
+        out.unknown = beyond_healthy(balance.fit->describe(given), least, scored, ensemble.forces, rule);
     }
     return out;
 }

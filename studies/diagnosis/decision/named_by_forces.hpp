@@ -16,12 +16,14 @@ struct NamedByForces {
     /// The best one, and the best of each other mechanism that explains about as much; empty: none is named.
     std::vector<CauseFit> causes;
     double p_value = 1; ///< of such scores in healthy campaigns
-    /// A force of no known kind: beside the best one, or, where there is none, in the place of all.
+    /// A force of no known kind: beside the best one and what the statistics name, or, where forces name none, in the
+    /// place of all.
     std::optional<StructureFit> unknown;
 };
 
 /// @param ensemble its candidates (a cause is named at places where they are), and the tests of the scores
+/// @param by_statistics causes that the statistics name: their forces are of a known kind, too
 NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
-                              const DecisionRule& rule = {});
+                              const std::vector<Cause>& by_statistics = {}, const DecisionRule& rule = {});
 
 } // namespace stylobate

@@ -423,6 +423,31 @@ TEST(NamedByForces, ASecondCauseOfTheListIsNoUnknownForce)
     EXPECT_FALSE(named.unknown) << named.unknown->structure.text;
 }
 
+TEST(NamedByForces, TheForcesOfWhatTheStatisticsNameAreNotUnknown)
+{
+    const Campaign campaign = slab_campaign(0.5, 0.3, 0.4);
+    const BalanceEvidence evidence = evidence_of(campaign);
+    const EnsembleDiagnosis ensemble = beyond_healthy(campaign);
+    DecisionRule alone; // by which no further cause of the list keeps a force from being unknown
+    alone.structure_better = -1e9;
+    const auto unknown_beside = [&](const std::vector<Cause>& by_statistics) {
+        return named_by_forces(evidence, ensemble, by_statistics, alone).unknown;
+    };
+    ASSERT_TRUE(unknown_beside({}));
+    const Cause first = named_in(campaign).causes.front().cause;
+    const auto second = std::find_if(evidence.causes.begin(), evidence.causes.end(), [&](const CauseFit& fit) {
+        return fit.cause.mechanism == (first.mechanism == "drag" ? "joint_friction" : "drag");
+    });
+    ASSERT_NE(second, evidence.causes.end());
+    EXPECT_FALSE(unknown_beside({second->cause})) << "both together are all that acts";
+    // what forces name already, or do not see, is nothing more
+    const double gain = unknown_beside({})->gain;
+    Cause unseen{"damping", "joint 0", "ratio", "", 1};
+    unseen.joint = 0;
+    ASSERT_TRUE(unknown_beside({first, unseen}));
+    EXPECT_EQ(unknown_beside({first, unseen})->gain, gain);
+}
+
 TEST(NamedByForces, WhatOnlyAnImpossibleSizeExplainsIsNoneOfTheList)
 {
     // a force that drives with the square of the velocity: a drag of a negative size, and of no known kind
