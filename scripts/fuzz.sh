@@ -71,7 +71,7 @@ for target in "${targets[@]}"; do
     case $target in
     results | decision) longest=256 ;;
     table) longest=1024 ;;
-    nrml | hazard) longest=2048 ;;
+    nrml | hazard | study) longest=2048 ;;
     esac
     [[ ! -d tests/fuzz/findings/$target ]] || seeds+=("tests/fuzz/findings/$target")
     [[ $target != study ]] || seeds+=(studies/inputs)
@@ -79,8 +79,10 @@ for target in "${targets[@]}"; do
     mkdir -p "$found"
     begin=$SECONDS failed=0
     # memory: more than 32 MB at once, or 1 GB in all, is out of proportion to inputs of some kB
+    code=0
     "$build/tests/fuzz/fuzz_$target" "$limit" "-max_len=$longest" -timeout=10 -malloc_limit_mb=32 -rss_limit_mb=1024 \
-        -artifact_prefix="$build/finding-$target-" -print_final_stats=1 "$found" "${seeds[@]}" >"$log" 2>&1 || failed=1
+        -artifact_prefix="$build/finding-$target-" -print_final_stats=1 "$found" "${seeds[@]}" >"$log" 2>&1 || code=$?
+    ((code == 0 || code == 72)) || failed=1 # 72: Ctrl-C
     count=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)
     peak=$(sed -n 's/^stat::peak_rss_mb: *//p' "$log" | tail -n 1)
     edges=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)

@@ -57,7 +57,7 @@ inline const std::vector<double> usual_moves_m = {1e-12, 1e-9, 1e-6, 1e-3};
 
 inline const ListKey moves{"moves_m", move_range, usual_moves_m,
                            "displacements of one drum to the right, ascending, a replica for each; at most a quarter "
-                           "of the drum's width"};
+                           "of the drum's width, and of the default those that are"};
 inline const WholeKey block{"block",
                             {0, 199, "A free drum, counted from 0, column by column from the bottom."},
                             "the drum that is displaced, counted from 0, column by column from the bottom",

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
 #include "io/measured/measured_file.hpp"
+#include "io/measured/measured_layout.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "io/records/record_parser.hpp"
@@ -13,16 +14,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace stylobate {
 
 namespace {
-
-/// A column of accelerations says its unit in its name, and a base that is hit is faster than any ground: such a table
-/// may reach this [m/s2].
-constexpr double largest_of_a_hit_m_s2 = 1000;
 
 constexpr const char* time_name = "time_s";
 constexpr const char* acceleration_name = "acceleration_m_s2";
@@ -52,14 +49,13 @@ void check_names(const RecordText& text, const ColumnTable& table)
         text.refuse(fmt::format("has no motion: its columns are {}. {}", fmt::join(table.names, ", "), todo));
 }
 
-/// @param largest that is believed [m/s2]
-void check_peak(const Motion& motion, const std::filesystem::path& file, double largest)
+void check_peak(const Motion& motion, const std::filesystem::path& file)
 {
-    if (motion.pga_m_s2 > largest)
+    if (!(motion.pga_m_s2 <= largest_pga_m_s2))
         throw InputError(file.string(), 0,
                          fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
                                      "wrong, or displacements have too few digits.",
-                                     motion.pga_m_s2, largest));
+                                     motion.pga_m_s2, largest_pga_m_s2));
 }
 
 Motion of_campaign(const std::filesystem::path& file, const std::string& run)
@@ -82,7 +78,8 @@ Motion of_columns(const std::filesystem::path& file)
     check_names(text, table);
     const std::vector<double>* acceleration = column(table, acceleration_name);
     const std::vector<double>* displacement = column(table, displacement_name);
-    for (const auto& [values, name] : {std::pair{acceleration, acceleration_name}, {displacement, displacement_name}}) {
+    for (const auto& [values, name, dimension] : {std::tuple{acceleration, acceleration_name, Dimension::acceleration},
+                                                  {displacement, displacement_name, Dimension::length}}) {
         if (values == nullptr)
             continue;
         if (values->size() < fewest_samples)
@@ -90,6 +87,9 @@ Motion of_columns(const std::filesystem::path& file)
         const auto [least, most] = std::minmax_element(values->begin(), values->end());
         if (*least == *most && (values == displacement || *least == 0))
             text.refuse(fmt::format("its {} is {} at all times: there is no motion.", name, *least));
+        const double reached = std::max(-*least, *most), largest = largest_of_series(dimension);
+        if (reached > largest)
+            text.refuse(fmt::format("its {} reaches {:.4g}, more than {}: a unit is wrong.", name, reached, largest));
     }
     if (acceleration && displacement) {
         MeasuredRun run;
@@ -98,12 +98,13 @@ Motion of_columns(const std::filesystem::path& file)
         run.base_acceleration_m_s2.values = *acceleration;
         run.base_displacement_m.values = *displacement;
         Motion motion = base_motion_of(run);
-        check_peak(motion, file, largest_pga_m_s2);
+        check_peak(motion, file);
         return motion;
     }
     Motion motion =
         motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
-    check_peak(motion, file, acceleration ? largest_of_a_hit_m_s2 : largest_pga_m_s2);
+    if (!acceleration) // a base that is hit is faster than any ground
+        check_peak(motion, file);
     return motion;
 }
 
@@ -113,7 +114,7 @@ Motion read_base_table(const std::filesystem::path& file, const std::string& run
 {
     Motion motion = run.empty() ? of_columns(file) : of_campaign(file, run);
     if (!run.empty())
-        check_peak(motion, file, largest_pga_m_s2);
+        check_peak(motion, file);
     if (!(motion.predominant_frequency_hz > 0))
         motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
     motion.source = run.empty() ? file.string() : fmt::format("{}, run {}", file.string(), run);

@@ -131,9 +131,7 @@ private:
         if (std::all_of(values.begin(), values.end(), is_nan))
             refuse(fmt::format("run {}: {} is NaN everywhere.\n  Omit the data set where nothing was measured.",
                                run.name, name.path));
-        const double largest = name.dimension == Dimension::acceleration ? 1000
-                               : name.dimension == Dimension::angle      ? 1000
-                                                                         : 200;
+        const double largest = largest_of_series(name.dimension);
         for (const double value : values)
             if (std::abs(value) > largest)
                 refuse(fmt::format("run {}: {} has the value {:g}, beyond {:g}.\n  Units are SI; another unit is given "

@@ -79,6 +79,11 @@ const char* known_units(Dimension dimension)
     return "m/s2, cm/s2, mm/s2, g";
 }
 
+double largest_of_series(Dimension dimension)
+{
+    return dimension == Dimension::length ? 200 : 1000;
+}
+
 const std::array<SeriesName, 8>& series_names()
 {
     using Run = MeasuredRun;

@@ -15,6 +15,9 @@ namespace stylobate {
 
 enum class Dimension { time, length, angle, acceleration, mass };
 
+/// What a series may reach [SI]: what is beyond is in another unit.
+double largest_of_series(Dimension dimension);
+
 /// What one unit is in SI units, for the usual spellings ("mm", "m/s^2", "m_s2", "g", "deg"); nothing if it is no unit
 /// of this dimension.
 std::optional<double> unit_in_si(std::string_view spelling, Dimension dimension);

@@ -73,7 +73,8 @@ void refuse_more(const RecordText& text, std::size_t i)
 
 std::optional<double> stated_peak_m_s2(double peak, std::string_view unit)
 {
-    return peak != 0 ? std::optional(std::fabs(peak) * unit_m_s2(unit)) : std::nullopt;
+    const double size = std::fabs(peak) * unit_m_s2(unit);
+    return size > 0 && std::isfinite(size) ? std::optional(size) : std::nullopt;
 }
 
 FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_view spelling)

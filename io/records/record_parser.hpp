@@ -83,7 +83,8 @@ std::string canonical_unit(std::string_view spelling);
 /// @throws InputError if it is no unit of acceleration, or another than the one given
 std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given);
 
-/// The size of a peak that a header states, in m/s2; none for 0, which stands in headers that do not know it.
+/// The size of a peak that a header states, in m/s2; none for 0, which stands in headers that do not know it, and for
+/// what is 0 or infinite in m/s2.
 /// @pre canonical name
 std::optional<double> stated_peak_m_s2(double peak, std::string_view unit);
 

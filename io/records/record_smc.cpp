@@ -81,9 +81,8 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     record.dt_s = 1 / reals[1];
     check_dt(text, rate_line, record.dt_s);
     for (const std::size_t which : {29u, 31u})
-        if (reals[which] != unknown && reals[which] != 0)
-            record.header_pga_m_s2 =
-                std::max(record.header_pga_m_s2.value_or(0), std::fabs(reals[which]) * unit_m_s2(record.unit));
+        if (const auto peak = stated_peak_m_s2(reals[which], record.unit); peak && reals[which] != unknown)
+            record.header_pga_m_s2 = std::max(record.header_pga_m_s2.value_or(0), *peak);
 
     const std::size_t count = sample_count(text, text_lines + 2, counted(16));
     record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, 10, 8);

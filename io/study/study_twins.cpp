@@ -74,8 +74,16 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
     const double width_m = find_drum(study.structure, static_cast<std::size_t>(twins.block)).drum->width_m;
     Range move = twins_keys::moves.range;
     move.high = width_m / 4;
-    const std::vector<double> moves =
-        keys.has(twins_keys::moves) ? keys.number_list(twins_keys::moves.name, move) : twins_keys::usual_moves_m;
+    std::vector<double> moves = twins_keys::usual_moves_m;
+    if (keys.has(twins_keys::moves))
+        moves = keys.number_list(twins_keys::moves.name, move);
+    else
+        std::erase_if(moves, [&](double m) { return m > move.high; });
+    if (moves.empty())
+        keys.refuse_all(
+            fmt::format("[twins] has no moves_m, and the usual ones are more than a quarter of the width of "
+                        "block {}, {:g} m.\n  Give twins.moves_m.",
+                        twins.block, width_m));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         if (i > 0 && !(moves[i] > moves[i - 1]))
             keys.refuse(twins_keys::moves.name,

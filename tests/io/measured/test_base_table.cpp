@@ -137,9 +137,14 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double) { return "0"; }), {"there is no motion"});
     expect_refused(rows("time_s,displacement_m", 50, [](double) { return "0.1"; }), {"is 0.1 at all times"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, [](double t) { return digits(1e4 * acceleration(t)); }),
-                   {"peak acceleration", "more than 1000", "a unit is wrong"});
+                   {"acceleration_m_s2 reaches", "more than 1000", "a unit is wrong"});
     expect_refused(rows("time_s,displacement_m", 50, [](double t) { return digits(1000 * acceleration(t)); }),
+                   {"displacement_m reaches", "more than 200", "a unit is wrong"});
+    expect_refused(rows("time_s,displacement_m", 50, [](double t) { return digits(50 * acceleration(t)); }),
                    {"peak acceleration", "more than 50", "a unit is wrong"});
+    expect_refused(rows("time_s,displacement_m,acceleration_m_s2", 50,
+                        [](double t) { return digits(acceleration(t)) + (t > 0.4 ? ",8e300" : ",0.1"); }),
+                   {"acceleration_m_s2 reaches 8e+300", "a unit is wrong"});
     expect_refused(rows("time_s,displacement_m", 50, [](double t) { return t > 0.2 ? "0.1" : "0"; }),
                    {"too few digits"});
     expect_refused(rows("time_s,acceleration_m_s2", 50, one) + "0.51,1\n", {":52:", "a row is missing"});

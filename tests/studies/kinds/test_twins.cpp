@@ -284,6 +284,23 @@ TEST(Twins, WhereItIsChaoticTheHorizonGrowsWithTheLogarithmOfTheMove)
     EXPECT_LT(std::fabs(std::log(of_gain / exponent.value)), std::log(2.0)) << of_gain << ' ' << exponent.value;
 }
 
+TEST(Twins, MovesAreAtMostAQuarterOfTheDrumsWidth)
+{
+    const auto moves = [](const std::string& width_m) {
+        const Study study = twins_study(
+            {"twins.step_ratio=1", "twins.precision=false", "twins.forms=false", "structure.drum_width_m=" + width_m});
+        EXPECT_EQ(parse_study(study.text, "again").text, study.text);
+        std::vector<double> sizes;
+        for (const auto& kind : study.twins->kinds)
+            sizes.push_back(kind.size);
+        return sizes;
+    };
+    EXPECT_EQ(moves("0.004"), (std::vector<double>{1e-12, 1e-9, 1e-6, 1e-3}));
+    EXPECT_EQ(moves("0.0039"), (std::vector<double>{1e-12, 1e-9, 1e-6}));
+    EXPECT_THROW(moves("3e-12"), InputError);
+    EXPECT_THROW(twins_study({"twins.moves_m=[1e-3]", "structure.drum_width_m=0.0039"}), InputError);
+}
+
 TEST(Twins, TheStudysTextTellsAllOfThem)
 {
     const Study base = twins_study({"twins.moves_m=[0, 3e-7]", "twins.step_ratio=0.7", "twins.precision=false",
