@@ -154,7 +154,7 @@ double KeyReader::check(std::string_view key, const TomlValue& value, const Rang
         std::string todo = range.hint;
         if (range.guess != 0 && range.contains(value.number * range.guess))
             todo += fmt::format(" Did you mean {}?", readable(value.number * range.guess));
-        refuse(key, "is outside " + range.text(), todo);
+        refuse(key, "is outside " + range.text_for(value.number), todo);
     }
     return value.number + 0.0; // -0 becomes 0, so that equal studies have equal texts
 }
@@ -181,7 +181,8 @@ std::vector<double> KeyReader::check_list(std::string_view key, const Range& ran
         if (entry.type != TomlValue::Type::number && entry.type != TomlValue::Type::integer)
             refuse(key, fmt::format("contains {}, which is {}, not a number", entry.shown(), entry.type_name()), todo);
         if (!range.contains(entry.number))
-            refuse(key, fmt::format("contains {}, which is outside {}", entry.shown(), range.text()), todo);
+            refuse(key, fmt::format("contains {}, which is outside {}", entry.shown(), range.text_for(entry.number)),
+                   todo);
         numbers.push_back(entry.number + 0.0);
     }
     return numbers;

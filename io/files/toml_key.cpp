@@ -44,9 +44,14 @@ std::string in_brackets(const List& values, const Text& text)
 
 } // namespace
 
+bool Range::is_next_to_zero(double value) const
+{
+    return open && low == 0 && value > 0 && value < least_above_zero;
+}
+
 bool Range::contains(double value) const
 {
-    return std::isfinite(value) && (open ? value > low : value >= low) && value <= high;
+    return std::isfinite(value) && (open ? value > low : value >= low) && value <= high && !is_next_to_zero(value);
 }
 
 std::string Range::text() const
@@ -55,6 +60,11 @@ std::string Range::text() const
         return std::abs(value) < 1e6 ? fmt::format("{}", value) : fmt::format("{:g}", value);
     };
     return fmt::format("{}{}, {}]", open ? '(' : '[', bound(low), bound(high));
+}
+
+std::string Range::text_for(double value) const
+{
+    return text() + (is_next_to_zero(value) ? fmt::format(", which begins at {:g}", least_above_zero) : "");
 }
 
 std::string toml_text(double value)

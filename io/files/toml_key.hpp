@@ -13,6 +13,9 @@
 
 namespace stylobate {
 
+/// The least number of a range above 0: products and quotients of smaller ones would become 0 or infinite.
+inline constexpr double least_above_zero = 1e-30;
+
 /// What a number may be; never NaN or infinite.
 struct Range {
     double low = 0;
@@ -24,6 +27,11 @@ struct Range {
     bool contains(double value) const;
     /// "(0, 10]"
     std::string text() const;
+    /// The same for a message about a value outside: says of one just above 0 what the least one is.
+    std::string text_for(double value) const;
+
+private:
+    bool is_next_to_zero(double value) const;
 };
 
 /// A word of a file and what it stands for.

@@ -140,7 +140,7 @@ std::string study_reference()
         "default; one that is **needed** must be given where it is used. A key that is unknown, or that the "
         "study does not use, is refused with a hint. Some ranges are narrower in a study than here: a block "
         "number cannot exceed the number of blocks. Ranges are given as (low, high] without the lower end, "
-        "or [low, high] with it.");
+        "or [low, high] with it; (0, high] begins at 1e-30.");
     for (const TomlKey* table : study_file_keys().keys)
         if (table == &perturbation_table())
             page.perturbation();

@@ -38,13 +38,18 @@ std::vector<Cause> with_seen(const BalanceFit& fit, const Cause& first, const st
     return given;
 }
 
-/// What a further cause gains at the most, beside those given.
+/// What a cause of another kind gains at the most, beside those given.
 double best_further(const BalanceEvidence& balance, const std::vector<Cause>& given)
 {
     double best = 0;
-    for (const CauseFit& listed : balance.causes)
-        if (const CauseFit fit = balance.fit->fit(listed.cause, given); of_possible_size(fit, balance.fit->specimen()))
+    for (const CauseFit& listed : balance.causes) {
+        const auto same = [&](const Cause& cause) { return cause.mechanism == listed.cause.mechanism; };
+        if (std::any_of(given.begin(), given.end(), same))
+            continue; // the same force, placed elsewhere
+        const CauseFit fit = balance.fit->fit(listed.cause, given);
+        if (of_possible_size(fit, balance.fit->specimen()))
             best = std::max(best, fit.gain);
+    }
     return best;
 }
 

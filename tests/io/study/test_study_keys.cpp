@@ -277,6 +277,20 @@ TEST_F(StudyKeys, TheReaderKnowsEachRange)
     });
 }
 
+TEST(TomlRange, BeginsAboveZeroWhereProductsDoNotVanish)
+{
+    const Range open{0, 1, true}, closed{0, 1, false}, about_zero{-1, 1, true};
+    EXPECT_FALSE(open.contains(0));
+    EXPECT_FALSE(open.contains(5e-324));
+    EXPECT_FALSE(open.contains(0.999e-30));
+    EXPECT_TRUE(open.contains(1e-30));
+    EXPECT_TRUE(closed.contains(0));
+    EXPECT_TRUE(closed.contains(5e-324)) << "0 is allowed as well";
+    EXPECT_TRUE(about_zero.contains(5e-324));
+    EXPECT_EQ(open.text_for(5e-324), "(0, 1], which begins at 1e-30");
+    EXPECT_EQ(open.text_for(2), "(0, 1]");
+}
+
 TEST_F(StudyKeys, TheReaderTakesEachWordAndNoOther)
 {
     for_each_settable([&](const std::string& path, const TomlKey& key) {
