@@ -312,7 +312,10 @@ std::size_t KeyReader::word_index(std::string_view key, const std::vector<std::s
 
 void KeyReader::refuse(std::string_view key, const std::string& what, const std::string& todo) const
 {
-    const auto& value = *find(key);
+    const TomlValue* given = find(key);
+    if (!given)
+        refuse_all(with_todo(fmt::format("{} {}.", full(key), what), todo));
+    const TomlValue& value = *given;
     throw InputError(value.place.source, value.place.line,
                      with_todo(fmt::format("{} = {} {}.", full(key), value.shown(), what), todo));
 }

@@ -378,7 +378,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         if (const auto obstacle = rigid_obstacle(top, study.structure))
             obstacle->refuse();
     } else {
-        refuse_restitution(top, study);
+        refuse_restitution(top);
     }
     choose_steps(top.table(run_keys::table), study);
     if (study.run.precision == Precision::single)

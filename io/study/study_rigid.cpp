@@ -9,18 +9,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <utility>
+#include <vector>
 
 namespace stylobate {
 
 namespace {
 
-/// @param names of the blocks' key
-void refuse_restitution_of(const KeyReader& top, const BedSpec& bed, const char* names)
+/// The tables of all blocks that have a bed of their own.
+std::vector<KeyReader> tables_of_beds(const KeyReader& structure)
 {
-    if (bed.restitution)
-        top.table(structure_keys::table)
-            .refuse(names, "gives a bed a restitution, which only contact.form = \"rigid\" uses",
-                    "Remove it, or give contact.form = \"rigid\".");
+    using namespace structure_keys;
+    std::vector<KeyReader> owners = structure.tables(column_list);
+    owners.push_back(structure);
+    std::vector<KeyReader> beds = structure.tables(epistyles);
+    for (const KeyReader& owner : owners) {
+        for (KeyReader& drum : owner.tables(drums))
+            beds.push_back(std::move(drum));
+        beds.push_back(owner.table(capital));
+    }
+    return beds;
 }
 
 /// A mechanism that acts on the base alone, or moves a block.
@@ -32,13 +41,13 @@ bool is_supported(Mechanism mechanism)
 
 } // namespace
 
-void refuse_restitution(const KeyReader& top, const Study& study)
+void refuse_restitution(const KeyReader& top)
 {
-    for (const ColumnSpec& column : study.structure.columns)
-        for (const DrumSpec& drum : column.drums)
-            refuse_restitution_of(top, drum.bed, "drums");
-    for (const EpistyleSpec& epistyle : study.structure.epistyles)
-        refuse_restitution_of(top, epistyle.bed, "epistyles");
+    const std::string key = structure_keys::bed_restitution.name;
+    for (const KeyReader& bed : tables_of_beds(top.table(structure_keys::table)))
+        if (bed.has(key))
+            bed.refuse(key, "is the restitution of a bed, which only contact.form = \"rigid\" uses",
+                       "Remove it, or give contact.form = \"rigid\".");
 }
 
 std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const StructureSpec& structure)
@@ -51,20 +60,12 @@ std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const Structur
                 mechanisms, rule.name, "is not available with " + form,
                 "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
                 "it, or give contact.form = \"two_corner\" with a high stiffness."};
-    const auto stiff = [](const BedSpec& bed) {
-        return bed.normal_stiffness_n_m2 || bed.tangential_stiffness_n_m || bed.normal_damping_ratio ||
-               bed.tangential_damping_ratio;
-    };
-    const KeyReader of_structure = top.table(structure_keys::table.name);
-    for (const ColumnSpec& column : structure.columns)
-        for (const DrumSpec& drum : column.drums)
-            if (stiff(drum.bed))
-                return RigidObstacle{of_structure, "drums",
-                                     "gives a bed a stiffness or damping, which is not used by " + form, "Remove it."};
-    for (const EpistyleSpec& epistyle : structure.epistyles)
-        if (stiff(epistyle.bed))
-            return RigidObstacle{of_structure, "epistyles",
-                                 "gives a seat a stiffness or damping, which is not used by " + form, "Remove it."};
+    for (const KeyReader& bed : tables_of_beds(top.table(structure_keys::table)))
+        for (const TomlKey* key : std::initializer_list<const TomlKey*>{
+                 &structure_keys::bed_normal_stiffness, &structure_keys::bed_tangential_stiffness,
+                 &structure_keys::bed_normal_damping, &structure_keys::bed_tangential_damping})
+            if (bed.has(*key))
+                return RigidObstacle{bed, key->name, "is not used by " + form, "Remove it."};
     const std::vector<PlacedBlock> blocks = lay_out(structure).blocks;
     for (std::size_t i = 0; i < blocks.size(); ++i)
         for (std::size_t k = i + 1; k < blocks.size(); ++k) {

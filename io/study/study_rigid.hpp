@@ -24,6 +24,7 @@ struct RigidObstacle {
 std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const StructureSpec& structure);
 
 /// Refuses the restitution of a bed with contacts that yield.
-void refuse_restitution(const KeyReader& top, const Study& study);
+/// @param top of the file
+void refuse_restitution(const KeyReader& top);
 
 } // namespace stylobate

@@ -19,11 +19,11 @@
 ///      Simulated ties of a block to the base compete with the causes and stand for forces of no known kind: where one
 ///      would be named, the verdict is 'unexplained'.
 ///   5  A force of no known kind beside the cause that the balance of forces would name and those that the statistics
-///      name, which no further cause explains, makes the verdict 'unexplained'. So does one in the place of all causes,
-///      where a cause of a size that no specimen may have explains the forces clearly better than each of a possible
-///      size. So does one whose score is far beyond healthy campaigns', that explains much more of the balance of
-///      forces than any cause, and not by one run alone; and, where forces name nothing, what the best cause leaves of
-///      the statistics, beyond 99 % of healthy and of labelled campaigns.
+///      name, which no cause of another kind explains, makes the verdict 'unexplained'. So does one in the place of all
+///      causes, where a cause of a size that no specimen may have explains the forces clearly better than each of a
+///      possible size. So does one whose score is far beyond healthy campaigns', that explains much more of the balance
+///      of forces than any cause, and not by one run alone; and, where forces name nothing, what the best cause leaves
+///      of the statistics, beyond 99 % of healthy and of labelled campaigns.
 
 #include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"

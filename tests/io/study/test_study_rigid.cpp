@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,47 @@ TEST(StudyFileRigid, EachBedMayHaveItsOwnRestitution)
         ADD_FAILURE() << "accepted with contacts that yield";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("restitution"), std::string::npos) << error.what();
+    }
+}
+
+TEST(StudyFileRigid, WhatABedMayNotHaveIsRefusedWhereItIsGiven)
+{
+    const auto refusal = [](const std::string& structure, const std::string& contact) {
+        try {
+            parse_study(
+                "[study]\nkind = \"surface\"\nrealizations = 8\n[structure]\ndepth_m = 0.05\ndensity_kg_m3 = 2600\n"
+                "drum_width_m = 0.05\ndrum_height_m = 0.03\n" +
+                    structure + "\n[contact]\nfriction = 0.6\n" + contact +
+                    "\n[excitation]\nkind = \"harmonic\"\n[surface]\n"
+                    "frequency_hz = { from = 1.0, to = 2.0, count = 2 }\n"
+                    "pga_m_s2 = { from = 1.0, to = 2.0, count = 2 }\n",
+                "study.toml");
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const std::string yields = "normal_stiffness_n_m2 = 1e8", rigid = "form = \"rigid\"";
+    const auto column_with = [](const std::string& key) {
+        return "blocks = 3\ncapital = { width_m = 0.06, height_m = 0.02, " + key + " }";
+    };
+    const auto colonnade_with = [](const std::string& key) {
+        return "kind = \"colonnade\"\nepistyles = []\nblocks = 2\ncolumn_list = [ { x_m = 0.0 },\n"
+               "{ x_m = 1.0, capital = { width_m = 0.06, height_m = 0.02, " +
+               key + " } } ]";
+    };
+    EXPECT_EQ(refusal(column_with("friction = 0.5"), yields), "accepted");
+    EXPECT_EQ(refusal(colonnade_with("friction = 0.5"), yields), "accepted");
+    for (const auto& with : {std::function<std::string(std::string)>(column_with), {colonnade_with}}) {
+        const std::string line =
+            with("x").find("colonnade") == std::string::npos ? "study.toml:10: " : "study.toml:13: ";
+        const std::string restitution = refusal(with("restitution = 0.3"), yields);
+        EXPECT_TRUE(restitution.starts_with(line)) << restitution;
+        EXPECT_NE(restitution.find("capital.restitution = 0.3"), std::string::npos) << restitution;
+        const std::string stiffness = refusal(with("normal_stiffness_n_m2 = 1e9"), rigid);
+        EXPECT_TRUE(stiffness.starts_with(line)) << stiffness;
+        EXPECT_NE(stiffness.find("capital.normal_stiffness_n_m2 = 1000000000 is not used by"), std::string::npos)
+            << stiffness;
     }
 }
 
