@@ -135,21 +135,30 @@ struct Unfit {
 
 /// The first thing that must not reach the parser. toml++ 3.3 runs into undefined behaviour when it looks whether a
 /// character from U+00A1 to U+0499 is white space, which it does outside of comments and strings (where TOML allows
-/// none beyond ASCII), in strings of many lines (which a study does not need), and in quotes right behind a number,
-/// which it takes for a part of that number. It breaks an assertion without a line number where a section's name begins
-/// with another character than a key's.
+/// none beyond ASCII), in strings of many lines (which a study does not need), and in quotes within a number, which
+/// goes on for it up to a comma, a closing bracket or white space. It breaks an assertion without a line number where a
+/// section's name begins with another character than a key's.
 Unfit find_unfit(std::string_view text)
 {
     if (text.substr(0, 3) == "\xef\xbb\xbf")
         text.remove_prefix(3); // a byte order mark
     enum class In { nothing, comment, basic, literal } in = In::nothing;
     bool blank_so_far = true; // this line
+    bool section = false;     // this line is its name
+    bool assigned = false;    // since the last key of a table may have begun
+    bool within = false;      // the last character is an = that is within a value
+    std::string brackets;     // that are open
     long line = 1;
+    const auto begins_value = [&](std::size_t i) {
+        return i == 0 || (!within && std::string_view(" \t\r\n=,[{").find(text[i - 1]) != std::string_view::npos);
+    };
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (c == '\n') {
             ++line;
             blank_so_far = true;
+            section = false;
+            assigned = assigned && !brackets.empty();
             in = In::nothing; // a string that is still open is an error that the parser finds
             continue;
         }
@@ -157,6 +166,7 @@ Unfit find_unfit(std::string_view text)
         case In::nothing:
             if (c == '[' && blank_so_far && !names_section(text.substr(i)))
                 return {line, "a [section] without a proper name"};
+            section = section || (c == '[' && blank_so_far && brackets.empty());
             blank_so_far = blank_so_far && (c == ' ' || c == '\t');
             if (static_cast<unsigned char>(c) >= 0x80)
                 return {line, "a character beyond ASCII outside of quotes"};
@@ -165,10 +175,20 @@ Unfit find_unfit(std::string_view text)
             if (text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''")
                 return {line, "a string in three quotes"};
             if (c == '"' || c == '\'') {
-                if (i > 0 && std::string_view(" \t\r\n=,.[{").find(text[i - 1]) == std::string_view::npos)
+                const bool part_of_name = section && text[i - 1] == '.';
+                if (!begins_value(i) && !part_of_name)
                     return {line, "a quote in the middle of a value"};
                 in = c == '"' ? In::basic : In::literal;
             }
+            if (c == '[' || c == '{') {
+                if (!begins_value(i))
+                    return {line, "a bracket in the middle of a value"};
+                brackets += c;
+            }
+            if ((c == ']' || c == '}') && !brackets.empty())
+                brackets.pop_back();
+            within = c == '=' && (assigned || brackets.ends_with('['));
+            assigned = c == '=' || (assigned && c != '{' && (c != ',' || !brackets.ends_with('{')));
             break;
         case In::comment:
             break;

@@ -404,6 +404,11 @@ TEST(StudyFile, RefusesWhatIsNotToml)
     expect_line_refused(9, "depth_m = \xc3\xa9", {"beyond ASCII"});
     expect_line_refused(9, "depth_m = 1\"\xc3\xa9 \"", {"a quote in the middle of a value"});
     expect_line_refused(5, "kind = \"column\"\"x\"", {"a quote in the middle of a value"});
+    expect_line_refused(9, "depth_m = 7.\"\xc3\xa9\"", {"a quote in the middle of a value"});
+    expect_line_refused(9, "depth_m = 7[\"\xc3\xa9\"]", {"a bracket in the middle of a value"});
+    expect_line_refused(9, "depth_m = 7=\"\xc3\xa9\"", {"a quote in the middle of a value"});
+    expect_line_refused(9, "depth_m = [7, 7=[\"\xc3\xa9\"]]", {"a bracket in the middle of a value"});
+    expect_line_refused(9, "depth_m = [7, 7=\"\xc3\xa9\"]", {"a quote in the middle of a value"});
     expect_line_refused(5, "kind = \"\"\"column\"\"\"\nblocks = 7", {"three quotes"});
     expect_line_refused(5, "kind = \"s\xc3\xa9isme # \\\" \xc3\xa9\" # \xc3\xa9\nblocks = 7",
                         {"\"s\xc3\xa9isme # ", "not allowed"});
