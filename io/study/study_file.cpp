@@ -183,7 +183,8 @@ std::vector<std::string> read_allow(const KeyReader& keys)
 void read_output(const KeyReader& keys, Study& study)
 {
     OutputSpec& output = study.output;
-    output.trajectory_rate_hz = keys.read_or(output_keys::trajectory_rate, usual_trajectory_rate_hz(study));
+    const NumberKey& rate = output_keys::trajectory_rate;
+    output.trajectory_rate_hz = keys.read_or(rate, std::min(usual_trajectory_rate_hz(study), rate.range.high));
     read_trajectories(keys, study.kind, output);
     study.kept = keys.read(output_keys::realizations);
     const auto refuse = [&](const std::string& why) {

@@ -184,17 +184,23 @@ void change_row(FileHandle& handle, const Original& original, const RowPlaces& p
     handle.write(places.column[column] + row * bytes, std::as_bytes(std::span(value)));
 }
 
+/// Where the rows are, after changes by the HDF5 library.
+RowPlaces places_in(const std::filesystem::path& path, const Original& original)
+{
+    try {
+        return find_rows(hdf5::open_file(path, false).id(), original.layout);
+    } catch (const hdf5::Error&) {
+        return original.places; // where they were
+    }
+}
+
 /// Rows changed, with right checksums.
-void repair_chunks(const std::filesystem::path& path, const Original& original, ByteSource& recipe)
+void repair_chunks(const std::filesystem::path& path, const Original& original, const RowPlaces& places,
+                   ByteSource& recipe)
 {
     ResultFile file;
     file.layout = original.layout;
-    file.places = original.places;
-    try {
-        const hdf5::Handle opened = hdf5::open_file(path, false);
-        file.places = find_rows(opened.id(), original.layout);
-    } catch (const hdf5::Error&) { // where they were
-    }
+    file.places = places;
     file.handle = FileHandle::open(path, true);
     for (std::size_t changes = recipe.below(4); changes > 0 && !recipe.empty(); --changes)
         change_row(file.handle, original, file.places, recipe);
@@ -253,12 +259,13 @@ Verdict judge(std::string_view input)
     if (how % 4 == 0)
         return damaged(original, file, recipe);
     write_file(file, original.head);
-    if (how % 4 != 1 && !edit_hdf5_file(file, original.objects, recipe, how / 4 % 4 + 1))
+    const bool edited = how % 4 != 1;
+    if (edited && !edit_hdf5_file(file, original.objects, recipe, how / 4 % 4 + 1))
         return Verdict::refused;
     if (!original.complete && !original.rows.empty()) {
         append_journal(file, original, recipe);
     } else if (original.complete && !original.rows.empty()) {
-        repair_chunks(file, original, recipe);
+        repair_chunks(file, original, edited ? places_in(file, original) : original.places, recipe);
     } else {
         FileHandle handle = FileHandle::open(file, true);
         write_seal(handle, original.block, {});

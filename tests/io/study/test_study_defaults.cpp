@@ -242,6 +242,10 @@ TEST(StudyDefaults, TheRateOfTrajectoriesFollowsTheStructureAndItsShaking)
     EXPECT_EQ(rate(sine + "2"), 100); // p = 3.2255 rad/s: 51.3 a second, and 40 of the sine
     EXPECT_EQ(rate(sine + "8.2"), 170) << "20 in a period, up to whole tens";
     EXPECT_EQ(rate(sine + "2", {"output.trajectory_rate_hz=1234"}), 1234);
+    EXPECT_EQ(rate(sine + "2",
+                   {"structure.drum_height_m=1e-9", "structure.drum_width_m=1e-9", "structure.drum_mass_kg=1e-15"}),
+              1e6)
+        << "the largest allowed";
     // drums of 48 x 29 mm: R = 28.04 mm, p = 16.198 rad/s: 257.8 a second; a block of 48 x 174 mm: 143.7
     EXPECT_EQ(read_study(root / "studies/inputs/mechanisms.toml").output.trajectory_rate_hz, 260);
     EXPECT_EQ(read_study(root / "studies/inputs/small_scale_monolith.toml").output.trajectory_rate_hz, 200)
