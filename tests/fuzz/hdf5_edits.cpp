@@ -47,6 +47,9 @@ void change_attribute(hid_t object, ByteSource& recipe)
         hdf5::write_real(object, name, any_double(recipe));
 }
 
+/// Elements for which there is room in the file; more are only announced, and writing one would fill all of them.
+constexpr double most_allocated = 4096;
+
 /// One element of a data set in one piece. (The library itself breaks on some writes into packed ones.)
 void change_element(hid_t dataset, ByteSource& recipe)
 {
@@ -59,6 +62,11 @@ void change_element(hid_t dataset, ByteSource& recipe)
         return;
     hsize_t dims[4] = {}, at[4] = {};
     H5Sget_simple_extent_dims(space.id(), dims, nullptr);
+    double count = 1;
+    for (int d = 0; d < rank; ++d)
+        count *= static_cast<double>(dims[d]);
+    if (count > most_allocated)
+        return;
     for (int d = 0; d < rank; ++d)
         at[d] = recipe.below(static_cast<std::size_t>(dims[d]));
     if (rank > 0)
@@ -120,7 +128,6 @@ void replace_dataset(hid_t file, const std::string& path, ByteSource& recipe)
     double count = 1;
     for (const hsize_t n : dims)
         count *= static_cast<double>(n);
-    constexpr double most_allocated = 4096;
     H5Pset_alloc_time(creation.id(), count > most_allocated ? H5D_ALLOC_TIME_LATE : H5D_ALLOC_TIME_EARLY);
     if (how >= 128 && !dims.empty() && dims.size() <= 4 && count <= most_allocated) { // in pieces, packed
         hsize_t piece[4];
