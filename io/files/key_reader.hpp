@@ -119,7 +119,7 @@ public:
     /// The place of a string among the words that are allowed.
     std::size_t word_index(std::string_view key, const std::vector<std::string>& words) const;
 
-    /// "PLACE: path.key = value WHAT.\n  ADVICE"; `what` begins with a verb.
+    /// "PLACE: path.key = value WHAT.\n  ADVICE"; `what` begins with a verb. Of a key that is absent there is no value.
     [[noreturn]] void refuse(std::string_view key, const std::string& what, const std::string& todo = {}) const;
     /// "PLACE: path.key is missing.\n  ADVICE"
     [[noreturn]] void missing(std::string_view key, const std::string& todo) const;

@@ -272,6 +272,15 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     out.named.push_back(std::move(second));
 }
 
+std::vector<Cause> named_by_statistics(const Decided& decided)
+{
+    std::vector<Cause> causes;
+    for (const JudgedCause& j : decided.named)
+        if (j.channel == Channel::statistics)
+            causes.push_back(j.fit.cause);
+    return causes;
+}
+
 /// What the statistics say of a mechanism [nats].
 double gain_by_statistics(const EnsembleDiagnosis& ensemble, const std::string& mechanism)
 {
@@ -366,6 +375,7 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         out.unexplained = forces.unknown;
         if (!forces.causes.empty())
             out.beside = forces.causes.front();
+        out.beside_too = forces.given_too;
         out.unexplained_chance = forces.p_value;
     } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
         out.unexplained_chance = ensemble.forces.p_value;
@@ -398,11 +408,7 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
         if (!beyond_simulation(direct)) {
             judge_statistics(balance, *ensemble, out);
             share_what_remains(ensemble->by_statistics, out);
-            std::vector<Cause> by_statistics;
-            for (const JudgedCause& j : out.named)
-                if (j.channel == Channel::statistics)
-                    by_statistics.push_back(j.fit.cause);
-            const NamedByForces forces = named_by_forces(balance, *ensemble, by_statistics, rule);
+            const NamedByForces forces = named_by_forces(balance, *ensemble, named_by_statistics(out), rule);
             judge_forces(forces, *ensemble, rule, out);
             find_unexplained(balance, *ensemble, forces, rule, out);
         }

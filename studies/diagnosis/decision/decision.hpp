@@ -71,6 +71,7 @@ struct Decided {
     std::vector<JudgedCause> judged; ///< all
     std::optional<StructureFit> unexplained;
     std::optional<CauseFit> beside; ///< the cause beside which it is left; nothing: it stands by itself
+    std::vector<Cause> beside_too;  ///< and those that the statistics name
     bool by_tie =
         false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not tell from it
     double unexplained_chance = 1;

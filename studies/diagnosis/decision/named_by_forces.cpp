@@ -28,14 +28,13 @@ bool shown(const CauseFit& fit, const ScorePlan& scored, const ForceTest& listed
            in_units(fit.gain, listed.unit[static_cast<std::size_t>(at - scored.causes.begin())]) >= rule.shown;
 }
 
-/// The first cause, and those of the others that the samples show and that are not the same.
-std::vector<Cause> with_seen(const BalanceFit& fit, const Cause& first, const std::vector<Cause>& others)
+/// Those that the samples show, but for the first cause itself.
+std::vector<Cause> seen_beside(const Cause& first, std::vector<Cause> causes, const BalanceFit& fit)
 {
-    std::vector<Cause> given{first};
-    for (const Cause& other : others)
-        if ((other.mechanism != first.mechanism || other.place != first.place) && !std::isnan(fit.score(other)))
-            given.push_back(other);
-    return given;
+    std::erase_if(causes, [&](const Cause& cause) {
+        return (cause.mechanism == first.mechanism && cause.place == first.place) || std::isnan(fit.score(cause));
+    });
+    return causes;
 }
 
 /// What a cause of another kind gains at the most, beside those given.
@@ -116,7 +115,10 @@ NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiag
             out.causes.push_back(fit);
     }
     if (balance.fit && !out.causes.empty()) {
-        const std::vector<Cause> given = with_seen(*balance.fit, out.causes.front().cause, by_statistics);
+        const Cause& first = out.causes.front().cause;
+        out.given_too = seen_beside(first, by_statistics, *balance.fit);
+        std::vector<Cause> given{first};
+        given.insert(given.end(), out.given_too.begin(), out.given_too.end());
         const double least = std::max(rule.clear, best_further(balance, given) + rule.structure_better);
         out.unknown = beyond_healthy(balance.fit->describe(given), least, scored, ensemble.forces, rule);
     }

@@ -19,6 +19,7 @@ struct NamedByForces {
     /// A force of no known kind: beside the best one and what the statistics name, or, where forces name none, in the
     /// place of all.
     std::optional<StructureFit> unknown;
+    std::vector<Cause> given_too; ///< what the statistics name of other forces: `unknown` is beside it, too
 };
 
 /// @param ensemble its candidates (a cause is named at places where they are), and the tests of the scores

@@ -337,9 +337,12 @@ void Pipeline::describe_unexplained()
         for (const CauseFit& fit : balance_->causes)
             best = std::max(best, fit.gain);
     }
+    std::string too;
+    for (const Cause& cause : decided_.beside_too)
+        too += fmt::format(", and beside {}, which the statistics name", cause.label());
     u.text = decided_.beside
-                 ? fmt::format("{}. It gains {:.1f} nats beside the best known cause, {}, which gains {:.1f}", s.text,
-                               decided_.unexplained->gain, decided_.beside->cause.label(), decided_.beside->gain)
+                 ? fmt::format("{}. It gains {:.1f} nats beside the best known cause, {}, which gains {:.1f}{}", s.text,
+                               decided_.unexplained->gain, decided_.beside->cause.label(), decided_.beside->gain, too)
                  : fmt::format("{}. Its gain over the baseline is {:.1f} nats; that of the best known cause in its "
                                "place is {:.1f}",
                                s.text, decided_.unexplained->gain, best);

@@ -277,6 +277,17 @@ TEST_F(StudyKeys, TheReaderKnowsEachRange)
     });
 }
 
+TEST(KeyReader, RefusesAKeyThatIsAbsentAtItsTable)
+{
+    const KeyReader structure(nullptr, "structure", {"temple.toml", 4, false});
+    try {
+        structure.refuse("drums", "has no bed", "Give one.");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "temple.toml:4: structure.drums has no bed.\n  Give one.");
+    }
+}
+
 TEST(TomlRange, BeginsAboveZeroWhereProductsDoNotVanish)
 {
     const Range open{0, 1, true}, closed{0, 1, false}, about_zero{-1, 1, true};

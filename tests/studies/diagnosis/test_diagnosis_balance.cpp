@@ -58,7 +58,8 @@ Campaign coasting_campaign(const std::function<double(double)>& slowed)
 
 /// Block and slab slide together, or the block on the slab: frictions of the two joints.
 /// @param drag slows both by so much times the square of the velocity [1/m]
-Campaign slab_campaign(double lower, double upper, double drag = 0)
+/// @param viscous likewise times the velocity [1/s]
+Campaign slab_campaign(double lower, double upper, double drag = 0, double viscous = 0)
 {
     Campaign campaign;
     campaign.specimen = block_on_slab();
@@ -66,7 +67,8 @@ Campaign slab_campaign(double lower, double upper, double drag = 0)
     for (const double velocity : {1.5, -1.5, 1.0, -1.0, 1.8, -1.8}) {
         const bool together = seed % 4 < 2;
         const double mu = together ? lower : upper;
-        const std::vector<double> x = coasting(velocity, [&](double v) { return mu * formula_gravity + drag * v * v; });
+        const std::vector<double> x =
+            coasting(velocity, [&](double v) { return mu * formula_gravity + drag * v * v + viscous * v; });
         campaign.runs.push_back(formula_run(
             campaign.specimen, static_cast<int>(x.size()),
             [&](int b, int i) {
@@ -446,6 +448,53 @@ TEST(NamedByForces, TheForcesOfWhatTheStatisticsNameAreNotUnknown)
     unseen.joint = 0;
     ASSERT_TRUE(unknown_beside({first, unseen}));
     EXPECT_EQ(unknown_beside({first, unseen})->gain, gain);
+    EXPECT_EQ(named_by_forces(evidence, ensemble, {first, unseen, second->cause}, alone).given_too,
+              std::vector<Cause>{second->cause});
+
+    // the decision asks for what its own statistics name
+    EnsembleDiagnosis named = ensemble;
+    named.forces.variant = -1;
+    EnsembleVerdict& statistics = named.by_statistics;
+    statistics.best = static_cast<int>(
+        std::find(named.scored.causes.begin(), named.scored.causes.end(), second->cause) - named.scored.causes.begin());
+    ASSERT_LT(static_cast<std::size_t>(statistics.best), named.causes.size());
+    CandidateCause& candidate = named.causes[static_cast<std::size_t>(statistics.best)];
+    candidate.at_one = second->size;
+    candidate.most = 1;
+    statistics.causes[static_cast<std::size_t>(statistics.best)] = {20, 1, 0.9, 1.1};
+    statistics.null_gains = {1, 2};
+    statistics.null_weights = {1, 1};
+    EXPECT_EQ(decide({}, evidence, &named, alone).verdict, Verdict::unexplained) << "they name nothing";
+    statistics.named = true;
+    statistics.probability = statistics.set_probability = 0.8;
+    EXPECT_EQ(decide({}, evidence, &named, alone).verdict, Verdict::named);
+}
+
+TEST(NamedByForces, TheSameCauseElsewhereIsNoSecondOne)
+{
+    // a force in proportion to the velocity, which drag stands for, and which drag at a block explains further
+    const Campaign campaign = slab_campaign(0.5, 0.5, 0, 1.2);
+    const BalanceEvidence evidence = evidence_of(campaign);
+    EnsembleDiagnosis ensemble = beyond_healthy(campaign);
+    const auto at_blocks = [](const auto& c) { return c.cause.mechanism == "drag" && c.cause.block >= 0; };
+    std::erase_if(ensemble.causes, at_blocks); // drag is simulated at all blocks alone
+    const NamedByForces named = named_by_forces(evidence, ensemble);
+    ASSERT_FALSE(named.causes.empty());
+    const Cause first = named.causes.front().cause;
+    ASSERT_EQ(first.label(), "drag at all");
+    double elsewhere = 0, other = 0;
+    for (const CauseFit& listed : evidence.causes) {
+        double& best = listed.cause.mechanism == "drag" ? elsewhere : other;
+        best = std::max(best, evidence.fit->fit(listed.cause, {first}).gain);
+    }
+    const double left = evidence.fit->describe({first}).front().gain;
+    ASSERT_GT(elsewhere, other + 0.1) << other;
+    DecisionRule rule;
+    rule.clear = 0;
+    rule.structure_better = left - (elsewhere + other) / 2; // more than beside other causes, less than beside all
+    EXPECT_TRUE(named_by_forces(evidence, ensemble, {}, rule).unknown);
+    rule.structure_better = left - other + 0.01;
+    EXPECT_FALSE(named_by_forces(evidence, ensemble, {}, rule).unknown);
 }
 
 TEST(NamedByForces, WhatOnlyAnImpossibleSizeExplainsIsNoneOfTheList)
