@@ -177,7 +177,8 @@ Score score(const std::vector<Answer>& answers, const std::vector<std::optional<
         for (const SaidCause& cause : diagnosis.causes) {
             const AnswerEffect* effect = effect_named(answer, cause.name);
             const double right = effect != nullptr ? 1 : 0;
-            ++total.causes;
+            ++total.stated.of;
+            total.stated.count += effect != nullptr ? 1 : 0;
             total.brier += (cause.probability - right) * (cause.probability - right);
             ReliabilityBin& bin = total.reliability[std::min<std::size_t>(
                 static_cast<std::size_t>(cause.probability * 5), total.reliability.size() - 1)];
@@ -205,8 +206,8 @@ Score score(const std::vector<Answer>& answers, const std::vector<std::optional<
             total.coverage.count += effect->size >= cause.low && effect->size <= cause.high ? 1 : 0;
         }
     }
-    if (total.causes > 0)
-        total.brier /= total.causes;
+    if (total.stated.of > 0)
+        total.brier /= total.stated.of;
     for (ReliabilityBin& bin : total.reliability)
         if (bin.causes > 0)
             bin.mean_probability /= bin.causes;

@@ -72,8 +72,8 @@ struct Score {
     int other_parameter = 0; ///< sizes that could not be compared, as the parameter is another
     double points = 0;       ///< hits, and halves
     int to_find = 0;         ///< campaigns of `single`, `pair` and `outside`
+    Share stated;            ///< causes that are hidden, among all that are stated, also beside the first one
     double brier = 0;        ///< mean of (probability - right)2 over all stated causes
-    int causes = 0;
     std::vector<ReliabilityBin> reliability;
     std::map<std::string, std::map<std::string, int>> confusion; ///< hidden -> said -> campaigns
     /// hits with the effect's strength over scatter: below 0.5, 1, 2, 4, above

@@ -55,8 +55,9 @@ std::string markdown(const Score& score)
     text += markdown_row("sizes within their interval | {}", share(score.coverage));
     if (score.other_parameter > 0)
         text += markdown_row("sizes of another parameter, not compared | {}", score.other_parameter);
-    if (score.causes > 0)
-        text += markdown_row("Brier score of {} stated causes | {:.3f}", score.causes, score.brier);
+    text += markdown_row("stated causes that are there, also beside the first one | {}", share(score.stated));
+    if (score.stated.of > 0)
+        text += markdown_row("Brier score of {} stated causes | {:.3f}", score.stated.of, score.brier);
     if (score.campaigns > 0)
         text += markdown_row("time of a diagnosis, mean | {:.0f} s", score.seconds / score.campaigns);
     text += "\nIntervals are Jeffreys', 95 %.\n";

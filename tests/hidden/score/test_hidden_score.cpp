@@ -135,7 +135,8 @@ TEST(Scoring, CountsByHand)
     EXPECT_EQ(total.coverage.count, 1);
     EXPECT_EQ(total.other_parameter, 1);
     // seven causes: four right at 0.8, two wrong at 0.8, one wrong at 0.4
-    EXPECT_EQ(total.causes, 7);
+    EXPECT_EQ(total.stated.of, 7);
+    EXPECT_EQ(total.stated.count, 4);
     EXPECT_NEAR(total.brier, (4 * 0.04 + 2 * 0.64 + 0.16) / 7, 1e-12);
     EXPECT_EQ(total.reliability[4].causes, 6);
     EXPECT_EQ(total.reliability[4].right, 4);
@@ -149,6 +150,7 @@ TEST(Scoring, CountsByHand)
     const std::string text = markdown(total);
     EXPECT_NE(text.find("| one effect | 4 | 1 | 0 | 0 | 0 | 0 | 0 | 5 |"), std::string::npos) << text;
     EXPECT_NE(text.find("| false alarms | 2 of 3, 67 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("also beside the first one | 4 of 7, 57 %"), std::string::npos) << text;
     EXPECT_NE(text.find("seeds 7."), std::string::npos) << text;
 }
 
