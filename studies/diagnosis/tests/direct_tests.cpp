@@ -384,12 +384,23 @@ void correct_bases(const Campaign& campaign, const TrackScales& scales, DirectRe
     out.base_m = out.corrected_m;
 }
 
+/// How far block `block` was found beside its place on the table, on the mean over the runs.
+double found_beside(const Campaign& campaign, const DirectResult& shown, int block)
+{
+    for (const CauseFit& fit : shown.found)
+        if (fit.cause.mechanism == "drum_offset" && fit.cause.block == block && sees_table(campaign))
+            return fit.size;
+    return 0;
+}
+
 /// Sensors and cameras have their own zeros: the base is put where the lowest block says that it is at first, up to how
-/// exactly that was put down.
+/// exactly that was put down. An offset that it was found to have is its own: a base that had it, too, would seem to
+/// have lost at one corner what the block protrudes there.
 void align_bases(const Campaign& campaign, DirectResult& out)
 {
     const Specimen& s = campaign.specimen;
     const auto block = static_cast<std::size_t>(lowest_blocks(s).front());
+    const double beside = found_beside(campaign, out, static_cast<int>(block));
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const MeasuredRun& run = campaign.runs[r];
         if (out.base_m[r].empty() || run.blocks.x_m.empty())
@@ -406,7 +417,7 @@ void align_bases(const Campaign& campaign, DirectResult& out)
         }
         if (count > 0)
             for (double& x : out.base_m[r])
-                x += sum / count;
+                x += sum / count - beside;
     }
 }
 
@@ -429,8 +440,8 @@ DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, c
     Prepared prepared = prepare_rides(campaign, scales);
     test_base(campaign, scales, limits, prepared, out);
     correct_bases(campaign, scales, out);
-    align_bases(campaign, out);
     test_rest(campaign, scales, limits, out);
+    align_bases(campaign, out);
     return out;
 }
 

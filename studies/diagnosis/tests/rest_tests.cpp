@@ -107,13 +107,17 @@ void test_places(const Specimen& s, bool table, const TrackScales& scales, const
 
 } // namespace
 
+bool sees_table(const Campaign& campaign)
+{
+    return std::all_of(campaign.runs.begin(), campaign.runs.end(),
+                       [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
+}
+
 void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out)
 {
     const Specimen& s = campaign.specimen;
     const auto n = static_cast<std::size_t>(s.blocks());
     const auto fewest = static_cast<std::size_t>(std::max(20, 2 * scales.rates.half_width()));
-    const bool table = std::all_of(campaign.runs.begin(), campaign.runs.end(),
-                                   [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
     std::vector<std::vector<double>> angle(n), place(n);
     double variance = 0; // of the sum of the runs' means, for noise of 1
     for (const MeasuredRun& run : campaign.runs) {
@@ -167,7 +171,7 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         if (!wedge.cause.mechanism.empty())
             out.found.push_back(wedge);
 
-    test_places(campaign.specimen, table, scales, limits, place, runs / variance, out);
+    test_places(campaign.specimen, sees_table(campaign), scales, limits, place, runs / variance, out);
 }
 
 } // namespace stylobate

@@ -16,6 +16,7 @@ struct Wrong {
     double gain = 1, offset_s = 0, second_harmonic = 0, cube = 0, pitch_rad_s2_m = 0, vertical_ratio = 0;
     double wedge_rad = 0;     ///< at joint 1: it carries the blocks 1 and 2
     double placed_off_m = 0;  ///< block 1
+    double lowest_off_m = 0;  ///< of block 0
     double rocks_rad = 0;     ///< block 0 rocks on the table, up to this
     double own_m_s2 = 0;      ///< the table moves up and down by itself, with 9 Hz
     double soft_rad_s2_m = 0; ///< soft beds: the lowest block leans so much, the others more
@@ -73,6 +74,7 @@ Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
         double placed[3];
         for (double& x : placed)
             x = s.placement_tolerance_m * normal(random);
+        placed[0] += wrong.lowest_off_m;
         placed[1] += wrong.placed_off_m;
         MeasuredRun run;
         run.name = "00" + std::to_string(r);
@@ -356,6 +358,24 @@ TEST_P(DirectTests, ASmallWedgeIsSeenInTheTimeBeforeTheMotion)
 TEST_P(DirectTests, OffsetDrum)
 {
     expect_found({.placed_off_m = 1.5e-3}, "drum_offset", "block 1", 1.5e-3, 4e-4);
+}
+
+TEST_P(DirectTests, TheBaseDoesNotGoAlongWithABlockThatWasPutBesideItsPlace)
+{
+    const Campaign campaign = campaign_with({.lowest_off_m = 1.5e-3}, 7, GetParam());
+    const DirectResult result = tested(campaign);
+    ASSERT_EQ(result.found.size(), 1u) << found_in(result);
+    EXPECT_EQ(result.found.front().cause.place, "block 0");
+    const DirectResult again = apply_corrections(campaign, track_scales(campaign), result);
+    for (const DirectResult* each : {&result, &again}) {
+        double base = 0; // before it moves, on the mean over the runs: 0 by the table
+        for (const std::vector<double>& run : each->base_m)
+            base += run.front() / static_cast<double>(each->base_m.size());
+        if (GetParam())
+            EXPECT_NEAR(base, 0, 5e-5);
+        else // the table's place is not known: under the block
+            EXPECT_NEAR(base, 1.5e-3, 4e-4);
+    }
 }
 
 /// Runs in which nothing but the placing of the blocks happens, 24 of them.
