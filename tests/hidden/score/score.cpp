@@ -176,14 +176,14 @@ Score score(const std::vector<Answer>& answers, const std::vector<std::optional<
             continue;
         for (const SaidCause& cause : diagnosis.causes) {
             const AnswerEffect* effect = effect_named(answer, cause.name);
-            const double right = effect != nullptr ? 1 : 0;
+            const int right = effect != nullptr ? 1 : 0;
             ++total.stated.of;
-            total.stated.count += effect != nullptr ? 1 : 0;
+            total.stated.count += right;
             total.brier += (cause.probability - right) * (cause.probability - right);
             ReliabilityBin& bin = total.reliability[std::min<std::size_t>(
                 static_cast<std::size_t>(cause.probability * 5), total.reliability.size() - 1)];
             ++bin.causes;
-            bin.right += effect != nullptr ? 1 : 0;
+            bin.right += right;
             bin.mean_probability += cause.probability;
         }
         // place and size: of the causes that the verdict stands for

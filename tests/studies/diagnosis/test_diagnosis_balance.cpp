@@ -468,6 +468,14 @@ TEST(NamedByForces, TheForcesOfWhatTheStatisticsNameAreNotUnknown)
     statistics.named = true;
     statistics.probability = statistics.set_probability = 0.8;
     EXPECT_EQ(decide({}, evidence, &named, alone).verdict, Verdict::named);
+    // what is left beside both is said to be so
+    DecisionRule any = alone;
+    any.clear = 0;
+    any.structure_better = -1e9;
+    const Decided left = decide({}, evidence, &named, any);
+    ASSERT_TRUE(left.beside);
+    EXPECT_EQ(left.beside->cause, first);
+    EXPECT_EQ(left.beside_too, std::vector<Cause>{second->cause});
 }
 
 TEST(NamedByForces, TheSameCauseElsewhereIsNoSecondOne)

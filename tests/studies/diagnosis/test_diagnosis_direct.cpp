@@ -16,7 +16,7 @@ struct Wrong {
     double gain = 1, offset_s = 0, second_harmonic = 0, cube = 0, pitch_rad_s2_m = 0, vertical_ratio = 0;
     double wedge_rad = 0;     ///< at joint 1: it carries the blocks 1 and 2
     double placed_off_m = 0;  ///< block 1
-    double lowest_off_m = 0;  ///< of block 0
+    double lowest_off_m = 0;  ///< block 0
     double rocks_rad = 0;     ///< block 0 rocks on the table, up to this
     double own_m_s2 = 0;      ///< the table moves up and down by itself, with 9 Hz
     double soft_rad_s2_m = 0; ///< soft beds: the lowest block leans so much, the others more
