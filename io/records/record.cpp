@@ -33,8 +33,12 @@ std::vector<Record> parse(std::string_view content, const std::string& file, con
     const RecordText text = lines_of(file, content);
     std::string formats;
     for (const RecordParser* parser : parsers) {
-        if (parser->recognise(text))
-            return parser->parse(text, given);
+        if (parser->recognise(text)) {
+            std::vector<Record> records = parser->parse(text, given);
+            for (Record& record : records)
+                record.direction = direction_of(record);
+            return records;
+        }
         formats += fmt::format("{}{}", formats.empty() ? "" : ", ", parser->format);
     }
     text.refuse(fmt::format("has an unknown format ({}). Give a PEER .AT2 file, or a table with the time in s in its "

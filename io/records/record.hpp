@@ -11,6 +11,13 @@
 
 namespace stylobate {
 
+/// Of a component's axis.
+enum class Direction {
+    unknown, ///< the file does not contain it, or in no known words
+    horizontal,
+    vertical
+};
+
 /// One component as it stands in the file, converted to m/s2, nothing corrected; what else was done is in the note.
 struct Record {
     std::string file;
@@ -20,6 +27,9 @@ struct Record {
     std::string unit;      ///< the file's unit: "g", "g/10", "m/s2", "cm/s2", "mm/s2"
     std::string station;   ///< as given in the file: a name, a code or a number; empty if absent
     std::string orientation; ///< as given in the file: "N10W", "360", "UP", "HNE"; empty if absent
+    /// By the words that agencies use in the header, the name of the column, the title or the name of the file
+    /// (io/records/record_direction.cpp). A vertical component is no horizontal base motion.
+    Direction direction = Direction::unknown;
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;
     std::string note; ///< what the reader had to do to the samples, for people; empty if nothing
@@ -50,6 +60,12 @@ std::vector<Record> read_records(std::string_view content, const std::string& fi
 /// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
 ///         among several
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);
+
+/// "horizontal", "vertical" or "unknown".
+const char* to_string(Direction direction);
+
+/// What the name of a component says of its direction: "UP", "N-S", "HNZ", "090", "acc_z".
+Direction direction_of_name(std::string_view name);
 
 /// The format that a file is recognised as, by its content alone; empty: none of them, or no text.
 std::string record_format(const std::filesystem::path& file);

@@ -187,17 +187,17 @@ std::string orientation_of(const Header& header)
     const double azimuth = header.integers[53];
     if (azimuth >= 1 && azimuth <= 360)
         return fmt::format("{}", azimuth);
-    struct Direction {
+    struct Named {
         double code;
         const char* name;
     };
-    for (const Direction& direction : {Direction{400, "Up"},
-                                       {401, "Down"},
-                                       {402, "Vertical"},
-                                       {500, "Radial"},
-                                       {501, "Transverse"},
-                                       {600, "Longitudinal"},
-                                       {601, "Tangential"}})
+    for (const Named& direction : {Named{400, "Up"},
+                                   {401, "Down"},
+                                   {402, "Vertical"},
+                                   {500, "Radial"},
+                                   {501, "Transverse"},
+                                   {600, "Longitudinal"},
+                                   {601, "Tangential"}})
         if (azimuth == direction.code)
             return direction.name;
     return header.code;

@@ -88,6 +88,9 @@ std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view
 /// @pre canonical name
 std::optional<double> stated_peak_m_s2(double peak, std::string_view unit);
 
+/// Of a component whose header was read; `record.direction` where the parser knows it already.
+Direction direction_of(const Record& record);
+
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);

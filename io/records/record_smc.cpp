@@ -74,6 +74,9 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     record.orientation = word_after(place, "component=");
     record.component = record.orientation.empty() ? "acceleration" : record.orientation;
 
+    if (integers[12] == 0 || integers[12] == 180)
+        record.direction = Direction::vertical;
+
     const double unknown = reals[0];
     constexpr std::size_t rate_line = first_real;
     if (reals[1] == unknown || !(reals[1] > 0))

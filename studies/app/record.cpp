@@ -77,6 +77,7 @@ Json describe(const Described& d)
         .member("station", r.station)
         .member("component", r.component)
         .member("orientation", r.orientation)
+        .member("direction", to_string(r.direction))
         .member("title", r.title)
         .member("note", r.note)
         .member("unit", r.unit)
@@ -122,6 +123,7 @@ void print(const Described& d)
     fmt::print("  component    {}{}{}\n", r.component,
                r.orientation.empty() || r.orientation == r.component ? "" : ", ",
                r.orientation == r.component ? "" : r.orientation);
+    fmt::print("  direction    {}\n", to_string(r.direction));
     if (!r.title.empty())
         fmt::print("  title        {}\n", r.title);
     fmt::print("  samples      {} at {} s, {:.2f} s in all, in {}\n", r.acceleration_m_s2.size(), r.dt_s,
