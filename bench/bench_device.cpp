@@ -37,7 +37,7 @@ Study rigid_surface()
     return study;
 }
 
-/// A surface on all devices. slots = 0: as many as the device likes.
+/// A surface on all devices. slots = 0: the device's own choice.
 void on_devices(benchmark::State& state, const Study& study, int slots)
 {
     const Experiment experiment(study);

@@ -73,7 +73,7 @@ struct Inside {
     static Result run(const Experiment& experiment, const RunOptions& options);
 };
 
-/// Asks the caller of what takes long whether to go on; no is for ever.
+/// Polls `go_on` of the caller during long work; a stop is permanent.
 class Asked : public inner::Observer {
 public:
     explicit Asked(const std::function<bool()>& go_on) : go_on_(go_on) {}

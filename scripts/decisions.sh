@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the ready studies of decisions (which strengthening helps, what is the risk, what does it tell that the column
+# Runs the ready studies of decisions (which strengthening helps, what is the risk, what does the survival of the column
 # still stands) and writes their results and pictures into docs/decisions.md.
 #
 #   scripts/decisions.sh     some twenty minutes on two cores

@@ -26,7 +26,7 @@ struct RunOptions {
     /// Where to step instead of on the processor: each has a thread of its own that serves it, with the help of
     /// `threads` threads where realizations begin and end.
     std::vector<std::shared_ptr<Device>> devices{};
-    int slots = 0; ///< of each of them; 0: as many as it likes
+    int slots = 0; ///< of each device; 0: its own choice
     /// So many realizations for each thread are ended sooner by these than by a device, one of whose threads takes many
     /// times longer for a realization than one of the processor's (`docs/gpu.md`).
     int few = 64;

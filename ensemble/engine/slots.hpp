@@ -49,7 +49,7 @@ private:
 class SlotSet {
 public:
     /// @param record as in `LaneSet`
-    /// @param slots 0: as many as the device likes;  @param most of them, whatever it likes
+    /// @param slots 0: the number that the device chooses;  @param most upper limit
     SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots, int most);
     ~SlotSet();
 

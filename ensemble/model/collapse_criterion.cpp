@@ -16,7 +16,7 @@ std::string collapse_criterion(const OutcomeSpec& outcome)
 
 std::string followed_until(const OutcomeSpec& outcome)
 {
-    return outcome.follow == Follow::rest ? "until what has fallen lies still" : "until the first block has fallen";
+    return outcome.follow == Follow::rest ? "until all fallen blocks are at rest" : "until the first block has fallen";
 }
 
 } // namespace stylobate

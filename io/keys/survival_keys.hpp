@@ -43,7 +43,7 @@ inline const BooleanKey mirrored{"mirrored", ObservedState{}.mirrored,
 inline const TableKey observed{"observed",
                                "the state in which the structure is found; `tolerance_m` alone: as new, within that",
                                {&joints, &joint_offset, &tolerance, &rotation, &rotation_tolerance, &mirrored},
-                               {.absent = "that it stands is all that is known"}};
+                               {.absent = "it is only known that the structure stands"}};
 
 inline const WordKey<PastPrior> prior{"prior", past_prior_names, SurvivalSpec{}.prior,
                                       "density over the PGA of the past: flat in its logarithm, flat, or in "
@@ -105,7 +105,7 @@ inline const TableKey hazard{"hazard",
                              {.absent = "no rates"}};
 
 inline const TableKey table{"survival",
-                            "what the state of a structure tells of its past shaking",
+                            "past shaking, inferred from the state of a structure",
                             {&observed, &prior, &level, &events, &pause, &monuments, &stands_for, &hazard},
                             {.absent = "the defaults of its keys", .used = {in_studies({StudyKind::survival})}}};
 

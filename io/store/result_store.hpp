@@ -59,7 +59,7 @@ struct ResultHeader {
 /// CRC-32 of the text of the study: `ResultHeader::study_crc32` of a file whose text is the one that was written.
 std::uint32_t study_crc32_of(const ResultHeader& header);
 
-/// In what the study of a file is another one than that which is asked for, in words; empty: it is the same.
+/// Difference between the study of a file and the requested study, in words; empty: none.
 /// @param complete whether the file is: where rows are selected, it then has those that were needed
 std::string study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked);
 

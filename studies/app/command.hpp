@@ -75,7 +75,7 @@ struct VerifyChoice {
 struct ReportOptions {
     std::string output;                    ///< the page; empty: beside the file, with .html
     std::string title;                     ///< of the page, instead of the study's or the file's name
-    std::optional<std::uint64_t> animate;  ///< so many that fell and that did not, of each cell
+    std::optional<std::uint64_t> animate;  ///< N that fell and N that stood, of each cell
     std::optional<double> animate_mb;      ///< of all animations together [1e6 bytes]
     std::optional<double> animate_seconds; ///< for running them again
 };

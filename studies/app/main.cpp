@@ -68,7 +68,7 @@ using namespace stylobate;
 
 namespace {
 
-/// Says an error. Names in it come from files, and a terminal obeys control characters.
+/// Prints an error. Control characters are replaced: names in it come from files, and a terminal would execute them.
 void say_error(std::string message)
 {
     std::ranges::replace_if(
@@ -80,8 +80,8 @@ void say_error(std::string message)
     say(fmt::format("stylobate: {}\n", message));
 }
 
-/// Ends all ranks after an error of this one, for which the others would wait. What all of them find rank 0 says: the
-/// others give it the time to.
+/// Ends all ranks after an error of this one; the others would wait for it. An error that all ranks find is printed by
+/// rank 0: the others wait 2 s before they print theirs.
 [[noreturn]] void end_ranks(Ranks& ranks, const std::string& message, int status)
 {
     if (!ranks.leads())
@@ -91,7 +91,7 @@ void say_error(std::string message)
     std::_Exit(status);
 }
 
-/// CLI11 would say of an unknown verb only that one is missing.
+/// CLI11 reports an unknown verb only as a missing one.
 /// @throws InputError if the first word is no verb, or if there is none
 void check_verb(const CLI::App& app, int argc, char** argv)
 {
@@ -110,7 +110,7 @@ void check_verb(const CLI::App& app, int argc, char** argv)
                                  meant.empty() ? "Run stylobate --help." : "Did you mean " + meant + "?"));
 }
 
-/// One message in the manner of all others.
+/// An error of the command line, in the form of all other messages.
 std::string usage_message(const CLI::App* app, const CLI::Error& error)
 {
     const auto verbs = app->get_subcommands();
@@ -147,7 +147,7 @@ public:
         add_texts();
     }
 
-    /// Reads the words and does what they say.
+    /// Parses the words and runs the verb.
     /// @returns the exit status   @throws InputError and what else a verb throws
     int run(int argc, char** argv)
     {
@@ -163,7 +163,7 @@ public:
 private:
     static constexpr std::size_t help_column = 34; ///< where the texts begin
 
-    /// What the build asks for: hidden, because a user has them installed.
+    /// Options for the build, hidden from users, who have these texts installed.
     void add_texts()
     {
         const auto print = [this](const char* flag, std::string (*text)(const Usage&)) {
@@ -186,8 +186,8 @@ private:
         check->add_option("STUDY", file_, "study file (TOML)")->required();
         check
             ->add_option("--trial-seconds", check_.trial_seconds,
-                         "seconds to spend on running a fair sample of the realizations, for the time of the run and "
-                         "what it would show (0: no trial)")
+                         "duration of the trial in seconds; it runs a fair sample of the realizations, from which time "
+                         "and results of the run are estimated (0: no trial)")
             ->check(CLI::Range(0.0, 3600.0))
             ->capture_default_str();
         check->add_option("--pilot", check_.pilot,
@@ -228,7 +228,7 @@ private:
                              "that of each");
     }
 
-    /// Does a verb by all ranks where that is asked for: one message and one exit status.
+    /// Runs a verb, with `--mpi` by all ranks: one message and one exit status.
     template <class F>
     void on_ranks(const F& verb)
     {
@@ -258,8 +258,7 @@ private:
         auto* merge = app_.add_subcommand("merge", "join the results of shards of a study into one file");
         merge->add_option("SHARD", files_, "results files of `run --shard`, or of earlier merges")->required();
         merge->add_option("-o,--output", output_, "results file")->required();
-        merge->add_flag("--partial", partial_,
-                        "also if realizations are missing: the file can be continued with `run`");
+        merge->add_flag("--partial", partial_, "accept missing realizations; `run` can continue the file");
         add_force(*merge, options_);
         add_set(*merge, options_);
         add_common(*merge, options_);
@@ -371,8 +370,8 @@ private:
                                "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
         diagnosing
             ->add_option("--nulls", diagnosis_.nulls,
-                         "number of healthy campaigns that are simulated near the measured contact law; others in "
-                         "proportion. 0: none, and only direct tests of base and sensors name a cause; below "
+                         "number of simulated healthy campaigns near the measured contact law; the others are in "
+                         "proportion. 0: none; only direct tests of base and sensors can name a cause. Below "
                          "about 50 no cause of joints and blocks can be significant")
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
@@ -442,8 +441,8 @@ private:
         report
             ->add_option(
                 "--animate", report_.animate,
-                "realizations in motion: so many that fell and so many that did not, of each cell of a surface "
-                "that has both (default: 1; 0: none)")
+                "realizations in motion: N that fell and N that stood, of each cell of a surface that has both "
+                "(default: 1; 0: none)")
             ->check(CLI::Range(0LL, 1000LL));
         report
             ->add_option(
@@ -519,7 +518,7 @@ private:
     int status_ = exit_done;
     DecisionVerbs decisions_{app_, options_, status_};
 
-    std::string file_, study_, output_; // what a verb reads, besides, and writes
+    std::string file_, study_, output_; // input of a verb, its study, its output
     RealizationChoice choice_;
     std::vector<std::string> files_;
     std::string shard_;
@@ -543,9 +542,10 @@ private:
     std::_Exit(status);
 }
 
-/// What the caller may have left undone. A descriptor of the standard streams that is closed would be given to the next
-/// file that is opened, so that messages went into results: what is written to the output then fails, and to the errors
-/// is lost. A file that grows beyond the limit of the process (ulimit -f) gives a message instead of a signal.
+/// Prepares the standard streams and signals. A closed descriptor of a standard stream would be reused by the next file
+/// that is opened, and messages would be written into results; it is opened on /dev/null instead, so that writing to
+/// the output fails and errors are lost. A file beyond the size limit of the process (ulimit -f) gives a message, no
+/// signal.
 void prepare_process()
 {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

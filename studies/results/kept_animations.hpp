@@ -20,7 +20,7 @@ inline constexpr double animation_rate_hz = 60;        ///< at most: the traject
 inline constexpr std::uint64_t first_shown = 3;
 
 struct AnimationOptions {
-    std::uint64_t each = 1; ///< so many that fell and so many that did not, of each cell that has both; 0: none at all
+    std::uint64_t each = 1;                   ///< N that fell and N that stood, of each cell that has both; 0: none
     double budget_mb = usual_animation_mb;    ///< 1e6 bytes of the page, > 0
     double seconds = usual_animation_seconds; ///< after that none is begun any more
     bool wanted = false; ///< the user has asked: what cannot be had is an error then, and else a note

@@ -180,8 +180,7 @@ std::vector<std::pair<std::string, std::string>> study_facts(const Study& study,
         {"Excitation", excitation_text(study, one)},
         {"Mechanisms", mechanisms.empty() ? "none: the baseline" : mechanisms},
         one ? std::pair<std::string, std::string>{"Drawn in this realization", drawn.empty() ? "nothing" : drawn}
-            : std::pair<std::string, std::string>{"Drawn anew in each realization",
-                                                  perturbed.empty() ? "nothing" : perturbed},
+            : std::pair<std::string, std::string>{"Randomized", perturbed.empty() ? "nothing" : perturbed},
         {"Collapse", collapse_criterion(study.outcome)},
         {"Followed", followed_until(study.outcome)}};
     std::string chosen;

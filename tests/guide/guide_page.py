@@ -3,7 +3,7 @@
     ```console                      lines that begin with `$ ` are commands, `\\` at the end continues them; the lines below
                                     one are what it prints (both streams). `...` stands for anything within a line, a
                                     line of `...` alone for any number of lines. A command without lines below it
-                                    prints what it likes
+                                    may print anything
     $ COMMAND    # exit status 2    must end with this status instead of 0
     ```toml title="NAME"            (any language): the reader writes this file
     <!-- long -->                   above a block: minutes; run with --long only

@@ -71,7 +71,7 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
     if (!some)
         throw InputError("no past of these axes agrees with all of the structures: in no cell has each of them a "
                          "realization that agrees.\n  Run more realizations, wider axes or more events; or the "
-                         "structures have not been through the same shaking.");
+                         "structures were not shaken by the same events.");
     for (std::size_t events = 1; events <= all.axes.events; ++events)
         combined.together.push_back(exclusion(all, events, prior, spec.level));
     combined.posterior = past_posterior(all, prior, spec.level);
@@ -80,8 +80,8 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
 
 std::string combined_text(const CombinedPast& c)
 {
-    std::string text = fmt::format("{} structures that have been through the same shaking, each of which responded by "
-                                   "itself; mean over the frequencies\n",
+    std::string text = fmt::format("{} structures that were shaken by the same events and responded independently; "
+                                   "mean over the frequencies\n",
                                    c.files.size());
     const double end = c.axes.intensity.back();
     for (std::size_t k = 0; k < c.files.size(); ++k)

@@ -23,7 +23,7 @@ std::string agreeing_words(const Survival& s)
     return s.state_measured ? fmt::format("{} of {} valid realizations stand; {} agree with the observed state within "
                                           "its tolerance{}",
                                           s.stand, s.valid, s.agree, s.measured.mirrored ? ", or mirrored" : "")
-                            : fmt::format("{} of {} valid realizations stand; that it stands is all that is known",
+                            : fmt::format("{} of {} valid realizations stand; the only observation is that it stands",
                                           s.stand, s.valid);
 }
 
@@ -32,7 +32,7 @@ std::string events_word(std::size_t events)
     return events == 1 ? "1 event" : fmt::format("{} equal events", events);
 }
 
-/// What one event of a frequency excludes.
+/// The PGA that one event of a frequency excludes.
 std::string frequency_words(const Survival& s, std::size_t f)
 {
     const std::size_t ni = s.axes.intensity.size();
@@ -40,7 +40,7 @@ std::string frequency_words(const Survival& s, std::size_t f)
     if (std::all_of(s.agreeing.begin() + static_cast<std::ptrdiff_t>(f * ni),
                     s.agreeing.begin() + static_cast<std::ptrdiff_t>((f + 1) * ni),
                     [](const CellCount& cell) { return cell.successes == 0; }))
-        return "no realization agrees, whatever the PGA";
+        return "no realization agrees at any PGA";
     if (!e.excludes())
         return "no PGA is excluded as too strong";
     return fmt::format("PGA above {} is excluded by the likelihood ratio, above {} with the prior",

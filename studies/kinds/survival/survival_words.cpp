@@ -57,8 +57,8 @@ std::string exclusion_words(const Exclusion& e, const std::string& prior, double
                            : std::string();
     if (!e.excludes())
         return fmt::format(
-                   "no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood still is {} of "
-                   "its largest value, and less than {:.3g} is needed",
+                   "no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood is still {} of "
+                   "its largest value; exclusion needs less than {:.3g}",
                    axis_end, estimate_words(e.top_ratio), e.threshold) +
                weaker;
     std::string text = fmt::format(
@@ -77,7 +77,7 @@ std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double
     const std::size_t ni = axes.intensity.size(), cell = p.best % axes.cells_of_one();
     std::string text = fmt::format(
         "  most probable past: {} event{} of {:.3g} Hz, {:.3g} m/s2: probability of this cell {}\n"
-        "  PGA of the past: median {} m/s2; {:g} % credible interval from {} to {}\n",
+        "  PGA of the past: median {} m/s2; {:g} % credible interval: {} to {}\n",
         p.best / axes.cells_of_one() + 1, p.best < axes.cells_of_one() ? "" : "s", axes.frequency_hz[cell / ni],
         axes.intensity[cell % ni], percent_words(p.best_probability), estimate_words(p.intensity_median), 100 * level,
         estimate_words(p.intensity_lower), estimate_words(p.intensity_upper));
@@ -129,7 +129,7 @@ std::vector<std::string> rates_words(const Survival& s)
         fmt::format("under the hazard curve as given it collapses at a rate of {} per year, and stands for {:g} years "
                     "with a probability of {}",
                     estimate_words(r.collapse_rate), s.years, percent_words(r.stands)),
-        fmt::format("factor on all rates, given that it stands: median {}; {:g} % credible interval from {} to {} "
+        fmt::format("factor on all rates, given that it stands: median {}; {:g} % credible interval: {} to {} "
                     "(prior: lognormal, median 1, sigma {:g}, from {:.3g} to {:.3g})",
                     estimate_words(r.factor_median), 100 * s.level, estimate_words(r.factor_lower),
                     estimate_words(r.factor_upper), s.sigma_ln, r.prior_lower, r.prior_upper)};
@@ -143,8 +143,8 @@ std::vector<std::string> rates_words(const Survival& s)
                                     "wider range",
                                     percent_words(r.beyond_hazard), s.hazard_points->from, s.hazard_points->to));
     if (r.at_begin.value > 0)
-        lines.push_back(fmt::format("at the begin of the axis {} collapse already, and weaker shaking is counted as "
-                                    "harmless: the rate is too small; begin the axis lower",
+        lines.push_back(fmt::format("at the beginning of the axis {} collapse already, and weaker shaking is counted "
+                                    "as harmless: the rate is too small; begin the axis lower",
                                     percent_words(r.at_begin)));
     return lines;
 }

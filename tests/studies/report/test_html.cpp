@@ -336,7 +336,7 @@ pga_m_s2 = { from = 1, to = 9, count = 3 }
     EXPECT_NE(fact(one, "Excitation").find("2.375 Hz, PGA 5 m/s²"), std::string::npos) << fact(one, "Excitation");
     EXPECT_EQ(fact(one, "Excitation").find(" to "), std::string::npos);
     EXPECT_EQ(fact(one, "Drawn in this realization"), "friction 0.71");
-    EXPECT_EQ(fact(one, "Drawn anew in each realization"), "");
+    EXPECT_EQ(fact(one, "Randomized"), "");
 }
 
 TEST(DiagnosisPage, SaysWhatNatsAndSmallProbabilitiesMean)

@@ -45,7 +45,7 @@ bool has_fallen(const Outcome& outcome);
 /// @param ends to which how they ended is added
 std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studies, Isa isa, Ends* ends = nullptr);
 
-/// A test ends as it likes with probability `slip`: no model is then infinitely wrong.
+/// The outcome of a test is random with probability `slip`, so that no model has a likelihood of 0.
 inline double with_slip(double share, double slip)
 {
     return slip / 2 + (1 - slip) * share;
