@@ -32,7 +32,7 @@ public:
     /// @param ahead numbers that this rank keeps in hand
     /// @param take  takes, on rank 0, what another rank gave; called by the deal's own thread
     Deal(Ranks& ranks, Stock stock, std::size_t ahead, std::function<void(std::string_view)> take);
-    /// Without `finish`, after an error: this rank leaves, and nobody is told.
+    /// Without `finish`, after an error: this rank leaves without a message to the others.
     ~Deal();
     Deal(const Deal&) = delete;
     Deal& operator=(const Deal&) = delete;

@@ -18,7 +18,7 @@ namespace stylobate {
 /// @pre the set is measured; `fragility.shakings` > 1
 MotionSet in_sequence(const Study& study, const MotionSet& set);
 
-/// A motion so many times as strong.
+/// A motion times a factor.
 struct ScaledMotion {
     const Motion* motion = nullptr;
     double scale = 1;

@@ -32,8 +32,8 @@ struct SeenValue {
     std::size_t kind = 0; ///< of k: (block x coordinate_count + coordinate) x 2 + rocking
 };
 
-/// What each window is scored by: every block and coordinate at every time of it that was seen. Noise that nobody knows
-/// is none.
+/// The residuals that score a window: every block and coordinate at every time of it that was seen. Noise that nobody
+/// knows is none.
 std::vector<std::vector<SeenValue>> seen_values(const SeenRun& run, const std::vector<SeenWindow>& windows,
                                                 double lag_s);
 /// Kinds of k for so many blocks.

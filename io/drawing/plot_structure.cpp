@@ -327,7 +327,7 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
 /// Lines of text in a block.
 using BlockText = std::vector<std::pair<std::string, const char*>>;
 
-/// What may stand in a block, what says most first.
+/// Labels that may stand in a block, the most informative first.
 std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
 {
     static constexpr char black[] = "#000000"; // the texts point to it

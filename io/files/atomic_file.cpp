@@ -64,7 +64,7 @@ void AtomicFile::write(std::string_view content)
 
 void AtomicFile::commit()
 {
-    // mkostemp makes the file private; its reader is whoever the user's umask says.
+    // mkostemp makes the file private; the user's umask decides who may read it.
     const mode_t mask = ::umask(0);
     ::umask(mask);
     if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0 ||

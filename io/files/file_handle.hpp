@@ -36,7 +36,7 @@ public:
     void reserve(std::uint64_t appended = 0);
     /// Waits until the disk has what was written.
     void sync();
-    /// Removes what comes behind the first so many bytes.
+    /// Truncates the file to a number of bytes.
     /// @throws std::system_error if the file cannot be written
     void cut(std::uint64_t size);
 
@@ -80,7 +80,7 @@ void rename_new(const std::filesystem::path& from, const std::filesystem::path& 
 void rename_over(const std::filesystem::path& from, const std::filesystem::path& to);
 /// The same where `ours` is the file to be replaced. Another one that has taken its place is left alone, and the new
 /// file gets the name `to`.rescued.
-/// @throws InputError that says so
+/// @throws InputError that states this
 void rename_over(const std::filesystem::path& from, const std::filesystem::path& to, const FileHandle& ours);
 
 } // namespace stylobate

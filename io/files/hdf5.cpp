@@ -182,7 +182,7 @@ std::vector<T> read_whole(hid_t parent, const std::string& path, hid_t stored, h
 }
 
 // Whether a data set or an attribute could not be closed since a file was opened: its last bytes were written then, and
-// a destructor cannot say so. Who closes the file says it.
+// a destructor cannot report it; closing the file does.
 thread_local bool lost_write = false;
 
 } // namespace

@@ -12,7 +12,7 @@ Hdf5Label hdf5_label(const std::filesystem::path& file)
             return hdf5::has_attribute(open.id(), name) ? hdf5::read_any_text(open.id(), name) : std::string();
         };
         return {text("format"), text("kind")};
-    } catch (const hdf5::Error&) { // its reader says what is wrong
+    } catch (const hdf5::Error&) { // its reader reports the error
         return {};
     }
 }

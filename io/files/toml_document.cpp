@@ -25,7 +25,7 @@ namespace stylobate {
 
 namespace {
 
-/// What the parser says of a text that is not TOML.
+/// The parser's message on a text that is not TOML.
 struct NotToml {
     std::string why;
     long line = 0; ///< 0: not known

@@ -27,7 +27,7 @@ struct Range {
     bool contains(double value) const;
     /// "(0, 10]"
     std::string text() const;
-    /// The same for a message about a value outside: says of one just above 0 what the least one is.
+    /// The same for a message about a value outside: of a range that begins just above 0 it states the least value.
     std::string text_for(double value) const;
 
 private:
@@ -151,7 +151,7 @@ struct BooleanKey : TomlKey {
     std::optional<bool> absent_value;
 
     BooleanKey(std::string key, bool without, std::string means, KeyFacts facts = {});
-    /// @param facts say what applies where it is absent
+    /// @param facts what applies where it is absent
     BooleanKey(std::string key, const char* means, KeyFacts facts);
 };
 

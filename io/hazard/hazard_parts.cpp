@@ -28,7 +28,7 @@ std::string intensities(std::size_t count)
     return count == 1 ? "1 intensity" : fmt::format("{} intensities", count);
 }
 
-/// Points at the ends where a curve is 0 or infinite tell nothing that a frequency could be computed from.
+/// Points at the ends where a curve is 0 or infinite do not determine a frequency.
 void drop_ends(RawHazard& raw)
 {
     HazardModel& hazard = raw.hazard;

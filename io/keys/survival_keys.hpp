@@ -27,7 +27,7 @@ inline const ListKey joint_offset{"joint_offset_m",
                                   {.absent = "0 of each: as new"}};
 inline const NumberKey tolerance{"tolerance_m",
                                  tolerance_range,
-                                 "the true displacement is within so much of the measured one",
+                                 "largest difference between the true and the measured displacement",
                                  {.absent = "displacements were not measured", .example = "0.002"}};
 inline const ListKey rotation{"rotation_rad",
                               KeyType::numbers,
@@ -36,7 +36,7 @@ inline const ListKey rotation{"rotation_rad",
                               {.absent = "not measured"}};
 inline const NumberKey rotation_tolerance{"rotation_tolerance_rad",
                                           angle_tolerance_range,
-                                          "the true rotation is within so much of the measured one",
+                                          "largest difference between the true and the measured rotation",
                                           {.absent = "rotations were not measured"}};
 inline const BooleanKey mirrored{"mirrored", ObservedState{}.mirrored,
                                  "the sense of the shaking is not known: the mirrored state agrees too"};

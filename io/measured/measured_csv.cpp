@@ -93,7 +93,7 @@ struct Target {
     const SeriesName* series = nullptr; ///< null: the clock
     std::size_t block = 0;
     double factor = 1; ///< to SI
-    std::string unit;  ///< as the name says it
+    std::string unit;  ///< from the name
 };
 
 /// @param name "x3_mm", "base_acceleration_g", "time_s"

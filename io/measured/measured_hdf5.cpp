@@ -84,7 +84,7 @@ private:
             refuse(fmt::format("has format_version {}; this program reads {}.", version, format_version));
     }
 
-    /// What is not known is told, so that a misspelt data set is not silently absent.
+    /// Unknown items are reported, so that a misspelt data set is not silently absent.
     void known_only(hid_t group, const std::string& path, const std::vector<std::string>& known)
     {
         for (const std::string& name : hdf5::names_in(group))

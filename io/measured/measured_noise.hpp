@@ -1,5 +1,5 @@
 #pragma once
-/// What samples say of themselves: their noise, how long nothing moves, and where the blocks lie meanwhile.
+/// Estimates from the samples alone: their noise, how long nothing moves, and where the blocks are meanwhile.
 
 #include "ensemble/model/campaign.hpp"
 

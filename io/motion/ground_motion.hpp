@@ -60,8 +60,8 @@ RockingMeasures rocking_measures(const IntensityMeasures& measures, double half_
 /// Velocity and displacement follow exactly from an acceleration that is linear between its samples.
 /// The predominant frequency is that of the record as it stands, with or without the correction.
 ///
-/// A record that was cut while the ground still moved cannot be told from one whose zero line is off either: it is
-/// brought to rest all the same, and its PGA may move by some per cent (`Motion::baseline` says by how much). An
+/// A record that was cut while the ground still moved cannot be distinguished from one with a wrong zero line: it is
+/// brought to rest all the same, and its PGA may move by some per cent (`Motion::baseline` has the amount). An
 /// example is an 18 s record of Spitak 1988 that begins and ends with 5 % of its PGA: the PGA grows by 3.5 %, one half
 /// of it the mean, the other the polynomial. A band-pass from 0.05 Hz leaves 1.6 %. Such records want the filter.
 ///

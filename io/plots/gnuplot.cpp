@@ -112,7 +112,7 @@ void run_gnuplot(const std::string& script, PictureSize size, const fs::path& fi
     std::ofstream(folder / "plot.gp") << terminal.commands << "set encoding utf8\nset output 'picture'\n"
                                       << script << "\nunset output\n";
     const fs::path log = folder / "gnuplot.log";
-    // -d: nobody's settings (~/.gnuplot) change the picture.
+    // -d: the user's settings (~/.gnuplot) do not change the picture.
     const int status = run_program(gnuplot, {"-d", "plot.gp"}, folder.path(), log);
     const std::string picture = content_of(folder / "picture");
     if (status != 0 || !picture.starts_with(terminal.begins)) {

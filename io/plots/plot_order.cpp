@@ -16,7 +16,7 @@ namespace stylobate {
 namespace {
 
 constexpr std::size_t most_curves = 24;  ///< with a colour and a line of the table each
-constexpr std::size_t most_steps = 1000; ///< of one curve: more are not told apart
+constexpr std::size_t most_steps = 1000; ///< of one curve: more cannot be distinguished
 
 /// Colour of the k-th of n curves.
 std::string colour(std::size_t k, std::size_t n)

@@ -108,7 +108,7 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
         throw InputError(fmt::format("the trajectory of realization {} has no block above its base (y = 0).\n"
                                      "  Heights are measured from the top of the base, in metres.",
                                      t.index));
-    // In a structure where nothing moves nothing can be told.
+    // Where nothing moves, fixed blocks cannot be distinguished from free ones.
     if (std::all_of(drawn.fixed.begin(), drawn.fixed.end(), [](bool f) { return f; })) {
         drawn.fixed.assign(drawn.fixed.size(), false);
         drawn.top = drawn.blocks.back();
@@ -229,7 +229,7 @@ struct StripLayout {
     double pixels = 0; ///< height of the strip
 };
 
-/// Puts the snapshots into so many rows, as large as they fit.
+/// Puts the snapshots into a number of rows, as large as they fit.
 StripLayout layout_in_rows(const std::vector<Extent>& extents, double overhang, double pixels_x, std::size_t rows)
 {
     const std::size_t count = extents.size();

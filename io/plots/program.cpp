@@ -30,7 +30,7 @@ bool is_program(const fs::path& file)
     return fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0;
 }
 
-/// Writes until nothing is left, or until nobody reads any more.
+/// Writes until nothing is left, or until the reader has closed its end.
 void feed(int descriptor, const std::function<std::string()>& input)
 {
     // a program that ends early must not end this one

@@ -16,7 +16,7 @@ struct SealedFormat {
     const char* kind;             ///< "comparison"
     std::uint64_t version;        ///< that is written
     std::uint64_t oldest_version; ///< that is read
-    const char* again;            ///< how another one is had: "make it anew"
+    const char* again;            ///< how to make it again: "make it anew"
 };
 
 /// Writes the attributes of the format and what `content` adds; the same content gives the same bytes.

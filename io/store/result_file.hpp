@@ -65,7 +65,7 @@ public:
     void for_each(const std::function<void(std::uint64_t place)>& f) const;
 
 private:
-    bool scattered_ = false; ///< few of the study's realizations have rows, for ever
+    bool scattered_ = false; ///< only some of the study's realizations will ever have rows
     bool in_order_ = false;
     std::uint64_t first_ = 0;
     std::uint64_t rows_ = 0;

@@ -94,7 +94,8 @@ void visit_fields(Row& row, F&& f)
     f("outcome/step_s", "s", o.step_s);
     f("outcome/steps", "", o.steps);
 }
-static_assert(sizeof(Outcome) == 280, "a field that comes to Outcome or leaves it does so in visit_fields() too");
+static_assert(sizeof(Outcome) == 280,
+              "a field that is added to or removed from Outcome must be so in visit_fields() too");
 
 /// What stands for "none" in a column; empty: nothing does. In memory it is -1; in files and tables a time that never
 /// came is NaN, and of blocks, which are whole numbers, -1 is none.

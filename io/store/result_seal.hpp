@@ -21,7 +21,7 @@ struct Extent {
 /// CRC-32 of zlib, continued from `before`.
 std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
-/// Room for the seal of a file with so many extents: a power of two from 512, as HDF5 wants its user block [bytes].
+/// Room for the seal of a file with a number of extents: a power of two from 512, as HDF5 wants its user block [bytes].
 std::uint64_t seal_bytes(std::size_t extents);
 /// In the order of their offsets, neighbours joined.
 std::vector<Extent> joined(std::vector<Extent> extents);

@@ -131,7 +131,7 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
         made.close();
         write_open_seal(result.handle, block);
         result.journal = RowJournal(result.handle.size());
-        if (!header.selected) // of others nobody knows how many there will be
+        if (!header.selected) // otherwise their number is not known in advance
             result.handle.reserve(RunOrder(header.total).places(header.shard).size() *
                                   (result.layout.row_bytes() + RowJournal::head_bytes));
         result.handle.sync();

@@ -25,7 +25,7 @@ constexpr double usual_step_accuracy = 0.02;
 /// Single precision, and the step bound of the structure, change collapse probabilities by less than this.
 constexpr double single_accuracy = 0.02, structure_accuracy = 0.05;
 
-/// Mechanisms that say how a contact yields: with them a stiffness is a property of the structure.
+/// Mechanisms that define how a contact yields: with them a stiffness is a property of the structure.
 constexpr Mechanism of_compliance[] = {Mechanism::hertz, Mechanism::rate_damping, Mechanism::face_damping};
 
 void choose(Study& study, const TableKey& table, const TomlKey& key, std::string value, std::string reason)
@@ -50,7 +50,7 @@ void refuse_compliance(const KeyReader& top, const std::string& why)
     for (const Mechanism mechanism : of_compliance)
         if (mechanisms.has(to_string(mechanism)))
             mechanisms.refuse(to_string(mechanism),
-                              "says how contacts yield, so that their stiffness is no choice of run.accuracy", todo);
+                              "defines how contacts yield, so that run.accuracy cannot choose their stiffness", todo);
     for (const Quantity quantity : {Quantity::normal_stiffness, Quantity::tangential_stiffness})
         if (spreads.has(spread_key(quantity).name))
             spreads.refuse(spread_key(quantity).name, "is about a stiffness that the study does not give", todo);

@@ -118,7 +118,7 @@ InitialSpec read_initial(const KeyReader& keys, const StructureSpec& structure)
     return initial;
 }
 
-/// @param kind decides how long a realization is followed unless the study says it
+/// @param kind decides how long a realization is followed unless the study gives it
 OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
 {
     using namespace outcome_keys;

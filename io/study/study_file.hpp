@@ -35,8 +35,8 @@ Study parse_study(const std::string& text, const std::string& name, const std::v
 
 /// The canonical TOML text of a study, written from its values: every key with its default, in one order, numbers
 /// that read back to the same bits. Left out is what has no default (a title, a record's component, a corner, a
-/// perturbation) and what another key says in its place (a damping ratio beside a coefficient). `parse_study` of it
-/// gives the same study, with the same text. Two studies are the same if their texts are, but for the title.
+/// perturbation) and values that another key gives in their place (a damping ratio beside a coefficient). `parse_study`
+/// of it gives the same study, with the same text. Two studies are the same if their texts are, but for the title.
 std::string study_text(const Study& study);
 
 /// For what compares extensions of the model.

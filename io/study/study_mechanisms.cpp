@@ -158,7 +158,7 @@ private:
         study_.vertical = vertical;
     }
 
-    /// @param taken of which places it has been said before   @param[out] all where it acts, each named
+    /// @param taken places that were named before   @param[out] all where it acts, each named
     void read_places(const KeyReader& keys, const MechanismRule& rule, std::vector<bool>& taken,
                      std::vector<int>& all) const
     {

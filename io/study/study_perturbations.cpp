@@ -20,7 +20,7 @@ constexpr double farthest_sd = 9;
 /// Less probability than this between `min` and `max` is a mistake, and its quantiles are not accurate.
 constexpr double least_kept = 1e-6;
 
-/// What the study says of a quantity, beside its keys.
+/// What the study states of a quantity, beside its keys.
 struct Rule {
     const SpreadKey* key;
     std::vector<double> nominal;       ///< the values that are perturbed, each once

@@ -48,7 +48,7 @@ struct MassSource {
     bool given() const { return keys->has(*density) || (mass && keys->has(*mass)); }
 };
 
-/// @param size the key that tells the block's width @param volume of the block [m3]
+/// @param size the key of the block's width @param volume of the block [m3]
 double read_mass(const std::vector<MassSource>& sources, const Source& size, double volume)
 {
     if (!(volume >= std::numeric_limits<double>::min()))
@@ -90,7 +90,7 @@ BedSpec read_bed(const KeyReader& keys)
             keys.maybe(bed_restitution), keys.maybe(bed_normal_damping),   keys.maybe(bed_tangential_damping)};
 }
 
-/// The keys of one column: its own ones, and behind them those of the structure for what it does not say.
+/// The keys of one column: its own ones, and behind them those of the structure for the keys that it omits.
 class ColumnReader {
 public:
     ColumnReader(const KeyReader& own, const KeyReader& all, double depth_m) : own_(own), all_(all), depth_m_(depth_m)

@@ -214,7 +214,7 @@ Entries entries_of(const ContactSpec& contact)
     return out;
 }
 
-/// Those keys that the kinds of the excitation and of the study use; a value that nobody gave is left out.
+/// The keys that the kinds of the excitation and of the study use; a value that was not given is omitted.
 Entries entries_of(const ExcitationSpec& e, StudyKind study, const StructureSpec& structure)
 {
     using namespace excitation_keys;

@@ -5,7 +5,7 @@
 ///   F = clamp(k D(e - e_p), -F_y, F_y)      D(e) = e - clamp(e, -gap, gap)
 ///
 /// e is the elongation since rest, e_p the plastic one. In compression k and the yield's slope are `push` instead; with
-/// push = 0 it acts in tension alone. Beyond the elongation at which it breaks it is gone for ever.
+/// push = 0 it acts in tension alone. Beyond its breaking elongation it is gone permanently.
 ///
 /// Source: return mapping of perfect plasticity (Simo & Laursen, Computers & Structures 42 (1992) 97); play, different
 /// stiffness in compression and the breaking are own choices.

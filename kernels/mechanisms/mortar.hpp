@@ -3,7 +3,7 @@
 ///
 ///   T = K_N int_o o dx      V = K_T s + C_T s'      o > 0 the opening along the face, s the offset from rest
 ///
-/// It breaks for ever, all at once, when the opening at either edge reaches f_t D / K_N, that is when the tensile
+/// It breaks permanently and at once when the opening at either edge reaches f_t D / K_N, that is when the tensile
 /// stress reaches f_t, or the shear reaches c D L + mu N. Then the joint is an ordinary one, with friction.
 ///
 /// Source: linear elastic joint with a tension cut-off and the Coulomb shear limit, as in P. B. Lourenco and J. G.

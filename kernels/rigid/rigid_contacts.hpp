@@ -3,7 +3,7 @@
 ///
 /// In a stack the equations are block-tridiagonal. They are solved directly, and again with other ends that carry or
 /// slip, until every condition holds (own: in lockstep). In a frame friction is held to bounds first. `THEORY.md`
-/// section 10 says why.
+/// section 10 gives the reason.
 
 #include "kernels/rigid/rigid_equations.hpp"
 

@@ -96,7 +96,8 @@ private:
     Observer& observer_;
 };
 
-/// Tells of the round where there is someone to tell, and ends it once any rank has been asked to.
+/// Reports the progress of the round to its observer, if there is one, and ends the round once any rank is asked to
+/// stop.
 class DealObserver : public Observer {
 public:
     DealObserver(Deal& deal, Observer* told, Observer& asked) : deal_(deal), told_(told), asked_(asked) {}

@@ -20,7 +20,7 @@ struct SharedRun {
 /// @param header of the results, for the bytes of a row
 /// @param heard  whether all ranks are given the rows, because the next round depends on them; else rank 0 alone is
 /// @param take   takes a row; called from one thread at a time. Rank 0 gets each as it comes, the others at the end
-/// @return whether nobody has asked to stop, the same on all ranks; and on rank 0 the counts of all of them
+/// @return whether no rank has been asked to stop, the same on all ranks; and on rank 0 the counts of all of them
 /// @throws what `run_ensemble` and `take` throw; std::runtime_error if the ranks have not the same round before them
 SharedRun run_on_ranks(const Experiment& experiment, const RunOptions& options, RunPlan plan,
                        const ResultHeader& header, bool heard, const TakeRow& take, Observer& observer);

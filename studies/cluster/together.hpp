@@ -1,5 +1,6 @@
 #pragma once
-/// What several processes do together at the command line: one message where all would say the same, one exit status.
+/// What several processes do together at the command line: one message for what all of them would report, one exit
+/// status.
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/shard.hpp"

@@ -48,7 +48,7 @@ struct Share {
 };
 Share share_of(std::uint64_t trials, std::uint64_t count);
 
-/// Counts what became of the realizations of a study; those that are invalid are no trials.
+/// Counts the outcomes of the realizations of a study; those that are invalid are no trials.
 class LimitCounts {
 public:
     /// @param cells_of_motion of a fragility study, whose runs under one motion are not independent; 0: all are
@@ -80,7 +80,7 @@ public:
     double median_total_collapse_time_s() const;
 
 private:
-    /// What became of the runs under one motion.
+    /// Outcomes of the runs under one motion.
     struct OfMotion {
         std::uint64_t trials = 0;
         std::vector<std::uint64_t> reached, first, fallen;

@@ -92,7 +92,7 @@ NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& opt
         return out;
     const auto n = static_cast<double>(out.realizations);
     out.difference = (static_cast<double>(out.collapsed) - static_cast<double>(out.finer)) / n;
-    // of pairs; none that differs says no more than that there are less than one in n
+    // of pairs; if none differs, only an upper bound of one in n follows
     out.sd = std::sqrt(std::max(alone, 1.0) - n * out.difference * out.difference) / n;
     return out;
 }

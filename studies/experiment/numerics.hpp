@@ -25,7 +25,7 @@ struct NumericsCheck {
 Study finer(Study study);
 
 /// All is 0 if the observer asks to stop.
-/// @param pilot so many realizations, spread evenly over the study's
+/// @param pilot number of realizations, spread evenly over the study's
 /// @pre its kind draws realizations by their index alone: single, surface without adaptive, fragility
 NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& options, std::uint64_t pilot,
                              Observer& observer);

@@ -36,7 +36,7 @@ struct FollowPlan {
     std::uint64_t recorded = 0; ///< those with a lower index have their trajectory recorded
     /// Takes one after the other, in the order of `indices`.
     std::function<void(FollowedRealization)> sink;
-    /// Asked now and then whether to stop; told the share of the lanes that are busy. May be empty.
+    /// Polled from time to time with the share of busy lanes; true stops the run. May be empty.
     std::function<bool(double occupancy)> stop;
 };
 

@@ -91,14 +91,14 @@ public:
     /// Asks for realizations until nothing is left to run.
     /// @returns false if the user has asked to stop
     virtual bool plan(Rounds& rounds) { return rounds.run({.fair = true}); }
-    /// All has been run: what it comes to is computed.
+    /// Computes the results; all realizations have been run.
     virtual void conclude() {}
     /// The same, of a file that is complete and whose rows have been added.
     virtual void restore(const ResultReader&) { conclude(); }
     /// Of the finished study: the share of collapses in the whole of it.
     virtual void share(Progress& progress) const;
 
-    // ---- what it comes to, once conclude() or restore() was called -------------------------------------------------
+    // ---- the results, after conclude() or restore() ----------------------------------------------------------------
 
     /// Of a study with cells of frequency and PGA.
     virtual std::optional<SurfaceTable> surface() const { return std::nullopt; }
@@ -108,7 +108,7 @@ public:
     virtual std::string text() const;
     virtual void add_to(Json&) const {}
 
-    // ---- what can be said of results, complete or not --------------------------------------------------------------
+    // ---- of results, complete or not -------------------------------------------------------------------------------
 
     /// Whether a realization is a trial, and not a copy of one.
     virtual bool is_trial(std::uint64_t index) const { return index < study_.originals(); }

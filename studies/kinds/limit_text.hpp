@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// What became of the valid realizations, over all cells.
+/// Outcomes of the valid realizations, over all cells.
 /// @param names of the blocks   @param to_rest whether realizations are followed beyond the first fall
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest);
 

@@ -32,7 +32,7 @@ public:
     /// order, before this returns. (Rows of an earlier part of the run were given to it before the first round.)
     /// @returns false if the user has asked to stop
     virtual bool run(const Round& round) = 0;
-    /// Runs all realizations of the study, and keeps the trajectories of the first so many. The rows come in the order
+    /// Runs all realizations of the study, and keeps the trajectories of the first ones. The rows come in the order
     /// of their indices.
     virtual bool follow(std::uint64_t kept_trajectories) = 0;
 

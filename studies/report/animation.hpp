@@ -41,9 +41,9 @@ struct Animation {
 /// describes: whole numbers of variable length; sizes of the blocks, then each coordinate with its differences, runs of
 /// zeros together. Rounding does not add up: the differences are of rounded values. What is not finite repeats the
 /// value before it.
-/// @param stride every so many samples of the trajectory one is taken, from the first one on; >= 1
+/// @param stride one of this many samples of the trajectory is taken, from the first one on; >= 1
 /// @pre the trajectory has a sample
-/// @returns the animation without what its row says
+/// @returns the animation without the values of its row
 Animation animation_of(const Trajectory& trajectory, const AnimationStage& stage, std::size_t stride);
 
 /// A block of all animations of a page.

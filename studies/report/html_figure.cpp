@@ -154,7 +154,7 @@ bool bars_meet(const Figure& figure)
     return false;
 }
 
-/// Least and greatest of so many neighbours, in their order.
+/// Least and greatest of a number of neighbours, in their order.
 std::vector<std::size_t> thinned(const std::vector<double>& y, std::size_t most)
 {
     std::vector<std::size_t> kept;

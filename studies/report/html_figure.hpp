@@ -12,7 +12,7 @@ namespace stylobate {
 /// The figure without its title and caption: axes, series, and a legend if a series has a name; and its values for the
 /// script of the page, which shows them under the pointer and switches series. Bars of several series stand side by
 /// side where they meet. What is not finite, or not positive on a logarithmic axis, is left out; without any point
-/// there are empty axes that say so. Lines of more samples than the width has pixels are drawn by the least and the
+/// there are empty axes with a note. Lines of more samples than the width has pixels are drawn by the least and the
 /// greatest of neighbours.
 /// @param height of the plot alone [px]
 Html figure_svg(const Figure& figure, double height = 330);

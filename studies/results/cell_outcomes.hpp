@@ -1,5 +1,5 @@
 #pragma once
-/// What became of the realizations of each cell of a surface, for its page.
+/// Outcomes of the realizations in each cell of a surface, for its page.
 
 #include "io/store/result_store.hpp"
 

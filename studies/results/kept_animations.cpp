@@ -159,7 +159,7 @@ private:
             if (is_stored(indices[i])) // the file is read by one thread
                 followed[i] = results_.reader().trajectory(indices[i]);
             Animation animation = one(indices[i], followed[i]);
-            constexpr double beside_mb = 200e-6; // of what is said of it
+            constexpr double beside_mb = 200e-6; // of its text
             last_mb_ = static_cast<double>(animation.data.size()) / 1e6 + beside_mb;
             if (mb_ + last_mb_ > options_.budget_mb)
                 return false;

@@ -16,7 +16,8 @@ inline constexpr double usual_animation_mb = 3;        ///< of the animations of
 inline constexpr double usual_animation_seconds = 120; ///< for their realizations, which are run again
 inline constexpr double animation_rate_hz = 60;        ///< at most: the trajectories of a study may have more samples
 
-/// Of a study whose page draws its motion: so many of the first realizations, in pictures and in motion.
+/// Of a study whose page draws its motion: the number of its first realizations that are shown, as pictures and in
+/// motion.
 inline constexpr std::uint64_t first_shown = 3;
 
 struct AnimationOptions {
@@ -31,14 +32,14 @@ struct KeptAnimations {
     AnimationStage stage;
     double rate_hz = 0;
     std::vector<Animation> list; ///< by cell and index
-    std::string words;           ///< what was kept and what was not, for the page; empty: there is nothing to say
+    std::string words;           ///< what was kept and what was not, for the page; empty: none
     std::string warning;         ///< why there are none though there might be; empty: nothing is wrong
 };
 
 /// Those that the file keeps as trajectories, and those that are run again: of a surface by cells, of other studies
 /// over all realizations. Cells have their turns in an order that spreads them over the surface, so that a budget that
 /// is too small leaves gaps that are small. The choice does not depend on the threads; where the time is up it depends
-/// on the machine, which the words say.
+/// on the machine, which the words state.
 /// @pre the run is complete
 /// @param observer hears of the progress, and may stop it: what is returned then is not complete
 /// @throws InputError if they are wanted and cannot be had: the study has no realizations that can be run again, the
@@ -47,7 +48,7 @@ KeptAnimations keep_animations(const Results& results, Isa isa, const AnimationO
 
 /// Without animations: the stage and the rate of those of a study.
 KeptAnimations animations_for(const Study& study);
-/// Every so many samples of a trajectory of the study an animation has one.
+/// An animation has one of this many samples of a trajectory of the study.
 std::size_t animation_stride(const Study& study);
 
 /// For the script of the page (player.js).

@@ -157,7 +157,7 @@ bool write_film(const FollowedMotion& motion, const Study& study, const fs::path
         run_program(ffmpeg, ffmpeg_words(film, rate_hz, format), folder.path(), folder / "ffmpeg.log", [&] {
             return next < film.frames() && !observer.stop_requested() ? film.frame(next++).bytes() : std::string();
         });
-    if (observer.stop_requested()) // a terminal interrupts ffmpeg too: its status says nothing then
+    if (observer.stop_requested()) // a terminal interrupts ffmpeg too: its status is then meaningless
         return false;
     const std::string content = content_of(folder.path() / ("film." + format));
     if (status != 0 || content.empty()) {

@@ -278,7 +278,7 @@ private:
             page_.note("Each realization was computed only until its first fall.");
     }
 
-    /// What the order of falls comes to without rows.
+    /// The order of falls, where there are no rows.
     void first_falls()
     {
         HtmlTable table{"lrrr", {"block", "fell first", "share", describe_interval(counts_.interval())}, {}, ""};
@@ -375,7 +375,7 @@ private:
         page_.block(header_.study_toml);
     }
 
-    /// Without its record a realization cannot be run again: the page says so and has all else.
+    /// Without its record a realization cannot be run again: the page states this and has all other parts.
     void motion(const ResultRow& row)
     {
         try {

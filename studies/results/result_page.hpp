@@ -11,7 +11,7 @@
 
 namespace stylobate {
 
-/// What was run and what became of it: summary, probabilities, pictures, order of falls, motions, energy, and how to do
+/// The study and its results: summary, probabilities, pictures, order of falls, motions, energy, and how to do
 /// it again; and the data by which its script shows values under the pointer and realizations in motion. Where the
 /// pictures cannot be drawn the page contains a message.
 /// @param isa for realizations whose trajectories the file does not hold

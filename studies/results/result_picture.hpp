@@ -25,7 +25,7 @@ struct FollowedMotion {
 FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time.
-/// @param title empty: by the results, the realization and what became of it
+/// @param title empty: from the results, the realization and its outcome
 /// @throws InputError as `plot_strip` does
 void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title,
                    const std::filesystem::path& file);

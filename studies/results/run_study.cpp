@@ -85,7 +85,7 @@ public:
         const DoneSet::Part before = plan.done.all();
         Progress part{.done = before.end, .collapsed = before.collapsed, .invalid = before.invalid};
         RoundObserver observed(observer, progress, round.fair);
-        if (options.ranks) { // a round that ends as somebody asks to stop is incomplete, for all ranks alike
+        if (options.ranks) { // a round that any rank stops is incomplete for all ranks
             const SharedRun shared = run_on_ranks(
                 experiment, options, plan, kind_.header(), heard_, [&](const ResultRow& row) { take(row); }, observed);
             progress = joined(progress, shared.progress, round.fair);
@@ -162,7 +162,7 @@ private:
 
     Kind& kind_;
     RunStore& store_;
-    const bool heard_; ///< by all ranks: what the rounds are depends on what became of the rows
+    const bool heard_; ///< by all ranks: the rounds depend on the outcomes in the rows
 };
 
 } // namespace

@@ -112,7 +112,7 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         return fit;
     }
     fit.log_likelihood = -std::numeric_limits<double>::infinity();
-    // where fewer points than coefficients carry information, the others are certain to rounding: it grows for ever
+    // where fewer points than coefficients carry information, the others are 0 or 1 to rounding: it grows without bound
     const auto found = [&] {
         if (offset.size() == 0 &&
             telling_points(link, predictor(predictors, fit.coefficients, offset), counts) < parameters)

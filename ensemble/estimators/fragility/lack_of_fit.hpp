@@ -21,7 +21,7 @@ struct LackOfFit {
     std::string says; ///< the finding in a sentence
 };
 
-/// Below this p-value a form is said not to hold, in words and in figures.
+/// Below this p-value a form is reported as not fitting, in words and in figures.
 inline constexpr double fit_significance = 0.05;
 
 /// @param significance at which the sentence states that the form does not hold

@@ -119,7 +119,7 @@ Fitted fitted_alone(const FragilityData& data, std::size_t column, const std::st
     return fitted;
 }
 
-/// How much less a measure tells than the best, over all runs.
+/// Information that a measure lacks against the best one, over all runs.
 struct Behind {
     double sum; ///< of the log likelihood
     Limits limits;

@@ -137,7 +137,7 @@ PairedDifference grouped_difference(std::span<const PairedCounts> groups, double
 PairedDifference stratified_at(std::span<const PairedCounts> strata, double z)
 {
     double cells = 0, d = 0, q = 0, variance = 0, inverse = 0;
-    bool single = false; // a cell with one pair says nothing of its variance
+    bool single = false; // a cell with one pair gives no variance
     for (const PairedCounts& cell : strata) {
         const auto n = static_cast<double>(cell.pairs());
         if (n == 0)

@@ -1,5 +1,5 @@
 #pragma once
-/// What "it has stood for T years" tells of the rates of a hazard curve.
+/// Update of the rates of a hazard curve by the observation "it has stood for T years".
 ///
 /// Events come as a Poisson process with the rates of the curve, times an unknown factor c that is the same for all
 /// intensities; each finds the structure as it was built, and fells it with the probability P(a). Collapse then has the

@@ -2,7 +2,7 @@
 /// The likelihood of what is known of a structure, over the past that it may have had: a number of equally strong
 /// events in succession, their frequency and their intensity.
 ///
-/// In each cell so many realizations of so many agree with what is known (they stand, and their final state is the
+/// In each cell k of n realizations agree with what is known (they stand, and their final state is the
 /// observed one within its tolerance): approximate Bayesian computation with a uniform kernel (Tavare, Balding,
 /// Griffiths & Donnelly, "Inferring coalescence times from DNA sequence data", Genetics 145 (1997) 505; Beaumont, Zhang
 /// & Balding, "Approximate Bayesian computation in population genetics", Genetics 162 (2002) 2025). Where the error of
@@ -32,7 +32,7 @@ namespace stylobate {
 struct PastAxes {
     std::vector<double> frequency_hz; ///< (nf) ascending
     std::vector<double> intensity;    ///< (ni) ascending, > 0
-    std::size_t events = 1;           ///< pasts of 1 to so many events
+    std::size_t events = 1;           ///< largest number of events of a past
 
     std::size_t cells_of_one() const { return frequency_hz.size() * intensity.size(); }
     std::size_t cells() const { return events * cells_of_one(); }

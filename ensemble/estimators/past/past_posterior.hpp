@@ -13,7 +13,7 @@ namespace stylobate {
 
 struct PastPosterior {
     /// The mean likelihood under the prior. Of two studies of one structure and state that differ in their motions (two
-    /// records, say) the ratio of their evidences is the odds that the state gives them (Kass & Raftery, "Bayes
+    /// records) the ratio of their evidences is the odds that the state gives them (Kass & Raftery, "Bayes
     /// factors", Journal of the American Statistical Association 90 (1995) 773).
     PastEstimate evidence;
     std::vector<PastEstimate> events;    ///< (events) probability of 1, 2, ...

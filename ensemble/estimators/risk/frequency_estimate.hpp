@@ -68,9 +68,9 @@ std::vector<double> stripe_weights(const std::vector<double>& intensity, const H
 /// The frequency is linear in the shares, so it is the mean over records of each one's own frequency y_g. A record
 /// without runs at a stripe takes the share of the others there. The interval is Student's of ln lambda by the scatter
 /// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records
-/// that the state is not reached under do not tell the scatter). Where fewer than `least_records` records count so,
-/// there is no scatter to rely on: it is then that of a bounded mean (`record_share.hpp`), y_g between 0 and the
-/// frequency at P = 1, which holds with no damage at all, and is wide.
+/// that the state is not reached under carry no information on the scatter). Where fewer than `least_records` records
+/// count so, there is no scatter to rely on: it is then that of a bounded mean (`record_share.hpp`), y_g between 0 and
+/// the frequency at P = 1, which holds with no damage at all, and is wide.
 /// @param shares of the data   @pre two stripes at least
 FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                                   const FrequencyOptions& options = {});

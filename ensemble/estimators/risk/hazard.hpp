@@ -23,7 +23,7 @@ struct HazardModel {
     std::vector<double> frequency;         ///< (n) best estimate (usually the mean) of that of exceedance [1/year]
     std::vector<HazardFractile> fractiles; ///< by ascending probability; empty: its uncertainty is not known
     bool unbounded = false;                ///< a power law at all intensities: it has no range
-    std::vector<std::string> says;         ///< what a reader must know of how it was read
+    std::vector<std::string> says;         ///< notes for the user on how it was read
 };
 
 } // namespace stylobate

@@ -22,8 +22,8 @@ struct PairedNoise {
 ///                over a group of any other number between 0 and `most`
 /// @param size    (groups) realizations of each   @param stratum (groups)
 /// Half a count is added to each variance, so that a share of 0 or 1 has an error too. The degrees of freedom of groups
-/// are (sum y)^2 / sum y^2 - 1, since a group that the state is not reached in does not tell the scatter (as of
-/// `share_frequency`).
+/// are (sum y)^2 / sum y^2 - 1, since a group that the state is not reached in carries no information on the scatter
+/// (as of `share_frequency`).
 PairedNoise paired_noise(const std::vector<double>& reached, const std::vector<double>& size,
                          const std::vector<std::size_t>& stratum, std::size_t points, double most = 1);
 

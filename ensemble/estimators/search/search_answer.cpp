@@ -34,7 +34,7 @@ std::vector<double> excesses(const ResponseSurface& surface, const std::vector<S
     return excess;
 }
 
-/// What joint draws say of the least place.
+/// From joint draws over the places.
 struct Drawn {
     double critical = 0; ///< c
     double regret = 0;   ///< mean of p(best) - least p

@@ -10,7 +10,7 @@
 
 namespace stylobate {
 
-/// What became of the realizations of each cell, in their order, as far as they have been run.
+/// Outcomes of the realizations of each cell, in their order, as far as they have been run.
 class CellOutcomes {
 public:
     CellOutcomes(std::size_t frequencies, std::size_t pgas, std::uint64_t most)
@@ -19,7 +19,7 @@ public:
     }
     /// @pre the row is the surface's
     void add(const ResultRow& row);
-    /// The valid ones among the first so many of each cell (cells). @pre all of those have been added
+    /// The valid ones among the first n realizations of each cell (cells). @pre all of those have been added
     SurfaceTrials trials(const std::vector<std::uint64_t>& asked) const;
 
 private:

@@ -17,7 +17,7 @@ namespace stylobate {
 namespace {
 
 constexpr double level = 0.95;
-/// More than this share of the chains at a standstill is said.
+/// A larger share of chains that never moved is reported.
 constexpr double many_stuck = 0.25;
 
 /// Thrown through the chains when the user has asked to stop.
@@ -142,7 +142,7 @@ bool RareKind::plan(Rounds& rounds)
         std::vector<std::uint64_t> batch(n);
         std::iota(batch.begin(), batch.end(), begin);
 
-        // as many more as the repeats so far say; nothing before the first one is over
+        // estimated from the repeats so far; nothing before the first one has ended
         const std::uint64_t finished =
             std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
                             [](auto sum, const SubsetRun& r) { return sum + r.evaluations; });

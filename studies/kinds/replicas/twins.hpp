@@ -53,7 +53,7 @@ struct Twins {
     /// (nf x np) number of the smallest move at which the verdict is not certain, by its interval; as many as there are
     /// moves: it is certain at all of them; one more: undecided (too few pairs).
     std::vector<std::size_t> lost_at;
-    std::size_t moves = 0; ///< the first so many kinds
+    std::size_t moves = 0; ///< number of kinds that are displacements, the first ones
 };
 
 /// What is needed of a row.

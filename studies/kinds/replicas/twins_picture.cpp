@@ -22,7 +22,7 @@ const std::vector<MapClass>& classes()
     return all;
 }
 
-/// A place within the class; NaN, which is grey, where there are too few pairs to say.
+/// A place within the class; NaN, which is grey, where there are too few pairs.
 double class_place(const DiscordantShare& share)
 {
     const std::optional<Sureness> verdict = share.verdict();

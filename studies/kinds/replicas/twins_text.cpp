@@ -66,7 +66,7 @@ std::string open_text(const Twins& twins)
                            too_few_pairs, open, all, twins.realizations, fewest_pairs());
 }
 
-/// In words, what the growth says of one move.
+/// In words, the growth of one displacement.
 std::string growth_sentence(const Twins& twins, const TwinGrowth& growth)
 {
     std::string text = fmt::format("{}: {} of {} pairs diverge; median growth {}/s ({}), median horizon {} s ({})",

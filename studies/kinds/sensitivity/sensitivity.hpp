@@ -21,7 +21,7 @@
 
 namespace stylobate {
 
-/// What became of the realizations of a sensitivity study; in any order.
+/// Outcomes of the realizations of a sensitivity study; in any order.
 class SensitivityOutcomes {
 public:
     /// @param inputs names of the inputs of a row

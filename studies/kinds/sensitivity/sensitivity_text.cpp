@@ -30,7 +30,7 @@ std::string spoken(std::string name)
     return name;
 }
 
-/// What a column says, in a word or two.
+/// Heading of a column.
 std::string heading(const std::string& index)
 {
     if (index == "first" || index == "total")
@@ -81,7 +81,7 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows, const 
     return text;
 }
 
-/// Wider intervals of Sobol's indices are said to be too wide.
+/// Wider intervals of Sobol's indices are reported as too wide.
 constexpr double widest = 0.2;
 
 /// Whether the rows were too few, and how many would do: the width falls as one over their root.

@@ -9,7 +9,7 @@
 namespace stylobate {
 
 struct KeptTrajectories {
-    std::uint64_t count = 0; ///< of the first so many realizations
+    std::uint64_t count = 0; ///< number of realizations, the first ones
     double each_mb = 0; ///< at most, of one [1e6 bytes]: until the end of the shaking and of what is watched after it
     double mb = 0;      ///< of all that are kept
     std::string words;  ///< what was chosen and how to choose otherwise; empty where all are kept and small

@@ -1,5 +1,5 @@
 #pragma once
-/// What a structure tells by still standing: counts of the realizations that agree with what is known of it, and what
+/// Inference from the survival of a structure: counts of the realizations that agree with what is known of it, and what
 /// follows from them. The statistics are those of `ensemble/estimators/past`.
 
 #include "ensemble/estimators/past/exclusion.hpp"
@@ -89,7 +89,7 @@ struct Survival {
     double years = 0, sigma_ln = 0;
     std::optional<IntensityRange> hazard_points; ///< none: a power law
 
-    /// Whether anything can be said of the past.
+    /// Whether the past can be inferred at all.
     bool judged() const { return agree > 0; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the state of a structure tells of its past shaking: a surface whose rows hold the final state, for pasts of one
+/// Past shaking, inferred from the state of a structure: a surface whose rows hold the final state, for pasts of one
 /// event, of two in succession, and so on ([survival], docs/past.md).
 
 #include "studies/kinds/surface/surface_kind.hpp"

@@ -18,7 +18,7 @@ void survival_section(const Survival& survival, PageWriter& writer);
 std::string not_judged_words(const Survival& survival);
 /// "5.31 (5.1 to 5.52)"; beyond the axis: "none".
 std::string estimate_words(const PastEstimate& estimate);
-/// What an exclusion comes to, as a sentence without its full stop.
+/// An exclusion as a sentence without its full stop.
 std::string exclusion_words(const Exclusion& exclusion, const std::string& prior, double level, double axis_end);
 Json exclusion_json(const Exclusion& exclusion);
 Json posterior_json(const PastPosterior& posterior, const PastAxes& axes);
