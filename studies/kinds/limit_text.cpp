@@ -24,7 +24,7 @@ Json share_json(const Share& share, bool fair)
 
 std::string share_text(const Share& share)
 {
-    return fmt::format("{} ({:.3g} %, {:.3g} to {:.3g})", share.count, 100 * share.probability, 100 * share.lower,
+    return fmt::format("{}, {:.3g} % ({:.3g} to {:.3g})", share.count, 100 * share.probability, 100 * share.lower,
                        100 * share.upper);
 }
 
@@ -76,14 +76,14 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
         if (total.count > 0)
             text += fmt::format(", median time {:.3g} s", counts.median_total_collapse_time_s());
     }
-    text += fmt::format("; in brackets: share and its {}\n", describe_interval(counts.interval()));
+    text += fmt::format("; in brackets: {}\n", describe_interval(counts.interval()));
     const std::vector<std::size_t> first = first_fallen(counts);
     constexpr std::size_t most = 5;
     std::string list;
     for (std::size_t k = 0; k < std::min(most, first.size()); ++k)
-        list += fmt::format("{}{}: {}", k > 0 ? ", " : "", names[first[k]], share_text(counts.share_first(first[k])));
+        list += fmt::format("{}{}: {}", k > 0 ? "; " : "", names[first[k]], share_text(counts.share_first(first[k])));
     if (first.size() > most)
-        list += fmt::format(" and {} others", first.size() - most);
+        list += fmt::format("; and {} other{}", first.size() - most, first.size() == most + 1 ? "" : "s");
     if (counts.first_together() > 0)
         list += fmt::format("{}several in the same step: {}", list.empty() ? "" : "; ",
                             share_text(counts.share_first_together()));

@@ -67,7 +67,7 @@ std::string text_of(const FileVerification& v)
                                 d.realization ? fmt::format("realization {}, ", *d.realization) : "", d.where, d.stored,
                                 d.expected.empty() ? "" : fmt::format(" in the file, {} expected", d.expected));
         if (check.more > 0)
-            text += fmt::format("    and {} others\n", check.more);
+            text += fmt::format("    and {} other{}\n", check.more, check.more == 1 ? "" : "s");
     }
     return text;
 }

@@ -70,7 +70,7 @@ TEST_F(AdaptiveProgram, ItsMeanIsThatOfTheUniformSurface)
     EXPECT_GT(std::fabs(leaning - uniform), std::fabs(mean - uniform)) << leaning << ' ' << mean << ' ' << uniform;
     const Ended text = run(run_words(column_study, adaptive, {"-o", "some.h5"}));
     EXPECT_NE(text.out.find("mean of the surface"), std::string::npos) << text.out;
-    EXPECT_EQ(text.out.find("share and its"), std::string::npos) << text.out;
+    EXPECT_EQ(text.out.find("in brackets"), std::string::npos) << text.out;
 }
 
 TEST_F(AdaptiveProgram, WhereTheBudgetEndsItSaysSoAndTheWidestComeFirst)

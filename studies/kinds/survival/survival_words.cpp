@@ -103,7 +103,7 @@ std::vector<std::string> monument_words(const MonumentTest& test, double level, 
         std::string line;
         for (const double each : {0.5, level}) {
             const Share share = share_of(u.size(), MonumentTest::inside(u, each));
-            line += fmt::format("{}{:g} % intervals of {} contain the true value in {} of {} ({:.3g} %, {:.3g} to "
+            line += fmt::format("{}{:g} % intervals of {} contain the true value in {} of {}, {:.3g} % ({:.3g} to "
                                 "{:.3g})",
                                 line.empty() ? "" : "; ", 100 * each, what, share.count, share.trials,
                                 100 * share.probability, 100 * share.lower, 100 * share.upper);
