@@ -38,7 +38,7 @@ struct CalibratedRun {
     int motion_id = 0;
     std::uint64_t units = 0; ///< windows; of outcomes 1
     double start = 0;        ///< score by the study that the calibration began from
-    double calibrated = 0;   ///< by parameters that its motion did not help to find; without held-out motions by all
+    double calibrated = 0;   ///< by parameters fitted without its motion; without held-out motions by all
 };
 
 /// Score of the calibrated study less that of the start, on motions that were left out [nats]. Its 95 % interval is
@@ -73,9 +73,9 @@ struct CalibrationOptions {
     /// Keeps the parameter sets that are done, so that a stopped calibration goes on, by this function or by the
     /// program; it is removed when the calibration is complete. Empty: nowhere
     std::filesystem::path cache = {};
-    /// Told how far it is, line by line; may be empty.
+    /// Called with the progress, line by line; may be empty.
     std::function<void(const std::string& line)> tell = {};
-    std::function<bool()> go_on = {}; ///< asked now and then, ten times a second; false: stop. May be empty
+    std::function<bool()> go_on = {}; ///< polled about ten times a second; false: stop. May be empty
 };
 
 /// A copy is cheap.
@@ -111,7 +111,7 @@ private:
 /// Fits a study to measured response, as `stylobate calibrate` does.
 /// @param measured a campaign (an HDF5 file, or a folder of tables), or a table of outcomes (.csv)
 /// @return nothing if `go_on` stopped it
-/// @throws InputError if it cannot be read, says too little, or if a key cannot be fitted or held
+/// @throws InputError if it cannot be read, has too little information, or if a key cannot be fitted or held
 std::optional<Calibration> calibrate(const std::filesystem::path& measured, const CalibrationOptions& options = {});
 
 } // namespace stylobate::api

@@ -1,5 +1,5 @@
 #pragma once
-/// Before a run: what a study will do, what it takes, and where it is weak.
+/// Before a run: the realizations, costs and weak spots of a study.
 
 #include "stylobate/experiment.hpp"
 #include "stylobate/study.hpp"
@@ -14,13 +14,13 @@
 
 namespace stylobate::api {
 
-/// From what to what.
+/// Lower and upper end.
 struct Range {
     double lower = 0;
     double upper = 0;
 };
 
-/// A choice that is allowed and plausible, but with which the answer says little or depends on the numerics.
+/// A choice that is allowed and plausible, but makes the answer imprecise or dependent on the numerics.
 /// docs/check.md lists them with their reasons and sources.
 struct WeakSpot {
     std::string name;   ///< "wide_interval"
@@ -37,7 +37,7 @@ struct ChosenKey {
 
 /// Time of the run, from the trial.
 struct RunTime {
-    double seconds = 0;   ///< elapsed, if the threads have the machine for themselves
+    double seconds = 0;   ///< elapsed, on an idle machine
     Range range_s;        ///< in which it lies (docs/check.md)
     bool at_most = false; ///< of a study that chooses its realizations: only the upper end of the range means something
     double processor_s = 0; ///< of all threads
@@ -50,7 +50,7 @@ struct Trial {
     std::uint64_t realizations = 0;
     std::uint64_t valid = 0;
     std::uint64_t collapsed = 0; ///< of the valid ones
-    bool whole = false;          ///< it has run all that the study has
+    bool whole = false;          ///< all realizations of the study were run
     double seconds = 0;          ///< elapsed
 };
 
@@ -69,10 +69,10 @@ struct CheckOptions {
     /// allows it (not rare, sensitivity, or surface.adaptive).
     std::uint64_t pilot = 0;
     double trial_seconds = 2;  ///< of the trial, up to 3600; 0: none, and no time is estimated
-    int threads = 0;           ///< of the run that is asked about; 0: as many as the process may use
+    int threads = 0;           ///< of the run to be estimated; 0: as many as the process may use
     std::string simd = "auto"; ///< as `RunOptions::simd`
-    std::function<void(const std::string& line)> tell = {}; ///< told what is being done, line by line; may be empty
-    std::function<bool()> go_on = {}; ///< asked now and then, ten times a second; false: stop. May be empty
+    std::function<void(const std::string& line)> tell = {}; ///< called with each stage, as a line of text; may be empty
+    std::function<bool()> go_on = {}; ///< polled about ten times a second; false: stop. May be empty
 };
 
 /// What is known of a study before its run. A copy is cheap.
@@ -94,7 +94,7 @@ public:
     std::vector<ChosenKey> chosen() const;
     std::vector<WeakSpot> weak_spots() const;
     std::optional<Pilot> pilot() const;
-    std::vector<std::string> warnings() const; ///< what can hardly be meant, and how to allow it
+    std::vector<std::string> warnings() const; ///< implausible values, and how to allow them
     std::string text() const;                  ///< what the command line prints
     std::string json() const;                  ///< `stylobate check --json`
 

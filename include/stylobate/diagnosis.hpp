@@ -1,5 +1,5 @@
 #pragma once
-/// What the simulation gets wrong of measured data, and why.
+/// Errors of the simulation against measured data, and their cause.
 
 #include "stylobate/study.hpp"
 
@@ -14,9 +14,9 @@
 namespace stylobate::api {
 
 enum class Verdict {
-    none,       ///< the simulation agrees with the measurement within what repeats and sensors allow
-    named,      ///< one mechanism, or a set that these data cannot tell apart, explains what is wrong
-    unexplained ///< something is wrong that no known mechanism explains
+    none,       ///< the simulation agrees with the measurement within the scatter of repeats and the noise of sensors
+    named,      ///< one mechanism, or a set that these data cannot distinguish, explains the errors
+    unexplained ///< no known mechanism explains the errors
 };
 
 /// A mechanism that the verdict names. What could not be estimated is empty.
@@ -53,8 +53,8 @@ struct DiagnosisOptions {
     std::string simd = "auto"; ///< as `RunOptions::simd`
     std::filesystem::path cache =
         {}; ///< keeps the simulated campaigns, so that a stopped diagnosis goes on; empty: nowhere
-    std::function<void(const std::string& line)> tell = {}; ///< told what is being done, line by line; may be empty
-    std::function<bool()> go_on = {};                       ///< asked now and then; false: stop. May be empty
+    std::function<void(const std::string& line)> tell = {}; ///< called with each stage, as a line of text; may be empty
+    std::function<bool()> go_on = {};                       ///< polled from time to time; false: stop. May be empty
 };
 
 /// A copy is cheap.

@@ -1,5 +1,5 @@
 #pragma once
-/// The one exception for what a user can correct.
+/// The exception for errors that a user can correct.
 
 #include <stdexcept>
 
@@ -8,14 +8,14 @@ namespace stylobate::api {
 /// Bad input: a study, a record, a results file or an option that cannot be used. The message is the one that the
 /// command line prints: where (file and line, if there is one), what, the allowed range, and what to do.
 ///
-/// Everything in this library may throw it. What is no one's input is a std::exception of another type, such as
-/// std::system_error for a full disk.
+/// Everything in this library may throw it. Errors that are not due to input are of another
+/// type derived from std::exception, such as std::system_error for a full disk.
 class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// What the caller stopped before there was a result: `follow` with a function that returned false.
+/// Stopped by the caller before there was a result: `follow` with a function that returned false.
 class Stopped : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
 #pragma once
-/// A study with the motions that shake it: what is run.
+/// A study with the motions that shake it.
 
 #include "stylobate/record.hpp"
 #include "stylobate/study.hpp"
@@ -29,11 +29,11 @@ public:
     ///
     /// In a study of kind "surface" the motion is scaled to the PGA of each cell, and its time to the frequency of each
     /// cell, as a record is. In any other study it stands as it is given, unless the study has an excitation of kind
-    /// "record" whose `scale_to_pga_m_s2` or `time_scale` says otherwise.
+    /// "record" whose `scale_to_pga_m_s2` or `time_scale` sets another one.
     ///
     /// @param acceleration_m_s2 of the base at a time in seconds, from 0 on
     /// @param dt_s       distance of the samples: 0.01 s or less, and a fraction of the shortest period in the function
-    /// @param duration_s of the shaking; how long is simulated after it the study's `excitation.tail_s` says
+    /// @param duration_s of the shaking; the study's `excitation.tail_s` is the time simulated after it
     /// @throws InputError as above, if the samples are fewer than 10 or one of them is not finite, and for a study of
     ///         kind "fragility", whose motions come from its [fragility]
     Experiment(const Study& study, const std::function<double(double time_s)>& acceleration_m_s2, double dt_s,

@@ -27,7 +27,7 @@ public:
     /// Reads a component; the format is recognised from the content (PEER AT2, COSMOS, ESM, K-NET, plain columns and
     /// others, as `stylobate record` has them).
     /// @param component its name, its orientation or the number of its column; empty: the only one there is
-    /// @param unit of the acceleration: "g", "m/s2", "cm/s2", "mm/s2"; empty: the file must say it
+    /// @param unit of the acceleration: "g", "m/s2", "cm/s2", "mm/s2"; empty: the file must give it
     /// @throws InputError if the file cannot be read, is damaged or of no known format, has no such component or
     ///         several where none is named, or if its unit is not known
     static Record read(const std::filesystem::path& file, const std::string& component = {},
@@ -45,7 +45,7 @@ public:
     std::string file() const;
     std::string format() const; ///< "peer-at2", "columns" and so on; "samples" where it was not read
     std::string component() const;
-    std::string title() const; ///< event and station, as the file says
+    std::string title() const; ///< event and station, from the file
 
     /// @throws InputError if there is nothing to integrate: all samples are equal
     Intensity intensity() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// What became of the realizations of a study.
+/// Outcomes of the realizations of a study.
 
 #include "stylobate/fragility.hpp"
 #include "stylobate/surface.hpp"
@@ -18,7 +18,7 @@ enum class State : std::uint8_t {
     rocked = 1,    ///< beyond `outcome.rocking_threshold_rad`, without a fall
     slid = 2,      ///< beyond `outcome.sliding_threshold`, without a fall
     collapsed = 3, ///< a block has fallen
-    invalid = 4    ///< set aside: a number was not finite, or the balance of energy lacks too much
+    invalid = 4    ///< set aside: a number was not finite, or the residual of the energy balance was too large
 };
 /// "stood", "rocked", "slid", "collapsed", "invalid"
 const char* to_string(State state);
@@ -58,7 +58,7 @@ struct Outcome {
     double energy_friction_j = 0;  ///< dissipated
     double energy_damping_j = 0;   ///< dissipated
     double energy_base_work_j = 0; ///< done by the base
-    double energy_residual = 0;    ///< what the balance lacks, over the energy that went through it
+    double energy_residual = 0;    ///< residual of the balance, relative to the energy that passed through it
     double end_time_s = 0;         ///< simulated time
     double step_s = 0;
     std::uint64_t steps = 0;
@@ -66,7 +66,7 @@ struct Outcome {
     std::vector<double> inputs;      ///< (`Result::input_names`) what was drawn
 };
 
-/// How often, among the valid realizations.
+/// Share of the valid realizations.
 struct Share {
     std::uint64_t trials = 0;
     std::uint64_t count = 0;
@@ -95,7 +95,8 @@ public:
 
     /// How often a limit state was reached, over all cells or motions.
     /// @param limit_state "collapse", "total", "unseated", "rocked" or "slid"
-    /// @throws InputError for any other word, and for a study of rare events, whose realizations lean to the collapse
+    /// @throws InputError for any other word, and for a study of rare events, whose realizations are biased towards
+    /// collapse
     Share share(const std::string& limit_state = "collapse") const;
 
     /// By index. Empty for a study that keeps no rows (`output.realizations = "none"`).

@@ -11,7 +11,7 @@
 
 namespace stylobate::api {
 
-/// How far a run is.
+/// Progress of a run.
 struct Progress {
     std::uint64_t done = 0;  ///< realizations that have ended
     std::uint64_t total = 0; ///< of the study, or the most that it can take
@@ -27,11 +27,11 @@ struct Progress {
 struct RunOptions {
     int threads = 0;           ///< 0: as many as the process may use
     std::string simd = "auto"; ///< "auto", or an instruction set: "scalar", "avx2", "avx512", "neon"
-    /// Told about ten times a second, from one thread at a time; returns false to stop the run. May be empty.
+    /// Called about ten times a second, from one thread at a time; returns false to stop the run. May be empty.
     std::function<bool(const Progress&)> progress = {};
 };
 
-/// Runs the experiment and gives back what became of its realizations. The result is not complete if `progress` stopped
+/// Runs the experiment and returns the outcomes of its realizations. The result is not complete if `progress` stopped
 /// it.
 /// @throws InputError for options that this machine does not have, and for a realization that cannot be built
 Result run(const Experiment& experiment, const RunOptions& options = {});

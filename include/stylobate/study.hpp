@@ -1,5 +1,5 @@
 #pragma once
-/// A study: the structure, its contacts, the shaking, what is drawn, and what is asked.
+/// A study: the structure, its contacts, the shaking, the random quantities, and the question.
 
 #include <cstdint>
 #include <filesystem>

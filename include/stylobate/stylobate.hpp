@@ -5,7 +5,7 @@
 ///   sb::Study study = sb::Study::from_file("column.toml");
 ///   sb::Result result = sb::run(sb::Experiment(study));
 ///
-/// SI units throughout; the unit is a part of each name. docs/library.md says how to build against it.
+/// SI units throughout; the unit is a part of each name. docs/library.md describes how to build against it.
 
 #include "stylobate/calibration.hpp"
 #include "stylobate/check.hpp"

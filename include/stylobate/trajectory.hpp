@@ -45,7 +45,7 @@ Trajectory follow(const Experiment& experiment, std::uint64_t index);
 
 /// Runs one realization of a result again, as `stylobate replay` does.
 /// @param settings may only give the present path of its record: "excitation.file=PATH"
-/// @param go_on asked now and then, many times a second; false: stop. May be empty
+/// @param go_on polled many times a second; false: stop. May be empty
 /// @throws InputError as above, and if the record is not the one of the result, or the settings give anything else
 /// @throws Stopped if `go_on` returned false
 Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings = {},

@@ -9,7 +9,7 @@ from ._study import Study, study_of, whole_number
 
 
 class Calibration:
-    """What measured data determine of a study (docs/calibration.md). Scores are in nats; values have the unit of their
+    """Parameters of a study from measured data (docs/calibration.md). Scores are in nats; values have the unit of their
     key."""
 
     def __init__(self, core):

@@ -1,4 +1,4 @@
-"""What is known of a study before its run."""
+"""Checks of a study before its run."""
 
 import json
 import os
@@ -9,7 +9,7 @@ from ._study import experiment_of, number, whole_number
 
 
 class Check:
-    """What a study will do, what it takes, and where it is weak (docs/check.md); `Study.check` makes one."""
+    """The realizations, costs and weak spots of a study (docs/check.md); `Study.check` makes one."""
 
     def __init__(self, core):
         self._core = core
@@ -86,12 +86,12 @@ class Check:
 
     @property
     def chosen(self):
-        """What `run.accuracy` has chosen: a ChosenKey for each key (key, value, reason)."""
+        """The choices of `run.accuracy`: a ChosenKey for each key (key, value, reason)."""
         return self._core.chosen
 
     @property
     def weak_spots(self):
-        """Choices with which the answer says little or depends on the numerics: a WeakSpot for each (name, text with
+        """Choices that make the answer imprecise or dependent on the numerics: a WeakSpot for each (name, text with
         figures and source, remedy)."""
         return self._core.weak_spots
 
@@ -103,7 +103,7 @@ class Check:
 
     @property
     def warnings(self):
-        """What of the study can hardly be meant: texts."""
+        """Implausible values of the study: texts."""
         return self._core.warnings
 
     def text(self):

@@ -1,4 +1,4 @@
-"""What the simulation gets wrong of measured data."""
+"""Errors of the simulation against measured data, and their cause."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What became of the realizations of a study."""
+"""Outcomes of the realizations of a study."""
 
 import os
 
@@ -88,7 +88,7 @@ class Result:
 
     @property
     def warnings(self):
-        """What is doubtful about the study, a text each."""
+        """Warnings about the study, a text each."""
         return self._core.warnings
 
     @property

@@ -7,7 +7,7 @@ from . import _core, _toml
 
 
 class Study:
-    """A study: the structure, its contacts, the shaking, what is drawn, and what is asked.
+    """A study: the structure, its contacts, the shaking, the random quantities, and the question.
 
     Every key is checked and every default filled in; the keys are those of the study files of the program
     (docs/study_reference.md).
@@ -39,7 +39,7 @@ class Study:
         self._core.set(f"{key}={_toml.value(value, key)}")
 
     def describe(self):
-        """What is run, in a few lines: kind, number of realizations, structure, contacts, excitation, what is drawn."""
+        """The study in a few lines: kind, number of realizations, structure, contacts, excitation, random quantities."""
         lines = [("Kind", self.kind), ("Realizations", str(self.realizations)), ("Seed", str(self.seed)),
                  *self._core.summary()]
         width = max(len(name) for name, _ in lines)
@@ -74,7 +74,7 @@ class Study:
 
     @property
     def seed(self):
-        """The seed of what is drawn."""
+        """The seed of all random quantities."""
         return self._core.seed()
 
     @property
@@ -126,7 +126,7 @@ def number(value, name):
 
 
 def experiment_of(study, record):
-    """What is run of a Study: with its own excitation, or with a Record."""
+    """A Study with the motions that shake it: its own excitation, or a Record."""
     if record is None:
         return _core.Experiment(study._core)
     if not isinstance(record, _core.Record):

@@ -1,4 +1,4 @@
-"""Checks: what the program tells before a run."""
+"""Checks before a run."""
 
 import json
 import os
