@@ -26,6 +26,7 @@ Outcome outcome_of(const stylobate::ResultRow& row)
     out.collapse_time_s = o.collapse_time_s;
     out.first_fallen_block = o.first_collapse_block;
     out.fallen_blocks = o.fallen_blocks;
+    out.at_rest = o.at_rest != 0;
     out.unseated_block = o.unseated_block;
     out.unseating_time_s = o.unseating_time_s;
     out.total_collapse_time_s = o.total_collapse_time_s;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace stylobate {
@@ -299,13 +300,13 @@ void LaneSet::load(int lane, Realization realization)
     Watch& w = place.watch;
     const int interval = check_steps(topology_);
     w.step_s = r.step_s;
-    w.shaking_end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
+    const double end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
+    w.shaking_end_s = shaken ? end_s : 0;
     w.barrier_j = place.scales.barrier_j;
     w.rest_energy_j = rest_energy * place.scales.barrier_j;
     w.rest_slip_m = rest_slip * place.scales.width_m * place.scales.p_rad_s * interval * r.step_s;
-    const double tail = shaken ? study_.excitation.tail_s.value_or(tail_after_shaking(r)) : 0;
     w.may_rest = shaken;
-    w.last_step = whole_checks(w.shaking_end_s + tail, r.step_s, interval);
+    w.last_step = whole_checks(end_s + tail_s(study_.excitation, r), r.step_s, interval);
     w.rest_steps = whole_checks(rest_time / place.scales.p_rad_s, r.step_s, interval);
     w.seated = 1;
     w.beds_alone = topology_.model.rigid() && (topology_.watched > 0 || study_.outcome.follow == Follow::rest);
@@ -495,9 +496,8 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     o.end_time_s = static_cast<double>(place.watch.steps) * r.step_s;
     o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
     const Watch& w = place.watch;
-    const double top =
-        w.quiet != 0 ? w.quiet_top_m / static_cast<double>(w.quiet_checks) : centre(topology_.top, lane).x_m;
-    o.residual_top_displacement_m = top - place.start_top_x_m;
+    o.at_rest = at_rest(w) ? 1 : 0;
+    o.residual_top_displacement_m = w.quiet_top_m / static_cast<double>(w.quiet_checks) - place.start_top_x_m;
     o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
     o.sliding_path_m = bundle_.at(OfRealization::path, lane);
@@ -525,6 +525,11 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
         state = State::invalid;
         reason = InvalidReason::energy;
     }
+    if (state == State::invalid)
+        o.at_rest = 0;
+    if (o.at_rest == 0) // a snapshot of what still moves is no residual
+        o.residual_top_displacement_m = o.residual_sliding_m = o.residual_dislocation =
+            std::numeric_limits<double>::quiet_NaN();
     // of one that was set aside nothing is said
     (state == State::invalid ? LimitStates(r, study_.outcome, 0, 0) : place.limits).write(r, o);
     if (study_.survival) {

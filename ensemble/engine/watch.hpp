@@ -27,7 +27,7 @@ inline constexpr std::uint64_t audit_chunks = 16;
 struct Watch {
     // fixed at the start
     double step_s = 0;
-    double shaking_end_s = 0; ///< no realization is at rest before
+    double shaking_end_s = 0; ///< no realization is at rest before; 0 where nothing shakes
     double barrier_j = 0;     ///< scale of the energy balance
     double rest_energy_j = 0; ///< at rest it has less kinetic energy than this,
     double rest_slip_m = 0;   ///< and slips less than this in a chunk
@@ -185,6 +185,14 @@ STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int
     return false;
 }
 
+/// The criterion of rest, for the end of a realization and for `Outcome::at_rest`: after the shaking, at every check of
+/// the last `rest_steps`, the kinetic energy relative to the base was below `rest_energy_j`, no more than `rest_slip_m`
+/// had slipped since the check before, and no block was about to fall.
+STYLOBATE_INLINE bool at_rest(const Watch& w)
+{
+    return w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps;
+}
+
 /// Sees whether the realization lies still.
 /// @return whether it has for so long, or is out of time, that it is over
 STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int lane, bool undecided, Watch& w)
@@ -206,8 +214,7 @@ STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int 
     } else {
         w.quiet = 0;
     }
-    const bool at_rest = w.may_rest != 0 && w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps;
-    return at_rest || w.steps >= w.last_step;
+    return (w.may_rest != 0 && at_rest(w)) || w.steps >= w.last_step;
 }
 
 } // namespace stylobate

@@ -23,10 +23,12 @@ struct Outcome {
     std::int32_t first_collapse_block = -1; ///< that met the collapse criterion first; -1 = none; `several_blocks`
     std::int32_t fallen_blocks = 0;         ///< how many have met it by the end
     std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none; `several_blocks`
-    double unseating_time_s = -1;           ///< when, as a check found it (every `chunk_steps` steps); -1 = never
-    double total_collapse_time_s = -1;      ///< when every column and every epistyle had fallen; -1 = not so
+    std::int32_t at_rest = 0; ///< 1: it lay still at the end (`at_rest` in engine/watch.hpp); 0: it still moved, and
+                              ///< what remains of its motion (`residual_...`) is NaN. 0 too of one that was set aside
+    double unseating_time_s = -1;       ///< when, as a check found it (every `chunk_steps` steps); -1 = never
+    double total_collapse_time_s = -1;  ///< when every column and every epistyle had fallen; -1 = not so
     double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
-    double residual_top_displacement_m = 0; ///< x of the top block's centre at the end, from its rest at the start
+    double residual_top_displacement_m = 0; ///< x of the top block's centre at rest, from its rest at the start
     double top_path_m = 0;                  ///< path of the top block's centre against the base
     double total_sliding_m = 0;             ///< sum over the beds of the slip while slipping
     double sliding_path_m = 0;              ///< sum over the beds of the relative path of the faces in contact

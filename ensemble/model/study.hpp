@@ -89,6 +89,12 @@ enum class PgaOf {
 
 enum class Spacing { linear, log };
 
+/// How long a realization is simulated after the shaking, if it does not come to rest before.
+enum class Tail {
+    structure, ///< long enough for a fall: `tail_after_shaking()`
+    rest       ///< until it lies still, at most `longest_tail()`
+};
+
 struct ExcitationSpec {
     ExcitationKind kind = ExcitationKind::none;
     double duration_s = 0; ///< `none`: the simulated time; `sweep`: its length
@@ -132,7 +138,8 @@ struct ExcitationSpec {
     bool baseline = true;  ///< correct the record's baseline
     std::optional<BandPass> band_pass; ///< filter it too
 
-    std::optional<double> tail_s; ///< simulated at most after the shaking; default: see `tail_after_shaking()`
+    std::optional<double> tail_s; ///< simulated at most after the shaking; none: as `tail` says
+    Tail tail = Tail::structure;  ///< in a study file `rest` is the default of kinds that report what remains
 };
 
 struct Axis {

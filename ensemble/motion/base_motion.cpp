@@ -1,5 +1,6 @@
 #include "ensemble/motion/base_motion.hpp"
 
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/elementary.hpp"
 #include "ensemble/statics/scales.hpp"
 
@@ -262,6 +263,20 @@ Motion sampled(const BaseMotion& motion, double fastest_hz)
 double tail_after_shaking(const Realization& realization)
 {
     return 12 / scales_of(realization).p_rad_s;
+}
+
+double longest_tail(const Realization& realization)
+{
+    return rest_tails * tail_after_shaking(realization);
+}
+
+double tail_s(const ExcitationSpec& excitation, const Realization& realization)
+{
+    if (excitation.kind == ExcitationKind::none)
+        return 0;
+    if (excitation.tail_s)
+        return *excitation.tail_s;
+    return excitation.tail == Tail::rest ? longest_tail(realization) : tail_after_shaking(realization);
 }
 
 } // namespace stylobate

@@ -96,5 +96,10 @@ Motion sampled(const BaseMotion& motion, double fastest_hz);
 /// and R half the diagonal of the whole structure. This is about three times the time in which it overturns from near
 /// its unstable equilibrium (own choice).
 double tail_after_shaking(const Realization& realization);
+/// Limit of the simulated time after the shaking where a study reports what remains of the motion (`Tail::rest`):
+/// `rest_tails` times as long.
+double longest_tail(const Realization& realization);
+/// The most that is simulated after the shaking of a realization [s]; 0 where nothing shakes.
+double tail_s(const ExcitationSpec& excitation, const Realization& realization);
 
 } // namespace stylobate

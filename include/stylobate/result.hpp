@@ -39,6 +39,7 @@ struct Outcome {
     double collapse_time_s = -1;
     std::int32_t first_fallen_block = -1; ///< in layout order; -2: several at the same step
     std::int32_t fallen_blocks = 0;
+    bool at_rest = false;             ///< it lay still at the end; else its residuals are NaN
     std::int32_t unseated_block = -1; ///< epistyle that lost a seat first; -2: several at once
     double unseating_time_s = -1;
     double total_collapse_time_s = -1; ///< when all had fallen, where the study follows its realizations to rest
@@ -94,7 +95,7 @@ public:
     std::vector<std::string> warnings() const;
 
     /// How often a limit state was reached, over all cells or motions.
-    /// @param limit_state "collapse", "total", "unseated", "rocked" or "slid"
+    /// @param limit_state "collapse", "total", "unseated", "rocked", "slid" or "moving"
     /// @throws InputError for any other word, and for a study of rare events, whose realizations are biased towards
     /// collapse
     Share share(const std::string& limit_state = "collapse") const;

@@ -144,10 +144,12 @@ inline const ListKey band_pass{"band_pass_hz",
 inline const NumberKey tail{"tail_s",
                             tail_range,
                             "longest simulated time after the shaking",
-                            {.absent = "\"structure\": 12 / p, p = sqrt(3 g / (4 R)) of the whole column of each "
-                                       "realization, R half its diagonal",
+                            {.absent = "\"rest\" where the kind of study reports residual displacements (single, "
+                                       "sensitivity, fragility with residual_limits): until the realization lies "
+                                       "still, at most 60 / p; else \"structure\": 12 / p, p = sqrt(3 g / (4 R)) of "
+                                       "the whole column of each realization, R half its diagonal",
                              .used = {moving},
-                             .words = {tail_of_structure}}};
+                             .words = {tail_names[0].word, tail_names[1].word}}};
 
 inline const TableKey table{
     "excitation",

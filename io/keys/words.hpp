@@ -63,7 +63,7 @@ inline constexpr std::array kept_realizations_names = {Name<KeptRealizations>{"a
                                                        Name<KeptRealizations>{"none", KeptRealizations::none}};
 inline constexpr const char* trajectories_fit = "fit"; ///< as many as most_mb holds
 inline constexpr const char* trajectories_all = "all";
-inline constexpr const char* tail_of_structure = "structure"; ///< the default of tail_s, by name
+inline constexpr std::array tail_names = {Name<Tail>{"structure", Tail::structure}, Name<Tail>{"rest", Tail::rest}};
 inline constexpr std::array distribution_names = {Name<DistributionKind>{"normal", DistributionKind::normal},
                                                   Name<DistributionKind>{"lognormal", DistributionKind::lognormal},
                                                   Name<DistributionKind>{"uniform", DistributionKind::uniform},

@@ -191,7 +191,7 @@ ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes
     std::size_t column = 0;
     const auto none = [](std::string_view path, auto& value) { // NaN is -1 again
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-            if (std::isnan(value) && !meaning_of_none(path).empty())
+            if (std::isnan(value) && is_event_time(path))
                 value = -1;
     };
     visit_fields(row, [&](const char* path, const char*, auto& field) {

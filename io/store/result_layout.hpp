@@ -15,7 +15,7 @@
 
 namespace stylobate {
 
-inline constexpr std::uint64_t result_format_version = 4;
+inline constexpr std::uint64_t result_format_version = 5;
 inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
 
 /// Names in the file. Those of the columns follow from `visit_fields` below.
@@ -70,6 +70,7 @@ void visit_fields(Row& row, F&& f)
     f("outcome/collapse_time_s", "s", o.collapse_time_s);
     f("outcome/first_collapse_block", "", o.first_collapse_block);
     f("outcome/fallen_blocks", "", o.fallen_blocks);
+    f("outcome/at_rest", "", o.at_rest);
     f("outcome/unseated_block", "", o.unseated_block);
     f("outcome/unseating_time_s", "s", o.unseating_time_s);
     f("outcome/total_collapse_time_s", "s", o.total_collapse_time_s);
@@ -97,15 +98,34 @@ void visit_fields(Row& row, F&& f)
 static_assert(sizeof(Outcome) == 280,
               "a field that is added to or removed from Outcome must be so in visit_fields() too");
 
-/// What stands for "none" in a column; empty: nothing does. In memory it is -1; in files and tables a time that never
-/// came is NaN, and of blocks, which are whole numbers, -1 is none.
+/// The last part of a column's path.
+constexpr std::string_view name_of_column(std::string_view path)
+{
+    return path.substr(path.rfind('/') + 1); // all of it where there is no '/'
+}
+/// Whether a column has the time of what may not happen: in memory -1 is none, in files and tables NaN.
+constexpr bool is_event_time(std::string_view path)
+{
+    const std::string_view name = name_of_column(path);
+    return name == "collapse_time_s" || name == "unseating_time_s" || name == "total_collapse_time_s" ||
+           name == "fall_time_s";
+}
+/// Whether a column has what remains of the motion: NaN of a structure that still moves.
+constexpr bool is_residual(std::string_view path)
+{
+    const std::string_view name = name_of_column(path);
+    return name == "residual_top_displacement_m" || name == "residual_sliding_m" || name == "residual_dislocation";
+}
+
+/// What stands for "none" in a column of a file or a table; empty: nothing does. (Of blocks, which are whole numbers,
+/// -1 is none.)
 constexpr std::string_view meaning_of_none(std::string_view path)
 {
-    const std::size_t begin = path.rfind('/') + 1; // 0 where there is none
-    const std::string_view name = path.substr(begin);
-    if (name == "collapse_time_s" || name == "unseating_time_s" || name == "total_collapse_time_s" ||
-        name == "fall_time_s")
+    if (is_event_time(path))
         return "NaN: it did not happen";
+    if (is_residual(path))
+        return "NaN: the structure still moved at the end";
+    const std::string_view name = name_of_column(path);
     if (name == "first_collapse_block" || name == "unseated_block")
         return "-1: no block; -2: several blocks, together";
     return {};
@@ -115,7 +135,7 @@ template <class Value>
 Value without_none(std::string_view path, const Value& value)
 {
     if constexpr (std::is_same_v<Value, double>)
-        return value == -1 && !meaning_of_none(path).empty() ? std::numeric_limits<double>::quiet_NaN() : value;
+        return value == -1 && is_event_time(path) ? std::numeric_limits<double>::quiet_NaN() : value;
     else
         return value;
 }

@@ -124,6 +124,23 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
                             "Remove it: the motions and their intensities are given by [fragility].");
 }
 
+/// A number, or one of the words; without it the default of the kind of study. (`read_study` knows what else it
+/// depends on.)
+void read_tail(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
+{
+    const TomlValue* tail = keys.find(excitation_keys::tail.name);
+    const bool reports = kind == StudyKind::single || kind == StudyKind::sensitivity || kind == StudyKind::fragility;
+    if (tail == nullptr)
+        e.tail = reports ? Tail::rest : Tail::structure;
+    else if (const auto* word = std::ranges::find_if(
+                 tail_names,
+                 [&](const auto& name) { return tail->type == TomlValue::Type::string && tail->text == name.word; });
+             word != tail_names.end())
+        e.tail = word->value;
+    else
+        e.tail_s = keys.maybe(excitation_keys::tail);
+}
+
 } // namespace
 
 std::string acceleration_unit(const KeyReader& keys, const TextKey& key)
@@ -191,9 +208,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         e.run = keys.read_or(excitation_keys::run, {});
         break;
     }
-    if (const TomlValue* tail = keys.find(excitation_keys::tail.name);
-        tail == nullptr || tail->type != TomlValue::Type::string || tail->text != tail_of_structure)
-        e.tail_s = keys.maybe(excitation_keys::tail);
+    read_tail(keys, kind, e);
     return e;
 }
 

@@ -214,6 +214,16 @@ Entries entries_of(const ContactSpec& contact)
     return out;
 }
 
+/// The word of a tail without a number, with what it comes to.
+std::string tail_text(Tail tail, const StructureSpec& structure)
+{
+    const bool rest = tail == Tail::rest;
+    const double parts = 12 * (rest ? rest_tails : 1), usual = nominal_tail_s(structure);
+    return fmt::format("{} # {}{:g} / p of each realization; of the structure as given {:.4g} s",
+                       toml_quoted(word_for(tail_names, tail)), rest ? "until it lies still, at most " : "", parts,
+                       usual * (rest ? rest_tails : 1));
+}
+
 /// The keys that the kinds of the excitation and of the study use; a value that was not given is omitted.
 Entries entries_of(const ExcitationSpec& e, StudyKind study, const StructureSpec& structure)
 {
@@ -263,8 +273,7 @@ Entries entries_of(const ExcitationSpec& e, StudyKind study, const StructureSpec
     if (e.tail_s)
         add(tail, e.tail_s);
     else if (tail.used_where("excitation.kind", motion)) // each realization has its own
-        out.add_text(tail, fmt::format("{} # 12 / p of each realization; of the structure as given {:.4g} s",
-                                       toml_quoted(tail_of_structure), nominal_tail_s(structure)));
+        out.add_text(tail, tail_text(e.tail, structure));
     return out;
 }
 

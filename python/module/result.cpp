@@ -28,6 +28,7 @@ void visit_outcome(const F& f)
     f("collapse_time_s", "s", &O::collapse_time_s);
     f("first_collapse_block", "1", &O::first_fallen_block);
     f("fallen_blocks", "1", &O::fallen_blocks);
+    f("at_rest", "1", &O::at_rest);
     f("unseated_block", "1", &O::unseated_block);
     f("unseating_time_s", "s", &O::unseating_time_s);
     f("total_collapse_time_s", "s", &O::total_collapse_time_s);

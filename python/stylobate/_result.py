@@ -105,7 +105,7 @@ class Result:
         """How often a limit state was reached over all cells or motions: a Share with trials, count, probability, and
         lower and upper, its 95 % interval.
 
-        limit_state: "collapse", "total", "unseated", "rocked" or "slid".
+        limit_state: "collapse", "total", "unseated", "rocked", "slid" or "moving".
         """
         return self._core.share(limit_state)
 

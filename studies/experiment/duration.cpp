@@ -16,9 +16,7 @@ double shaking_s(const Experiment& experiment, const Realization& r)
 
 double longest_s(const Experiment& experiment, const Realization& r)
 {
-    const ExcitationSpec& excitation = experiment.study().excitation;
-    const double tail = excitation.kind == ExcitationKind::none ? 0 : excitation.tail_s.value_or(tail_after_shaking(r));
-    return shaking_s(experiment, r) + tail;
+    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, r);
 }
 
 } // namespace stylobate

@@ -18,7 +18,7 @@ std::string interval_name()
 
 const std::vector<std::string>& limit_state_names()
 {
-    static const std::vector<std::string> names = {"collapse", "total", "unseated", "rocked", "slid"};
+    static const std::vector<std::string> names = {"collapse", "total", "unseated", "rocked", "slid", "moving"};
     return names;
 }
 
@@ -42,6 +42,8 @@ const char* describe(LimitState limit)
         return "rocking without collapse";
     case LimitState::slid:
         return "sliding without collapse";
+    case LimitState::moving:
+        return "still moving at the end, without collapse";
     }
     return "unknown";
 }
@@ -59,6 +61,8 @@ bool reached(LimitState limit, const Outcome& outcome)
         return outcome.state == State::rocked;
     case LimitState::slid:
         return outcome.state == State::slid;
+    case LimitState::moving:
+        return outcome.state != State::collapsed && outcome.at_rest == 0;
     }
     return false;
 }
@@ -185,6 +189,16 @@ std::size_t cells_of_motion(const Study& study)
 std::string LimitCounts::interval() const
 {
     return cells_of_motion_ > 0 ? fmt::format("motions {}", interval_level) : interval_name();
+}
+
+std::string LimitCounts::moving_text() const
+{
+    const std::uint64_t moving = reached_[static_cast<std::size_t>(LimitState::moving)];
+    if (moving == 0)
+        return {};
+    const std::uint64_t standing = trials_ - reached_[static_cast<std::size_t>(LimitState::collapse)];
+    return fmt::format("{} of {} realization{} without collapse still moved at the end.", moving, standing,
+                       standing == 1 ? "" : "s");
 }
 
 double LimitCounts::median_collapse_time_s() const

@@ -22,7 +22,8 @@ enum class LimitState {
     total,    ///< every column and every epistyle has fallen
     unseated, ///< an epistyle has lost a seat
     rocked,   ///< ended as `State::rocked`: without a fall, and more by rocking than by sliding
-    slid      ///< ended as `State::slid`: without a fall, and more by sliding than by rocking
+    slid,     ///< ended as `State::slid`: without a fall, and more by sliding than by rocking
+    moving    ///< without a fall, and not at rest at the end (`Outcome::at_rest`): its residuals are not known
 };
 
 /// The words of the command line, in the order of the enumeration.
@@ -74,6 +75,8 @@ public:
     /// How often several blocks fell before all others, at the same step.
     std::uint64_t first_together() const { return first_together_; }
     std::uint64_t trials() const { return trials_; }
+    /// "12 of 34 realizations without collapse still moved at the end."; empty where none did.
+    std::string moving_text() const;
     /// Median over the realizations that collapsed [s]; NaN if there is none. (As exact as `TimeCounts`.)
     double median_collapse_time_s() const;
     /// Median over those that collapsed in all [s]; NaN if there is none.

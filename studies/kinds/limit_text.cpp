@@ -77,6 +77,8 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
             text += fmt::format(", median time {:.3g} s", counts.median_total_collapse_time_s());
     }
     text += fmt::format("; in brackets: {}\n", describe_interval(counts.interval()));
+    if (const std::string moving = counts.moving_text(); !moving.empty())
+        text += fmt::format("  {}\n", moving);
     const std::vector<std::size_t> first = first_fallen(counts);
     constexpr std::size_t most = 5;
     std::string list;

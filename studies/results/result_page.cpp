@@ -162,6 +162,10 @@ private:
                     "probability is near 1/2.";
         if (collapsed.count > 0)
             text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
+        if (const std::string moving = counts_.moving_text(); !moving.empty())
+            text += " " + (rows_.size() == 1 ? std::string("It still moved at the end: its residual displacements are "
+                                                           "not known.")
+                                             : moving);
         page_.paragraph(text);
         if (!invalid_.empty()) {
             std::string list;
@@ -311,18 +315,27 @@ private:
                 upright.push_back(row);
         if (upright.empty())
             return;
+        std::vector<const ResultRow*> resting;
+        std::ranges::copy_if(upright, std::back_inserter(resting),
+                             [](const ResultRow* row) { return row->outcome.at_rest != 0; });
         page_.section("Displacements");
         page_.table(quantiles(upright, {{"largest displacement of the centre of the top block, from upright", "m",
                                          &Outcome::peak_top_displacement_m},
-                                        {"residual displacement of the centre of the top block, with its sign", "m",
-                                         &Outcome::residual_top_displacement_m},
                                         {"sliding of all joints", "m", &Outcome::total_sliding_m},
-                                        {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
                                         {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
                                         {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
-        if (rows_.size() > 1)
-            page_.note(fmt::format("Over the {} valid realization{} without a fall{}.", upright.size(),
-                                   upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : ""));
+        if (!resting.empty())
+            page_.table(quantiles(resting, {{"residual displacement of the centre of the top block, with its sign", "m",
+                                             &Outcome::residual_top_displacement_m},
+                                            {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
+                                            {"largest residual dislocation of a joint, over its width", "",
+                                             &Outcome::residual_dislocation}}));
+        if (rows_.size() == 1)
+            return;
+        page_.note(fmt::format("Over the {} valid realization{} without a fall{}; residuals over the {} of them that "
+                               "were at rest at the end.",
+                               upright.size(), upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : "",
+                               resting.size()));
     }
 
     void energy()

@@ -48,12 +48,17 @@ public:
     {
         visit_fields(row_, [&](const char* path, const char*, const auto& value) {
             if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
-                const bool none = value == -1 && !meaning_of_none(path).empty();
+                const bool none = value == -1 && is_event_time(path);
+                if (is_residual(path) && row_.outcome.at_rest == 0) {
+                    require(path, value, std::isnan(value), "NaN of what still moved");
+                    return;
+                }
                 require(path, value, std::isfinite(value), "a finite number");
                 require(path, value, none || may_be_negative(path) || !(value < 0), "a number that is not negative");
             }
         });
         const Outcome& o = row_.outcome;
+        require("outcome/at_rest", o.at_rest, o.at_rest == 0 || o.at_rest == 1, "0 or 1");
         require("outcome/step_s", o.step_s, o.step_s > 0, "a number above 0");
         for (const double time : {o.collapse_time_s, o.unseating_time_s, o.total_collapse_time_s})
             require("outcome/end_time_s", o.end_time_s, !(o.end_time_s < time), "a time that is not before the falls");
@@ -100,7 +105,7 @@ public:
         for (std::size_t i = 0; i < o.rotation_rad.size(); ++i)
             require(fmt::format("outcome/rotation_rad[{}]", i), o.rotation_rad[i], std::isfinite(o.rotation_rad[i]),
                     "a finite number");
-        if (!o.bed_offset_m.empty())
+        if (!o.bed_offset_m.empty() && o.at_rest == 1)
             expect("outcome/residual_sliding_m", o.residual_sliding_m, sliding);
     }
 

@@ -76,7 +76,7 @@ TEST_F(Counted, TheSameTablesAsWithRows)
             for (std::size_t k = 0; k < limit_state_names().size() && !invalid; ++k)
                 want[2 + k] += reached(static_cast<LimitState>(k), row.outcome);
             if (!invalid && row.outcome.first_collapse_block >= 0) {
-                ++want[7 + static_cast<std::size_t>(row.outcome.first_collapse_block)];
+                ++want[2 + limit_state_names().size() + static_cast<std::size_t>(row.outcome.first_collapse_block)];
                 ++first_falls;
             }
             want.back() += !invalid && row.outcome.first_collapse_block == several_blocks;

@@ -45,7 +45,7 @@ std::vector<InputDependence> input_dependences(const ResultReader& rows, const S
     rows.for_each_row([&](const ResultRow& row) {
         const std::uint64_t index = row.index;
         if (index >= base.size() || !layout.has(index) || index % layout.per_cell >= of_each_cell || !base.has(index) ||
-            !variant.has(index) || !base.valid(index) || !variant.valid(index))
+            !variant.has(index) || !base.known(index, base_limit) || !variant.known(index, variant_limit))
             return;
         trials.push_back({layout.cell(index), base.reached(index, base_limit), variant.reached(index, variant_limit)});
         for (std::size_t q = 0; q < quantities.size(); ++q) {

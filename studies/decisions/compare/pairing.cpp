@@ -127,7 +127,8 @@ std::vector<PairedCounts> count_pairs(const StudySide& base, const StudySide& va
     const std::size_t groups = std::max<std::size_t>(1, layout.groups);
     std::vector<PairedCounts> counts(layout.cells * groups);
     for (std::uint64_t index = 0; index < base.size(); ++index)
-        if (layout.has(index) && base.has(index) && variant.has(index) && base.valid(index) && variant.valid(index))
+        if (layout.has(index) && base.has(index) && variant.has(index) && base.known(index, base_limit) &&
+            variant.known(index, variant_limit))
             counts[layout.cell(index) * groups + layout.group(index)].add(base.reached(index, base_limit),
                                                                           variant.reached(index, variant_limit));
     return counts;

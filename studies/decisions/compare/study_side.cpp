@@ -47,7 +47,7 @@ std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultH
             (limit == LimitState::unseated && study.structure.epistyles.empty()))
             continue;
         all.push_back({limit_state_names()[i], describe(limit),
-                       limit != LimitState::rocked && limit != LimitState::slid,
+                       limit != LimitState::rocked && limit != LimitState::slid && limit != LimitState::moving,
                        [limit](const ResultRow& row) { return reached(limit, row.outcome); }});
     }
     return all;
@@ -57,19 +57,22 @@ StudySide::StudySide(const Study& study, const ResultHeader& header)
     : limits_(limit_definitions(study, header)), state_(study.originals()), per_cell_(study.realizations),
       drawn_per_cell_(std::max<std::uint64_t>(1, most_draws / study.cells()))
 {
-    assert(limits_.size() < 30 && "limit states have a bit each");
+    assert(limits_.size() <= most_limits && "limit states have a bit each");
 }
 
 void StudySide::add(const ResultRow& row)
 {
     if (row.index >= state_.size()) // a replica
         return;
-    std::uint32_t state = present;
+    std::uint64_t state = present;
     if (row.outcome.state == State::invalid)
         state |= invalid;
     else
-        for (std::size_t i = 0; i < limits_.size(); ++i)
-            state |= static_cast<std::uint32_t>(limits_[i].reached(row)) << i;
+        for (std::size_t i = 0; i < limits_.size(); ++i) {
+            const std::optional<bool> reached = limits_[i].reached(row);
+            state |= static_cast<std::uint64_t>(reached.value_or(false)) << i;
+            state |= static_cast<std::uint64_t>(!reached) << (most_limits + i);
+        }
     state_[row.index] = state;
     if (row.index % per_cell_ < drawn_per_cell_)
         draws_.push_back({row.index, row.inputs});

@@ -238,15 +238,16 @@ Threshold harmless_intensity(const Results& results)
     const auto stripes = static_cast<std::size_t>(f.stripes());
     std::vector<std::uint64_t> trials(stripes), moved(stripes), fallen(stripes);
     for (const ResultRow& row : results.trials()) {
-        if (row.outcome.state == State::invalid)
+        const bool fell = row.outcome.state == State::collapsed;
+        if (row.outcome.state == State::invalid || (!fell && row.outcome.at_rest == 0)) // its residual is not known
             continue;
         const std::size_t stripe = row.cell % stripes;
         ++trials[stripe];
-        moved[stripe] += row.outcome.residual_dislocation > harmless_dislocation;
-        fallen[stripe] += row.outcome.state == State::collapsed;
+        moved[stripe] += fell || row.outcome.residual_dislocation > harmless_dislocation;
+        fallen[stripe] += fell;
     }
     std::size_t harmless = 0;
-    while (harmless < stripes && fallen[harmless] == 0 &&
+    while (harmless < stripes && trials[harmless] > 0 && fallen[harmless] == 0 &&
            static_cast<double>(moved[harmless]) <= (1 - harmless_share) * static_cast<double>(trials[harmless]))
         ++harmless;
     const auto at = [&](std::size_t i) { return f.intensity.value(static_cast<int>(i)); };

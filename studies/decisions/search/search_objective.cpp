@@ -33,9 +33,9 @@ HazardModel hazard_of(const OptimiseSpec& spec, const std::string& file, const S
     }
 }
 
-bool is_common(const std::vector<const StudySide*>& sides, std::uint64_t index)
+bool is_common(const std::vector<const StudySide*>& sides, std::uint64_t index, std::size_t limit)
 {
-    return std::ranges::all_of(sides, [&](const StudySide* s) { return s->has(index) && s->valid(index); });
+    return std::ranges::all_of(sides, [&](const StudySide* s) { return s->has(index) && s->known(index, limit); });
 }
 
 } // namespace
@@ -102,7 +102,7 @@ SearchObjective::Counts SearchObjective::counts(const std::vector<const StudySid
     counts.trials.resize(counts.groups * counts.stripes);
     counts.reached.resize(counts.trials.size() * counts.points);
     for (std::uint64_t index = 0; index < sides.front()->size(); ++index) {
-        if (!is_common(sides, index))
+        if (!is_common(sides, index, limit))
             continue;
         const std::size_t at = layout.group(index) * counts.stripes + layout.cell(index);
         counts.all += 1;
@@ -145,7 +145,7 @@ PairedNoise SearchObjective::noise(const std::vector<const StudySide*>& sides, s
                                    const PairLayout& layout) const
 {
     std::uint64_t index = 0;
-    while (index < sides.front()->size() && !is_common(sides, index))
+    while (index < sides.front()->size() && !is_common(sides, index, limit))
         ++index;
     if (index == sides.front()->size())
         throw InputError(file_, 0,
@@ -157,7 +157,7 @@ PairedNoise SearchObjective::noise(const std::vector<const StudySide*>& sides, s
     std::vector<double> reached(groups * m), size(groups);
     std::vector<std::size_t> stratum(groups);
     for (; index < sides.front()->size(); ++index) {
-        if (!is_common(sides, index))
+        if (!is_common(sides, index, limit))
             continue;
         std::size_t group = layout.group(index);
         if (groups == 0) { // a realization by itself, within its cell

@@ -30,14 +30,16 @@ double base_width_m(const StructureSpec& structure)
     return structure.columns.front().drums.front().width_m;
 }
 
-bool reached(const DamageState& state, const Outcome& outcome, double base_width_m, double until_s)
+std::optional<bool> reached(const DamageState& state, const Outcome& outcome, double base_width_m, double until_s)
 {
     const bool collapsed = outcome.state == State::collapsed;
     switch (state.kind) {
     case DamageState::Kind::peak:
         return collapsed || outcome.peak_top_displacement_m > state.limit * base_width_m;
     case DamageState::Kind::residual:
-        return collapsed || outcome.residual_dislocation > state.limit;
+        if (collapsed)
+            return true;
+        return outcome.at_rest == 0 ? std::nullopt : std::optional(outcome.residual_dislocation > state.limit);
     case DamageState::Kind::unseated:
         return collapsed || outcome.unseating_time_s >= 0;
     case DamageState::Kind::collapse:

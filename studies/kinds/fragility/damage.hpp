@@ -16,6 +16,7 @@
 #include "ensemble/model/study.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,10 @@ std::vector<DamageState> damage_states(const Study& study);
 /// Of the lowest block, by which peak displacements are measured [m].
 double base_width_m(const StructureSpec& structure);
 
-/// Whether a valid realization reached it.
+/// Whether a valid realization reached it; nothing: it stands, and still moved at the end, so that its residual is not
+/// known.
 /// @param until_s when the state's shaking is over and the next one begins
-bool reached(const DamageState& state, const Outcome& outcome, double base_width_m,
-             double until_s = std::numeric_limits<double>::infinity());
+std::optional<bool> reached(const DamageState& state, const Outcome& outcome, double base_width_m,
+                            double until_s = std::numeric_limits<double>::infinity());
 
 } // namespace stylobate

@@ -72,31 +72,25 @@ public:
         const std::vector<DamageState> states = damage_states(study_);
         out_.states.resize(states.size());
         const double width = base_width_m(study_.structure);
-        std::vector<std::vector<std::uint8_t>> reached_states(outcomes_.size(),
-                                                              std::vector<std::uint8_t>(states.size()));
-        for (std::size_t i = 0; i < outcomes_.size(); ++i)
-            for (std::size_t k = 0; k < states.size(); ++k)
-                reached_states[i][k] =
-                    reached(states[k], outcomes_[i], width, until_s(places_[i].motion, states[k].shaking));
-        in_parallel(std::size_t{0}, states.size(), [&](std::size_t k) {
-            std::vector<std::uint8_t> column(outcomes_.size());
-            for (std::size_t i = 0; i < column.size(); ++i)
-                column[i] = reached_states[i][k];
-            out_.states[k] = state(states[k], column);
-        });
+        std::vector<Reached> columns(states.size());
         for (std::size_t k = 0; k < states.size(); ++k)
-            if (states[k].kind == DamageState::Kind::collapse && states[k].shaking == 0) {
-                std::vector<std::uint8_t> column(outcomes_.size());
-                for (std::size_t i = 0; i < column.size(); ++i)
-                    column[i] = reached_states[i][k];
-                rank(column);
-            }
+            for (std::size_t i = 0; i < outcomes_.size(); ++i)
+                columns[k].push_back(
+                    reached(states[k], outcomes_[i], width, until_s(places_[i].motion, states[k].shaking)));
+        in_parallel(std::size_t{0}, states.size(),
+                    [&](std::size_t k) { out_.states[k] = state(states[k], columns[k]); });
+        for (std::size_t k = 0; k < states.size(); ++k)
+            if (states[k].kind == DamageState::Kind::collapse && states[k].shaking == 0)
+                rank(columns[k]);
         if (study_.fragility->shakings > 1 && out_.method == FragilityMethod::stripes)
             sequence();
         return out_;
     }
 
 private:
+    /// (valid realizations) Whether each reached a limit state; nothing: not known.
+    using Reached = std::vector<std::optional<bool>>;
+
     /// When the next shaking after this one begins; infinite after the last.
     double until_s(std::size_t motion, int shaking) const
     {
@@ -213,10 +207,12 @@ private:
     }
 
     /// Summed by cell, as realizations of one have the same intensity.
-    FragilityData data(const std::vector<std::string>& measures, const std::vector<std::uint8_t>& reached) const
+    FragilityData data(const std::vector<std::string>& measures, const Reached& reached) const
     {
         std::map<std::pair<std::uint32_t, std::uint32_t>, FragilityRun> cells;
         for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (!reached[i])
+                continue;
             const Place& p = places_[i];
             FragilityRun& run = cells[{p.motion, p.stripe}];
             if (run.intensity.empty()) {
@@ -226,7 +222,7 @@ private:
                     run.intensity.push_back(intensity(p, measure));
             }
             run.trials += 1;
-            run.reached += reached[i];
+            run.reached += *reached[i];
         }
         std::vector<FragilityRun> runs;
         for (auto& [cell, run] : cells)
@@ -234,10 +230,11 @@ private:
         return grouped(runs);
     }
 
-    StateFragility state(const DamageState& damage, const std::vector<std::uint8_t>& reached) const
+    StateFragility state(const DamageState& damage, const Reached& reached) const
     {
         StateFragility s;
         s.state = damage;
+        s.moving = static_cast<std::uint64_t>(std::ranges::count_if(reached, [](const auto& r) { return !r; }));
         try {
             estimate(reached, s);
         } catch (const InputError& error) { // what these data do not bear is said, and the other states are told
@@ -247,7 +244,7 @@ private:
         return s;
     }
 
-    void estimate(const std::vector<std::uint8_t>& reached, StateFragility& s) const
+    void estimate(const Reached& reached, StateFragility& s) const
     {
         const FragilityData one = data({out_.measure}, reached);
         CurveOptions options;
@@ -264,14 +261,16 @@ private:
         s.data = one;
     }
 
-    void count_resurrected(const std::vector<std::uint8_t>& reached, StateFragility& s) const
+    void count_resurrected(const Reached& reached, StateFragility& s) const
     {
         const auto stripes = static_cast<std::size_t>(study_.fragility->stripes());
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<int>> of_structure; // stripe by stripe; -1: none
         for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (!reached[i])
+                continue;
             auto& seen = of_structure[{places_[i].motion, places_[i].structure}];
             seen.resize(stripes, -1);
-            seen[places_[i].stripe] = reached[i];
+            seen[places_[i].stripe] = *reached[i];
         }
         for (const auto& [key, seen] : of_structure) {
             const auto first = std::find(seen.begin(), seen.end(), 1);
@@ -280,23 +279,25 @@ private:
         }
     }
 
-    DispersionShares shares(const std::vector<std::uint8_t>& reached) const
+    DispersionShares shares(const Reached& reached) const
     {
         const auto contacts = static_cast<std::uint32_t>(study_.fragility->contacts);
         const auto twins = static_cast<std::uint32_t>(study_.fragility->twins);
         std::vector<NestedRun> runs;
         for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (!reached[i])
+                continue;
             const Place& p = places_[i];
-            runs.push_back({p.motion, p.structure / (contacts * twins), p.structure / twins, p.stripe,
-                            static_cast<double>(reached[i])});
+            runs.push_back(
+                {p.motion, p.structure / (contacts * twins), p.structure / twins, p.stripe, *reached[i] ? 1.0 : 0.0});
         }
         return dispersion_shares(runs);
     }
 
     /// Intensity measures ranked by information on the collapse, and whether it tells all that scaling does not change.
-    void rank(const std::vector<std::uint8_t>& reached)
+    void rank(const Reached& reached)
     {
-        const auto ones = std::count(reached.begin(), reached.end(), 1);
+        const auto ones = std::ranges::count_if(reached, [](const auto& r) { return r && *r; });
         if (ones == 0 || ones == static_cast<std::ptrdiff_t>(reached.size()))
             return;
         std::vector<bool> seen(out_.motions);

@@ -25,7 +25,8 @@ struct StateFragility {
     LackOfFit fit;
     std::optional<StripeShares> stripes; ///< of a study by stripes
     std::optional<DispersionShares> shares;
-    FragilityData data; ///< that all of these are of, in the study's measure
+    FragilityData data;       ///< that all of these are of, in the study's measure
+    std::uint64_t moving = 0; ///< valid realizations of which it is not known: they stand, and still moved at the end
     /// Structures under a motion that reached the state at some intensity, and not at a stronger one, of all that ever
     /// did.
     std::uint64_t resurrected = 0, reached_ever = 0;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace stylobate {
 
@@ -48,6 +49,17 @@ void append(SensitivityTable& table, const std::vector<ElementaryEffects>& found
     }
 }
 
+/// An outcome that too few rows of the design have. @pre the table has its factors
+void append_undetermined(SensitivityTable& table)
+{
+    append(table.mean, Estimate::undetermined());
+    if (table.method == word_for(sensitivity_method_names, SensitivityMethod::sobol))
+        append(table.explained, Estimate::undetermined());
+    for (std::size_t k = 0; k < table.factors.size(); ++k)
+        for (SensitivityTable::Index& index : table.indices)
+            append(index.of, Estimate::undetermined());
+}
+
 } // namespace
 
 SensitivityOutcomes::SensitivityOutcomes(const Study& study, const std::vector<std::string>& inputs)
@@ -74,26 +86,34 @@ void SensitivityOutcomes::add(const ResultRow& row)
             input_[k] == none ? std::nan("") : row.inputs.at(input_[k]);
 }
 
-/// Whether all realizations of a row are valid.
-bool SensitivityOutcomes::usable(std::size_t row) const
+/// Rows all of whose realizations have a value of the outcome: they are valid, and of the residual displacement at rest
+/// or fallen.
+std::vector<std::size_t> SensitivityOutcomes::usable(std::size_t outcome) const
 {
-    const auto of_row = static_cast<std::ptrdiff_t>(spec_.points() * spec_.inner);
-    const auto first = kept_.begin() + static_cast<std::ptrdiff_t>(row) * of_row;
-    return std::none_of(first, first + of_row, [](const Kept& kept) { return kept.state == State::invalid; });
+    const std::size_t of_row = spec_.points() * spec_.inner;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < spec_.samples; ++row) {
+        const std::span<const Kept> all = std::span(kept_).subspan(row * of_row, of_row);
+        if (std::ranges::none_of(all, [&](const Kept& kept) {
+                return kept.state == State::invalid ||
+                       (outcome == residual && kept.state != State::collapsed && std::isnan(kept.residual_m));
+            }))
+            rows.push_back(row);
+    }
+    return rows;
 }
 
-/// Which way each factor moves from A, in the usable rows: 1, -1, or NaN where it has several values.
-std::vector<double> SensitivityOutcomes::directions() const
+/// Which way each factor moves from A, in these rows: 1, -1, or NaN where it has several values.
+std::vector<double> SensitivityOutcomes::directions(const std::vector<std::size_t>& rows) const
 {
     std::vector<double> directions;
     const std::size_t factors = input_.size();
-    for (std::size_t row = 0; row < spec_.samples; ++row)
-        if (usable(row))
-            for (std::size_t k = 0; k < factors; ++k) {
-                const double* a = &drawn_[row * spec_.points() * factors];
-                const double change = a[(spec_.first_changed() + k) * factors + k] - a[k];
-                directions.push_back(std::isnan(change) ? change : change > 0 ? 1 : -1);
-            }
+    for (const std::size_t row : rows)
+        for (std::size_t k = 0; k < factors; ++k) {
+            const double* a = &drawn_[row * spec_.points() * factors];
+            const double change = a[(spec_.first_changed() + k) * factors + k] - a[k];
+            directions.push_back(std::isnan(change) ? change : change > 0 ? 1 : -1);
+        }
     return directions;
 }
 
@@ -123,26 +143,22 @@ SensitivityTable SensitivityOutcomes::table() const
     for (const Kept& kept : kept_)
         if (kept.state != State::invalid)
             longest_s = std::max(longest_s, kept.end_time_s);
-    std::array<std::vector<double>, outcomes> value;
-    for (std::size_t row = 0; row < spec_.samples; ++row) {
-        if (!usable(row)) {
-            ++table.invalid_rows;
-            continue;
-        }
-        ++table.rows;
-        for (std::size_t i = row * of_row; i < (row + 1) * of_row; ++i) {
-            const auto all = values(kept_[i], longest_s);
-            for (std::size_t o = 0; o < outcomes; ++o)
-                value[o].push_back(all[o]);
-        }
-    }
+    std::array<std::vector<std::size_t>, outcomes> rows;
+    for (std::size_t o = 0; o < outcomes; ++o)
+        rows[o] = usable(o);
+    table.rows = rows[0].size();
+    table.invalid_rows = spec_.samples - table.rows;
 
     table.outcomes = {"collapse", "time_upright", "peak_displacement", "residual_displacement"};
     table.units = {"", "s", "m", "m"};
     const std::string most = fmt::format("limited to a drum's width of {:g} m, the value of a collapse", width_m_);
     table.meanings = {"1 if a block has fallen, else 0",
                       fmt::format("until the first fall; {:.4g} s, the longest end of any, where it stood", longest_s),
-                      "largest of the top, " + most, "of the top at the end, its size, " + most};
+                      "largest of the top, " + most, "of the top at rest, its size, " + most};
+    if (rows[residual].size() < table.rows)
+        table.meanings[residual] +=
+            fmt::format("; of {} rows of the design only: in the other {} a structure still moved at the end",
+                        rows[residual].size(), table.rows - rows[residual].size());
     for (const char* name : sobol ? std::array{"first", "total", "value_first", "value_total"}
                                   : std::array{"mu_star", "rms", "mu", "sigma"})
         table.indices.push_back({name, {}});
@@ -152,7 +168,14 @@ SensitivityTable SensitivityOutcomes::table() const
                                      spec_.samples, table.invalid_rows));
     std::vector<std::uint64_t> acts(factors, 0);
     for (std::size_t o = 0; o < outcomes; ++o) {
-        DesignValues design{table.rows, factors, spec_.inner, std::move(value[o])};
+        if (rows[o].size() < 2) {
+            append_undetermined(table);
+            continue;
+        }
+        DesignValues design{rows[o].size(), factors, spec_.inner, {}};
+        for (const std::size_t row : rows[o])
+            for (std::size_t i = row * of_row; i < (row + 1) * of_row; ++i)
+                design.value.push_back(values(kept_[i], longest_s)[o]);
         std::vector<bool> here(factors);
         if (sobol) {
             const SobolIndices found = sobol_indices(design, options);
@@ -160,13 +183,13 @@ SensitivityTable SensitivityOutcomes::table() const
             here = found.acts;
         } else {
             const std::size_t points = spec_.points();
-            std::vector<double> mean(table.rows);
-            for (std::size_t r = 0; r < table.rows; ++r)
+            std::vector<double> mean(design.rows);
+            for (std::size_t r = 0; r < design.rows; ++r)
                 for (std::size_t i = 0; i < spec_.inner; ++i)
                     mean[r] += design.at(r, 0, i, points) / static_cast<double>(spec_.inner);
             const auto same = [](std::span<const double> means, std::span<double> out) { out[0] = means[0]; };
             append(table.mean, bootstrap_rows(mean, 1, 1, same, options)[0]);
-            const std::vector<ElementaryEffects> found = elementary_effects(design, directions(), options);
+            const std::vector<ElementaryEffects> found = elementary_effects(design, directions(rows[o]), options);
             append(table, found);
             for (std::size_t k = 0; k < factors; ++k)
                 here[k] = found[k].acts;

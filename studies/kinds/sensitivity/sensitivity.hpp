@@ -7,6 +7,9 @@
 ///   time_upright        time of the first fall, or the longest end of any realization where it stood
 ///   peak_displacement   of the top, at most the width of a drum: that much where it collapsed
 ///   residual_displacement   its size, likewise
+///
+/// Of a structure that still moves at the end the residual displacement is not known. Rows of the design with such a
+/// structure are left out of this outcome, and the table states how many.
 
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
@@ -42,8 +45,9 @@ private:
     static constexpr std::size_t outcomes = 4;
     std::array<double, outcomes> values(const Kept& kept, double longest_s) const;
 
-    bool usable(std::size_t row) const;
-    std::vector<double> directions() const;
+    static constexpr std::size_t residual = 3; ///< its number
+    std::vector<std::size_t> usable(std::size_t outcome) const;
+    std::vector<double> directions(const std::vector<std::size_t>& rows) const;
 
     SensitivitySpec spec_;
     std::uint64_t seed_;

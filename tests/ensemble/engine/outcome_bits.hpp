@@ -17,6 +17,7 @@ inline std::vector<std::uint64_t> outcome_bits(const Outcome& o)
                                     static_cast<std::uint64_t>(o.first_collapse_block),
                                     static_cast<std::uint64_t>(o.fallen_blocks),
                                     static_cast<std::uint64_t>(o.unseated_block),
+                                    static_cast<std::uint64_t>(o.at_rest),
                                     o.steps};
     for (const double value : {o.collapse_time_s,
                                o.peak_top_displacement_m,

@@ -82,6 +82,7 @@ inline ResultRow sample_row(std::uint64_t index)
     o.invalid_reason = static_cast<InvalidReason>(random() % 3);
     o.first_collapse_block = static_cast<std::int32_t>(random());
     o.fallen_blocks = static_cast<std::int32_t>(random());
+    o.at_rest = static_cast<std::int32_t>(random());
     o.unseated_block = static_cast<std::int32_t>(random());
     o.steps = random();
     for (double* field : {&o.collapse_time_s,

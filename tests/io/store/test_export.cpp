@@ -121,6 +121,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
         EXPECT_EQ(table.at("cell").at(r), std::to_string(row.cell));
         EXPECT_EQ(table.at("first_collapse_block").at(r), std::to_string(o.first_collapse_block));
         EXPECT_EQ(table.at("fallen_blocks").at(r), std::to_string(o.fallen_blocks));
+        EXPECT_EQ(table.at("at_rest").at(r), std::to_string(o.at_rest));
         EXPECT_EQ(table.at("unseated_block").at(r), std::to_string(o.unseated_block));
         EXPECT_EQ(table.at("steps").at(r), std::to_string(o.steps));
         const std::map<std::string, double> want{{"frequency_hz", row.frequency_hz},

@@ -279,6 +279,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
         {"outcome/collapse_time_s", "float64 (300) s"},
         {"outcome/first_collapse_block", "int32 (300)"},
         {"outcome/fallen_blocks", "int32 (300)"},
+        {"outcome/at_rest", "int32 (300)"},
         {"outcome/unseated_block", "int32 (300)"},
         {"outcome/unseating_time_s", "float64 (300) s"},
         {"outcome/total_collapse_time_s", "float64 (300) s"},

@@ -69,10 +69,12 @@ TEST(Pairing, CountsPairsInTheirCells)
     EXPECT_NEAR(collapse.overall.difference, -0.5 / 6, 1e-15);
     EXPECT_NEAR(collapse.cells[1].p, 2 * 5 / 16.0, 1e-14); // P(at most 1 of 4)
     EXPECT_EQ(collapse.cells[1].p_adjusted, 1);
-    EXPECT_EQ(found.limits.back().name, "slid");
-    EXPECT_FALSE(found.limits.back().damage);
-    EXPECT_EQ(found.limits.back().cells[0].counts, (PairedCounts{0, 0, 4, 0}));
-    EXPECT_EQ(found.limits.back().verdict(found.limits.back().overall), ChangeVerdict::more);
+    const LimitComparison& slid = found.limits[found.limits.size() - 2];
+    EXPECT_EQ(slid.name, "slid");
+    EXPECT_EQ(found.limits.back().name, "moving");
+    EXPECT_FALSE(slid.damage);
+    EXPECT_EQ(slid.cells[0].counts, (PairedCounts{0, 0, 4, 0}));
+    EXPECT_EQ(slid.verdict(slid.overall), ChangeVerdict::more);
 }
 
 /// A search counts what is valid at all of its points, and says where nothing is.

@@ -258,7 +258,7 @@ TEST(FragilityStudy, ACollapseCountsForItsShaking)
     o.collapse_time_s = 12;
     std::map<std::string, bool> got;
     for (const DamageState& state : states)
-        got[state.name] = reached(state, o, 1, state.shaking == 1 ? 10 : state.shaking == 2 ? 20 : INFINITY);
+        got[state.name] = reached(state, o, 1, state.shaking == 1 ? 10 : state.shaking == 2 ? 20 : INFINITY).value();
     EXPECT_FALSE(got.at("collapse_by_1"));
     EXPECT_TRUE(got.at("collapse_by_2"));
     EXPECT_FALSE(got.contains("collapse_by_3"));
@@ -273,10 +273,11 @@ TEST(FragilityStudy, LimitStatesAreNested)
     const double width = base_width_m(study.structure);
     EXPECT_EQ(width, 1.0);
     Outcome o;
+    o.at_rest = 1;
     const auto count = [&] {
         int n = 0;
         for (const DamageState& state : states)
-            n += reached(state, o, width);
+            n += reached(state, o, width).value();
         return n;
     };
     EXPECT_EQ(count(), 0);
@@ -287,6 +288,15 @@ TEST(FragilityStudy, LimitStatesAreNested)
     o = {};
     o.state = State::collapsed;
     EXPECT_EQ(count(), 7);
+}
+
+TEST(FragilityStudy, TheResidualOfWhatStillMovesIsNotKnown)
+{
+    Outcome o;
+    o.peak_top_displacement_m = 0.36;
+    o.residual_dislocation = std::nan("");
+    for (const DamageState& state : damage_states(small()))
+        EXPECT_EQ(reached(state, o, 1).has_value(), state.kind != DamageState::Kind::residual) << state.name;
 }
 
 } // namespace stylobate

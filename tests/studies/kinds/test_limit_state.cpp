@@ -54,6 +54,8 @@ std::vector<ResultRow> ten_rows()
     rows[4].outcome.unseated_block = 4; // it lost a seat, and did not fall
     rows[4].outcome.unseating_time_s = 3;
     rows[2].outcome.total_collapse_time_s = 9;
+    for (const std::size_t i : {4U, 7U}) // (a fall ends a realization while it moves)
+        rows[i].outcome.at_rest = 1;
     rows[9].outcome.total_collapse_time_s = 1;
     return rows;
 }
@@ -66,7 +68,7 @@ TEST(LimitState, CountsByHand)
     for (const ResultRow& row : ten_rows())
         counts.add(row);
     EXPECT_EQ(counts.trials(), 9U);
-    const std::vector<std::uint64_t> want = {4, 1, 4, 2, 1};
+    const std::vector<std::uint64_t> want = {4, 1, 4, 2, 1, 3};
     for (std::size_t i = 0; i < want.size(); ++i) {
         const Share share = counts.share(limit_state_of(limit_state_names().at(i)));
         EXPECT_EQ(share.count, want[i]) << limit_state_names()[i];
@@ -75,6 +77,8 @@ TEST(LimitState, CountsByHand)
         EXPECT_LT(share.lower, share.probability);
         EXPECT_GT(share.upper, share.probability);
     }
+    EXPECT_EQ(counts.moving_text(), "3 of 5 realizations without collapse still moved at the end.");
+    EXPECT_EQ(LimitCounts(5).moving_text(), "");
     EXPECT_EQ(counts.first(), (std::vector<std::uint64_t>{0, 1, 0, 0, 3}));
     EXPECT_EQ(counts.median_collapse_time_s(), 4.5); // of 2, 4, 5, 6
     EXPECT_EQ(counts.median_total_collapse_time_s(), 9);
