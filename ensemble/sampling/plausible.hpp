@@ -39,8 +39,7 @@ std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts = {});
 std::vector<double> static_sinkage_m(const Study& study);
 
 /// The first natural frequency of the nominal structure, without mechanisms, its beds in full contact [Hz] (generalized
-/// eigenvalue problem K v = w2 M v): 0 if it buckles under its own weight. NaN for more than 100 free blocks, because
-/// the cost grows with the cube of their number.
+/// eigenvalue problem K v = w2 M v): 0 if it buckles under its own weight.
 double first_frequency_hz(const Study& study);
 
 } // namespace stylobate

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace stylobate {
 namespace {
@@ -389,23 +390,29 @@ Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& j
     for (std::size_t j = 0; j < beds; ++j) {
         const Joint& joint = joints[j];
         const FullContact& contact = contacts[j];
-        Eigen::VectorXd slide = Eigen::VectorXd::Zero(size);
-        Eigen::VectorXd turn = Eigen::VectorXd::Zero(size);
-        auto open = v.opening.col(static_cast<Eigen::Index>(j));
+        struct Side {
+            Eigen::Index first;
+            Eigen::Vector3d open, slide, turn;
+        };
+        std::vector<Side> sides; // the free ones
         for (const bool upper : {false, true}) {
             const std::size_t b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
             if (blocks[b].fixed)
                 continue;
             const FaceMotion face =
                 face_motion(blocks[b], upper, contact.x - blocks[b].x_m - blocks[b].extension.eccentricity_m);
-            open.segment<3>(v.first[b]) = face.opening;
-            slide.segment<3>(v.first[b]) = face.sliding;
-            turn(v.first[b] + 2) = upper ? 1 : -1;
+            sides.push_back({v.first[b], face.opening, face.sliding, {0, 0, upper ? 1.0 : -1.0}});
+            v.opening.col(static_cast<Eigen::Index>(j)).segment<3>(v.first[b]) = face.opening;
         }
-        v.K += contact.k_n * open * open.transpose() + contact.k_t * slide * slide.transpose() +
-               contact.k_theta * turn * turn.transpose();
-        v.C += contact.c_n * open * open.transpose() + contact.c_t * slide * slide.transpose() +
-               contact.c_theta * turn * turn.transpose();
+        for (const Side& p : sides)
+            for (const Side& q : sides) {
+                v.K.block<3, 3>(p.first, q.first) += contact.k_n * p.open * q.open.transpose() +
+                                                     contact.k_t * p.slide * q.slide.transpose() +
+                                                     contact.k_theta * p.turn * q.turn.transpose();
+                v.C.block<3, 3>(p.first, q.first) += contact.c_n * p.open * q.open.transpose() +
+                                                     contact.c_t * p.slide * q.slide.transpose() +
+                                                     contact.c_theta * p.turn * q.turn.transpose();
+            }
     }
     v.root_mass.resize(size);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -444,8 +451,13 @@ void add_held(const std::vector<Block>& blocks, Vibration& v)
     }
 }
 
-LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
-                           const std::vector<FullContact>& contacts, double gravity_m_s2)
+/// M^-1/2 K M^-1/2 about the static equilibrium, and the same of C.
+struct Dynamics {
+    Eigen::MatrixXd k, c;
+};
+
+Dynamics dynamics_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
+                     const std::vector<FullContact>& contacts, double gravity_m_s2)
 {
     const std::size_t beds = contacts.size();
     Vibration v = assemble(blocks, joints, contacts);
@@ -475,8 +487,13 @@ LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<J
     }
 
     const Eigen::VectorXd scale = root_mass.cwiseInverse();
-    const Eigen::MatrixXd k = scale.asDiagonal() * K * scale.asDiagonal();
-    const Eigen::MatrixXd c = scale.asDiagonal() * C * scale.asDiagonal();
+    return {scale.asDiagonal() * K * scale.asDiagonal(), scale.asDiagonal() * C * scale.asDiagonal()};
+}
+
+LinearResponse response_of(const Dynamics& dynamics)
+{
+    const Eigen::MatrixXd &k = dynamics.k, &c = dynamics.c;
+    const Eigen::Index size = k.rows();
     const Eigen::VectorXd w2 = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
 
     LinearResponse response;
@@ -494,6 +511,53 @@ LinearResponse response_of(const std::vector<Block>& blocks, const std::vector<J
     const Eigen::EigenSolver<Eigen::MatrixXd> roots(companion, false);
     response.step_s = 2 / (w_max * roots.eigenvalues().real().maxCoeff());
     return response;
+}
+
+FirstMode first_mode_of(const Dynamics& dynamics)
+{
+    constexpr Eigen::Index most_shapes = 8;
+    constexpr int most_iterations = 1000;
+    constexpr double change = 1e-14;
+    const Eigen::MatrixXd &k = dynamics.k, &c = dynamics.c;
+    const Eigen::LLT<Eigen::MatrixXd> factors(k);
+    if (factors.info() != Eigen::Success)
+        return {};
+    const Eigen::Index shapes = std::min(most_shapes, k.rows());
+    Eigen::MatrixXd v(k.rows(), shapes); // no symmetry of the structure holds for all of these
+    for (Eigen::Index i = 0; i < v.rows(); ++i)
+        for (Eigen::Index j = 0; j < shapes; ++j)
+            v(i, j) = std::sin(1.0 + static_cast<double>((i + 1) * (j + 1)));
+    double w2 = 0;
+    for (int n = 0; n < most_iterations; ++n) {
+        const Eigen::HouseholderQR<Eigen::MatrixXd> orthogonal(factors.solve(v));
+        v = orthogonal.householderQ() * Eigen::MatrixXd::Identity(k.rows(), shapes);
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(v.transpose() * k * v);
+        v *= ritz.eigenvectors();
+        const double before = std::exchange(w2, ritz.eigenvalues()(0));
+        if (std::fabs(w2 - before) <= change * w2)
+            break;
+    }
+    if (!(w2 > 0))
+        return {};
+    const double w = std::sqrt(w2);
+    return {w / (2 * std::numbers::pi), v.col(0).dot(c * v.col(0)) / (2 * w)};
+}
+
+/// The beds of a realization at full contact, in its own model.
+std::vector<FullContact> contacts_of(const Realization& r)
+{
+    std::vector<FullContact> contacts;
+    for (int j = 0; j < r.beds(); ++j)
+        contacts.push_back(extended_contact(r, j, 1));
+    return contacts;
+}
+
+std::vector<FullContact> contacts_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched)
+{
+    std::vector<FullContact> contacts;
+    for (std::size_t j = 0; j + static_cast<std::size_t>(watched) < joints.size(); ++j)
+        contacts.push_back(full_contact(blocks, joints[j]));
+    return contacts;
 }
 
 /// Whether all normal dashpots are at the ends of their contacts, so that none of a smaller contact has more of them.
@@ -561,20 +625,27 @@ StepBound structure_step_bound(const Realization& r, StepBound bound)
 LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
                                int watched)
 {
-    std::vector<FullContact> contacts;
-    for (std::size_t j = 0; j + static_cast<std::size_t>(watched) < joints.size(); ++j)
-        contacts.push_back(full_contact(blocks, joints[j]));
-    return response_of(blocks, joints, contacts, gravity_m_s2);
+    return response_of(dynamics_of(blocks, joints, contacts_of(blocks, joints, watched), gravity_m_s2));
 }
 
 LinearResponse linear_response(const Realization& r)
 {
     if (!is_extended(r))
         return linear_response(r.blocks, r.joints, r.gravity_m_s2, r.watched);
-    std::vector<FullContact> contacts;
-    for (int j = 0; j < r.beds(); ++j)
-        contacts.push_back(extended_contact(r, j, 1));
-    return response_of(r.blocks, r.joints, contacts, r.gravity_m_s2);
+    return response_of(dynamics_of(r.blocks, r.joints, contacts_of(r), r.gravity_m_s2));
+}
+
+FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
+                     int watched)
+{
+    return first_mode_of(dynamics_of(blocks, joints, contacts_of(blocks, joints, watched), gravity_m_s2));
+}
+
+FirstMode first_mode(const Realization& r)
+{
+    if (!is_extended(r))
+        return first_mode(r.blocks, r.joints, r.gravity_m_s2, r.watched);
+    return first_mode_of(dynamics_of(r.blocks, r.joints, contacts_of(r), r.gravity_m_s2));
 }
 
 } // namespace stylobate

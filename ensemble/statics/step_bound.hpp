@@ -110,4 +110,18 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
 /// The same for a realization in its own model, its beds about their loads at rest.
 LinearResponse linear_response(const Realization& realization);
 
+/// The lowest vibration of a structure about its static equilibrium, all contacts full, no slip.
+struct FirstMode {
+    double frequency_hz = 0;  ///< undamped; 0: the structure buckles under its own weight
+    double damping_ratio = 0; ///< of critical: v C v / (2 w v M v) of the undamped shape v
+};
+
+/// Frequency and damping of `linear_response`'s first shape alone, for structures of any size (subspace iteration of
+/// K v = w2 M v, Bathe, "Finite Element Procedures" (1996), section 11.6; one Cholesky factor).
+/// @pre as of `linear_response`
+FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
+                     int watched = 0);
+/// The same for a realization in its own model.
+FirstMode first_mode(const Realization& realization);
+
 } // namespace stylobate

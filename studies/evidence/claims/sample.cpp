@@ -161,8 +161,7 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
 {
     Sample sample;
     const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz =
-        linear_response(nominal.blocks, nominal.joints, nominal.gravity_m_s2, nominal.watched).frequency_hz.front();
+    sample.f1_hz = first_mode(nominal.blocks, nominal.joints, nominal.gravity_m_s2, nominal.watched).frequency_hz;
     sample.rigid_m_s2 = rigid_limit(study, nominal);
     if (study.surface) {
         for (int i = 0; i < study.surface->frequency_hz.count; ++i)
