@@ -155,7 +155,7 @@ void SlotSet::advance()
     if (tables_given_)
         upload_tables();
     device_.advance(memory_, chunks_per_launch, used_);
-    take_those_that_ask();
+    check_stopped_slots();
 }
 
 /// The list on the device. Waits for the device only where the host's copy of another list may still be on its way.
@@ -348,26 +348,26 @@ void SlotSet::advance_on_host()
             ended_.push_back(slot);
 }
 
-void SlotSet::take_those_that_ask()
+void SlotSet::check_stopped_slots()
 {
     const auto used = static_cast<std::size_t>(used_);
     device_.download(own_->host_state.data(), own_->state.data(), used * sizeof(SlotState));
-    std::vector<int> asking;
+    std::vector<int> stopped;
     for (std::size_t i = 0; i < used; ++i) {
         if (own_->host_state[i] == SlotState::asks)
-            asking.push_back(static_cast<int>(i));
+            stopped.push_back(static_cast<int>(i));
         slots_[i].steps += chunks_per_launch * steps_of_chunk();
     }
-    if (asking.empty())
+    if (stopped.empty())
         return;
-    take_columns(asking);
-    each(asking.size(), [&](std::size_t i) {
-        Slot& s = slots_[static_cast<std::size_t>(asking[i])];
+    take_columns(stopped);
+    each(stopped.size(), [&](std::size_t i) {
+        Slot& s = slots_[static_cast<std::size_t>(stopped[i])];
         s.lane->check(0, check_steps(memory_.topology));
         s.steps = s.lane->steps(0);
-        s.changed = !s.lane->done(0); // goes on, and the device is to hear of what the check found
+        s.changed = !s.lane->done(0); // it goes on: the device needs the result of the check
     });
-    for (const int slot : asking)
+    for (const int slot : stopped)
         if (lane(slot).done(0))
             ended_.push_back(slot);
 }

@@ -95,7 +95,7 @@ private:
     const double* samples(int slot) const;
     void upload_columns();
     void upload_tables();
-    void take_those_that_ask();
+    void check_stopped_slots();
     void advance_on_host();
     void take_columns(const std::vector<int>& which);
     void move(std::size_t count, bool into_slots);

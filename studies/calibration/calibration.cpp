@@ -10,7 +10,7 @@
 #include "studies/calibration/shared_evidence.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
-#include "studies/windows/quietly.hpp"
+#include "studies/windows/stop_only.hpp"
 #include "studies/windows/window_motions.hpp"
 
 #include <fmt/format.h>
@@ -308,14 +308,14 @@ void show_windows(Calibration& result, const Campaign& campaign, const Study& no
     windows.runs = options.runs;
     WindowComparison comparison(campaign, windows);
     const ModelVariant best{{}, result.forms[result.best].study, {}, {}}, start{{}, nominal, {}, {}};
-    Quietly quietly(observer);
-    const std::vector<WindowResiduals> residuals = comparison.residuals({best}, run, quietly);
+    StopOnly stop_only(observer);
+    const std::vector<WindowResiduals> residuals = comparison.residuals({best}, run, stop_only);
     SimulationCount cost{comparison.simulations(), comparison.window_simulations(), comparison.block_steps()};
     if (!residuals.empty())
         result.motion =
             window_motions(choose_windows(comparison.windows(),
                                           excess_of(comparison, residuals.front(), build_specimen(campaign.specimen))),
-                           {{"calibrated", campaign, best}, {"start", campaign, start}}, windows, run, cost, quietly);
+                           {{"calibrated", campaign, best}, {"start", campaign, start}}, windows, run, cost, stop_only);
     result.simulations += cost.simulations;
     result.window_simulations += cost.window_simulations;
     result.block_steps += cost.block_steps;

@@ -1,7 +1,7 @@
 #include "studies/calibration/calibration_evidence.hpp"
 
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/windows/quietly.hpp"
+#include "studies/windows/stop_only.hpp"
 #include "studies/windows/window_comparison.hpp"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ public:
                                        Observer& observer) override
     {
         Predictions all;
-        Quietly quietly(observer);
+        StopOnly stop_only(observer);
         for (const Study& candidate : candidates) {
             std::vector<double> share; // of falls, by shaking
             for (const TestShaking& shaking : tests_.shakings) {
@@ -128,7 +128,7 @@ public:
                     valid += o.state != State::invalid;
                     cost_.block_steps += r.free_blocks() * o.steps;
                 };
-                const Progress p = run_ensemble(experiment, options, plan, quietly);
+                const Progress p = run_ensemble(experiment, options, plan, stop_only);
                 if (p.done < plan.total)
                     return std::nullopt;
                 cost_.simulations += plan.total;

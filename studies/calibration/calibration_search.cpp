@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_rounds = 6;
 constexpr double widen = 1.5;                      // of the spread of the best points, for the next round
 constexpr double least_spread = 1e-3;              // of the range
-constexpr double few_points = 0.7;                 // part of a correlation of so few points that is believed
+constexpr double few_points = 0.7;                 // factor on the correlation of few points
 constexpr double alike_per_key = 2;                // nats
 constexpr std::array fine_steps = {1.0, 2.0, 3.0}; // deviations from the best value, in a profile
 constexpr double near_value = 0.05;      // of the range: points that may lend their other parameters to a profile

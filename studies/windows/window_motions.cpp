@@ -1,7 +1,7 @@
 #include "studies/windows/window_motions.hpp"
 
 #include "ensemble/model/structure.hpp"
-#include "studies/windows/quietly.hpp"
+#include "studies/windows/stop_only.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -250,9 +250,9 @@ std::optional<WindowMotions> window_motions(const std::vector<ChosenWindow>& cho
     if (kept.empty())
         return std::nullopt;
     Filming filming(built, kept, most_samples);
-    Quietly quietly(observer);
+    StopOnly stop_only(observer);
     for (const ShownModel& model : models)
-        if (!filming.add(model, windows, options, cost, quietly))
+        if (!filming.add(model, windows, options, cost, stop_only))
             return std::nullopt;
     return filming.take();
 }

@@ -140,7 +140,7 @@ Verdict damaged(const Original& original, const fs::path& file, ByteSource& reci
     const std::string bytes = damaged_bytes(original.bytes, recipe);
     write_file(file, bytes);
     const Verdict verdict = judge_file(original, file);
-    promise(verdict == Verdict::refused || bytes == original.bytes, "a damaged file is believed");
+    promise(verdict == Verdict::refused || bytes == original.bytes, "a damaged file is accepted");
     return verdict;
 }
 

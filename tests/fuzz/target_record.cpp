@@ -18,7 +18,7 @@ Verdict judge(std::string_view input)
             promise(record.dt_s > 0 && std::isfinite(record.dt_s), "a record has no sampling interval");
             promise(record.acceleration_m_s2.size() >= 2, "a record has no samples");
             for (const double a : record.acceleration_m_s2)
-                promise(std::fabs(a) <= largest_pga_m_s2, "a sample is larger than any that is believed");
+                promise(std::fabs(a) <= largest_pga_m_s2, "a sample is larger than the limit");
             promise(!record.header_pga_m_s2 || (std::isfinite(*record.header_pga_m_s2) && *record.header_pga_m_s2 > 0),
                     "the peak of a header is none");
         }

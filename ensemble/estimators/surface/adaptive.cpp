@@ -29,7 +29,7 @@ std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data
         const std::uint64_t n = data.trials[cell];
         const BinomialInterval own = analyses_.interval(n, data.collapses[cell]);
         // a rough surface can make it wider: then it does not keep a cell going that its own trials have finished
-        if (spec_.borrow && surface[cell].believed &&
+        if (spec_.borrow && surface[cell].agrees_with_neighbours &&
             (analyses_.narrow(surface[cell].interval) || !analyses_.narrow(own)))
             estimates.push_back({surface[cell].probability, surface[cell].interval, IntervalMethod::surface});
         else

@@ -339,7 +339,7 @@ SurfaceEstimate SurfaceModel::combined(std::size_t cell, const SurfaceTrials& da
     for (std::size_t i = 0; i < points; ++i)
         mean += grid().p[i] * density[i];
     estimate.probability = mean / sum;
-    estimate.believed = together > apart;
+    estimate.agrees_with_neighbours = together > apart;
     estimate.interval.lower = data.collapses[cell] == 0 ? 0 : probability_of(quantile_of(density, sum, tail));
     estimate.interval.upper =
         data.collapses[cell] == data.trials[cell] ? 1 : probability_of(quantile_of(density, sum, 1 - tail));

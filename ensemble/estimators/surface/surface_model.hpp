@@ -24,8 +24,8 @@
 ///   meta-analytic-predictive priors in clinical trials with historical control information", Biometrics 70 (2014)
 ///   1023). e is one of two values, weighted as the settings are.
 ///
-/// Where B has more than half of the weight, the neighbours are disregarded (`believed` is false), and the interval of
-/// the cell's own trials is to be used.
+/// Where B has more than half of the weight, the neighbours are disregarded (`agrees_with_neighbours` is false), and
+/// the interval of the cell's own trials is to be used.
 ///
 /// The coverage of a pooled interval depends on the smoothness of the surface: it is right on average over cells of
 /// surfaces like those on which it was measured (tests/ensemble/estimators/test_surface_model.cpp, docs/adaptive.md),
@@ -53,7 +53,7 @@ struct SurfaceTrials {
 struct SurfaceEstimate {
     double probability = 0.5; ///< mean
     BinomialInterval interval;
-    bool believed = false; ///< the cell's own trials agree with its neighbours
+    bool agrees_with_neighbours = false; ///< the cell's own trials agree with its neighbours
 };
 
 class SurfaceModel {

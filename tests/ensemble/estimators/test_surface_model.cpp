@@ -43,7 +43,7 @@ void expect_same(const SurfaceEstimate& a, const SurfaceEstimate& b)
     EXPECT_EQ(a.probability, b.probability);
     EXPECT_EQ(a.interval.lower, b.interval.lower);
     EXPECT_EQ(a.interval.upper, b.interval.upper);
-    EXPECT_EQ(a.believed, b.believed);
+    EXPECT_EQ(a.agrees_with_neighbours, b.agrees_with_neighbours);
 }
 
 double normal(double u, double mean, double variance)
@@ -174,7 +174,7 @@ TEST(SurfaceModel, ANeighbourKnownExactlySaysTheConditionalNormal)
     EXPECT_NEAR(got.probability, want.probability, 4e-3);
     EXPECT_NEAR(got.interval.lower, want.interval.lower, 6e-3);
     EXPECT_NEAR(got.interval.upper, want.interval.upper, 6e-3);
-    EXPECT_TRUE(got.believed);
+    EXPECT_TRUE(got.agrees_with_neighbours);
 }
 
 TEST(SurfaceModel, TransposedAndTurnedOverItIsTheSame)
@@ -247,12 +247,12 @@ TEST(SurfaceModel, ACellThatContradictsItsNeighboursIsLeftToItsOwnTrials)
     data.collapses[4 * 9 + 4] = 30;
     SurfaceModel model(0.95);
     const auto estimates = model.estimate(data);
-    EXPECT_FALSE(estimates[4 * 9 + 4].believed);
+    EXPECT_FALSE(estimates[4 * 9 + 4].agrees_with_neighbours);
     const BinomialInterval own = jeffreys(60, 30, 0.95);
     EXPECT_NEAR(estimates[4 * 9 + 4].interval.lower, own.lower, 0.03);
     EXPECT_NEAR(estimates[4 * 9 + 4].interval.upper, own.upper, 0.03);
     // and its neighbours, which have trials enough, are not bent by it
-    EXPECT_TRUE(estimates[4 * 9 + 3].believed);
+    EXPECT_TRUE(estimates[4 * 9 + 3].agrees_with_neighbours);
     EXPECT_LT(estimates[4 * 9 + 3].interval.upper, jeffreys(60, 0, 0.95).upper * 1.2);
 }
 

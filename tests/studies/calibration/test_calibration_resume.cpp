@@ -160,7 +160,7 @@ TEST_F(CalibrationResume, WhatIsCutOrDamagedIsMadeAnew)
     EXPECT_LT(cut.kept_sets, first.kept_sets);
     EXPECT_GT(cut.kept_sets, 0u);
 
-    // a byte in the first record: nothing is believed
+    // a byte in the first record: nothing is restored
     {
         std::fstream file(sets_, std::ios::binary | std::ios::in | std::ios::out);
         file.seekp(200);

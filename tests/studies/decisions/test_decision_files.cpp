@@ -1,5 +1,5 @@
-/// The files of comparisons and risk estimates: what is written is read, whole or not at all, and nothing damaged is
-/// believed.
+/// The files of comparisons and risk estimates: what is written is read, whole or not at all, and damaged files
+/// are refused.
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-/// The file of a diagnosis: what is written is read, whole or not at all, and nothing damaged is believed.
+/// The file of a diagnosis: what is written is read, whole or not at all, and damaged files are refused.
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/diagnosis/findings/diagnosis_fields.hpp"

@@ -1,14 +1,14 @@
 #pragma once
-/// Work inside of other work.
+/// The observer of a part of larger work.
 
 #include "ensemble/model/observer.hpp"
 
 namespace stylobate {
 
-/// Passes on the wish to stop, not the progress of a small part.
-class Quietly : public Observer {
+/// Passes on requests to stop, but no progress.
+class StopOnly : public Observer {
 public:
-    explicit Quietly(Observer& outer) : outer_(outer) {}
+    explicit StopOnly(Observer& outer) : outer_(outer) {}
     bool stop_requested() override { return outer_.stop_requested(); }
 
 private:
