@@ -19,7 +19,7 @@ namespace {
 
 // Threads of a block: one warp for each of a multiprocessor's four schedulers.
 constexpr int block_threads = 128;
-// Registers are to suffice for so many threads of a multiprocessor.
+// Number of threads of a multiprocessor for which registers must suffice.
 constexpr int resident_threads = 256;
 // Slots for each multiprocessor, of both queues together: their states stay in its first-level cache (`docs/gpu.md`).
 constexpr int cached_slots = 128;

@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t most_slots = 1 << 24;
-/// What a device leaves to the processor is stepped there one by one, not in registers: by so much slower, about.
+/// Realizations that a device leaves to the processor are stepped there one by one, not in registers; slower by about:
 constexpr int slower_alone = 4;
 
 /// What the workers share.
@@ -210,7 +210,7 @@ private:
         ++delivered_;
     }
 
-    /// Tells the observer, at most ten times a second unless it is the last time, and asks whether to go on.
+    /// Reports to the observer, at most ten times a second except for the last time, and polls whether to go on.
     void report(bool last)
     {
         const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();

@@ -89,7 +89,7 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 ///
 /// The next one comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set
-/// and the number of threads, and on devices too (`docs/gpu.md` says what that rests on).
+/// and the number of threads, and on devices too (`docs/gpu.md` gives the reasons).
 ///
 /// @return the counts at the end, of a shard its own; `done < total` if the observer asked to stop
 /// @throws what `Sampler::realization` or the sink throws, after all threads have stopped

@@ -530,7 +530,7 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     if (o.at_rest == 0) // a snapshot of what still moves is no residual
         o.residual_top_displacement_m = o.residual_sliding_m = o.residual_dislocation =
             std::numeric_limits<double>::quiet_NaN();
-    // of one that was set aside nothing is said
+    // a realization that was set aside has no outcome
     (state == State::invalid ? LimitStates(r, study_.outcome, 0, 0) : place.limits).write(r, o);
     if (study_.survival) {
         o.bed_offset_m.assign(offsets.size(), 0);

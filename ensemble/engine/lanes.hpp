@@ -66,7 +66,7 @@ public:
     /// `compliant_form` of that set's pattern.
     void load(int lane, const HandOver& handed);
 
-    /// Steps all lanes by one chunk and checks each; `outcome(lane)` then tells which have ended.
+    /// Steps all lanes by one chunk and checks each; `outcome(lane)` then shows which have ended.
     void advance();
     /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the check comes with the chunk's last step.
     void advance(int first, int last);
@@ -91,8 +91,8 @@ public:
     void step_followed(int first, int last);
     /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
     /// axes of the laboratory even where the base turns.
-    /// @param phase  after so many steps of the chunk: one of those that the last `step_followed` did, or now
-    /// @param behind so many steps ago: 0 to 1, on the straight line between the last two
+    /// @param phase  number of steps of the chunk that are done: one of those that the last `step_followed` did, or now
+    /// @param behind time before that, in steps: 0 to 1, on the straight line between the last two
     BlockMotion moved(int lane, int block, int phase, double behind = 0) const;
     /// What the last step added to it.
     BlockMotion increment(int lane, int block, int phase) const;
@@ -130,7 +130,7 @@ public:
     void clear(int lane);
 
     /// Where the blocks are now: in the frame of the base, which turns with `BaseExtension::pitch_rad_s2_m`
-    /// (`kernels/mechanisms/table_pitch.hpp` says how laboratory coordinates follow).
+    /// (`kernels/mechanisms/table_pitch.hpp` has the transformation to laboratory coordinates).
     Snapshot snapshot(int lane) const;
     const BaseMotion& motion(int lane) const { return places_[static_cast<std::size_t>(lane)].motion; }
 
@@ -166,7 +166,7 @@ private:
         double angle_rad = 0, increment_rad = 0;
     };
     static Turn turn_of(const Realization& r, double reach, double before, double now, double after);
-    /// When so many steps of the chunk have been done.
+    /// Time after a number of steps of the chunk.
     Turn turn(int lane, int phase) const;
     /// Field `OfBlock::x` of a (kernel's) block in a lane, then; the other traced fields follow, `lanes()` apart.
     const double* traced(int k, int lane, int phase) const;

@@ -46,7 +46,7 @@ public:
     void check(const Realization& realization, std::uint64_t steps, const std::vector<BlockMotion>& moved,
                const std::vector<int>& inside, int done);
 
-    /// Counts on in steps that are so many times shorter.
+    /// Continues the count in steps that are shorter by a factor.
     /// @param fall_steps as of the constructor
     void shorten_steps(std::uint64_t times, std::uint64_t fall_steps);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What a device does with its slots: functors that are run once for each index, on the processor in a loop (tests) or
-/// by as many threads of a device. `SlotSet` says when.
+/// by as many threads of a device. `SlotSet` decides when.
 ///
 /// A slot is a place for one realization. Its numbers are a column of the device's memory: row r of slot s is number
 /// r * slots + s, so that threads side by side read and write side by side.
@@ -23,7 +23,7 @@ inline constexpr int sampled_rows = static_cast<int>(sizeof(SampledMotion) / 8);
 static_assert(sizeof(SampledMotion) == 8 * sampled_rows);
 inline constexpr int watch_rows = static_cast<int>(sizeof(Watch) / 8);
 static_assert(sizeof(Watch) % 8 == 0);
-/// Rows of alarms, of each block: what tells a device that the limit states want to be looked at.
+/// Rows of alarms, of each block: by which a device detects that the limit states must be evaluated.
 struct OfAlarm {
     enum Field : int {
         low,    ///< displacement upwards below which the block may have fallen [m]

@@ -2,7 +2,7 @@
 /// Many realizations on a device: put into its slots, stepped together, looked at where it matters, and taken out.
 ///
 /// What begins and ends a realization is the host's `LaneSet`, of one lane for each slot: it makes the state that the
-/// device steps from. After every chunk the device asks itself whether a check would do anything but count
+/// device steps from. After every chunk the device determines whether a check would only count
 /// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and checks it.
 /// So every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
 

@@ -14,7 +14,7 @@ namespace stylobate {
 /// How much a finding weighs. What cannot be used at all is no finding: it is refused (InputError).
 enum class Severity {
     note,   ///< worth knowing: a conversion, an assumption
-    warning ///< contradicts what the data say elsewhere, or spoils a part of them
+    warning ///< contradicts other data of the campaign, or spoils a part of them
 };
 
 /// What the checks of a campaign found: a plain sentence and where.
@@ -43,17 +43,17 @@ struct SeenMotion {
 /// Where a base motion comes from.
 enum class BaseSource {
     table_sensor, ///< measured on the table
-    command       ///< what the table was told to do
+    command       ///< the command of the table
 };
 
 struct MeasuredRun {
     std::string name;             ///< of its group or row: "004"
     int motion_id = 0;            ///< runs with the same one repeat one commanded motion, the specimen put back by hand
     int repeat = 0;               ///< which of the repeats
-    std::string kind;             ///< of motion: "harmonic", "sweep", "quake", ...; empty: not said
+    std::string kind;             ///< of motion: "harmonic", "sweep", "quake", ...; empty: not given
     double rate_hz = 0;           ///< nominal, of the cameras
     std::optional<int> run_order; ///< when it was run among the others
-    std::optional<bool> collapsed; ///< nothing: not said
+    std::optional<bool> collapsed; ///< nothing: not given
     double collapse_time_s = -1;   ///< -1: none, or not known
     std::vector<double> time_s;    ///< (nt) the cameras' clock
 

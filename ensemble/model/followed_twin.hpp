@@ -1,5 +1,5 @@
 #pragma once
-/// What became of a pair of twins that was followed step by step (ensemble/replicas/twins.hpp): plain data.
+/// Result of a pair of twins that was followed step by step (ensemble/replicas/twins.hpp): plain data.
 
 #include <cstdint>
 

@@ -7,7 +7,7 @@
 
 namespace stylobate {
 
-/// Bad input: the message says where (file and line, if there is one), what, the allowed range and what to do.
+/// Bad input: the message has the place (file and line, if there is one), the value, the allowed range and the remedy.
 /// The command line prints it as it is and exits with status 2.
 class InputError : public std::runtime_error {
 public:

@@ -1,5 +1,5 @@
 #pragma once
-/// The mechanisms that a study can name: one table says what each is, from which studies are read, written, perturbed
+/// The mechanisms that a study can name: one table defines them, from which studies are read, written, perturbed
 /// and explained. The equations are in `kernels/mechanisms/` and, for the base, in `base_motion.hpp`.
 
 #include "ensemble/model/structure.hpp"
@@ -14,7 +14,7 @@
 
 namespace stylobate {
 
-/// A physical effect that the baseline leaves out. A number stands for ever (`Stream`): a new one takes the next.
+/// A physical effect that the baseline leaves out. A number never changes (`Stream`): a new mechanism takes the next.
 enum class Mechanism : std::uint8_t {
     stribeck,
     joint_friction,
@@ -63,8 +63,8 @@ enum class UsualPlaces {
 /// What a parameter is to its mechanism.
 enum class ParameterRole {
     acting, ///< at its neutral value the mechanism does nothing by it; at least one of these is given
-    needed, ///< says how the mechanism acts, and is given
-    detail, ///< says how the mechanism acts; has a default
+    needed, ///< defines how the mechanism acts, and must be given
+    detail, ///< defines how the mechanism acts; has a default
     extra   ///< the same; a study's text has it only where it is not the default
 };
 
@@ -112,7 +112,7 @@ struct MechanismSpec {
 /// @param friction of [contact]: the neutral dynamic friction of `stribeck`
 MechanismSpec neutral_spec(Mechanism mechanism, double friction);
 
-/// Whether it says anything but neutral values.
+/// Whether any of its values is not neutral.
 bool acts(const MechanismSpec& spec, double friction);
 
 /// The beds or blocks of a structure at which a mechanism acts when none are named, ascending.

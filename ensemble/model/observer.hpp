@@ -1,5 +1,5 @@
 #pragma once
-/// What a run tells the one who started it. The library prints nothing itself.
+/// Messages from a run to its caller. The library itself prints nothing.
 
 #include <cstdint>
 #include <limits>
@@ -17,7 +17,7 @@ struct Progress {
     double rate = 0;               ///< realizations per second of this run
     double occupancy = 0;          ///< part of the lanes that worked on a realization
     /// Share of the collapse in the whole study, as estimated from a fair sample of it, and its 95 % interval; NaN:
-    /// nothing can be said yet.
+    /// nothing is known yet.
     double share = std::numeric_limits<double>::quiet_NaN();
     double share_lower = std::numeric_limits<double>::quiet_NaN();
     double share_upper = std::numeric_limits<double>::quiet_NaN();

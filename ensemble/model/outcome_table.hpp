@@ -11,7 +11,7 @@ namespace stylobate {
 
 struct MeasuredOutcome {
     long line = 0;                        ///< of the file, for messages
-    std::string motion_file;              ///< the base motion's record; empty: not said
+    std::string motion_file;              ///< the base motion's record; empty: not given
     std::optional<double> amplitude_m;    ///< of a harmonic displacement
     std::optional<double> frequency_hz;   ///< of it
     std::optional<double> pga_m_s2;       ///< peak acceleration of the base

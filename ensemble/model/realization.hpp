@@ -86,7 +86,7 @@ struct BaseExtension {
     friend bool operator==(const BaseExtension&, const BaseExtension&) = default;
 };
 
-/// What becomes of the horizontal motion of the base before it reaches the structure (`base_motion.hpp`). Every default
+/// Changes of the horizontal motion of the base before it reaches the structure (`base_motion.hpp`). Every default
 /// is neutral. With psi the phase of the motion, u = |z| sin psi (`distortion.hpp`), the distortion adds
 /// second |z| sin 2 psi + second_quadrature |z| cos 2 psi, and the same of the third order.
 struct BaseChange {
@@ -134,7 +134,7 @@ struct Realization {
     std::uint64_t index = 0;
     std::vector<Block> blocks; ///< column by column from the bottom, then the epistyles, then the ground where needed
     std::vector<Joint> joints; ///< with at least one free block each: the beds at rest, then the watched pairs
-    int watched = 0;           ///< so many of the joints, the last ones: blocks that lie on no common bed, but may meet
+    int watched = 0;           ///< number of joints, the last ones, between blocks that share no bed but may meet
     int drums = 0;             ///< blocks without the ground
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
@@ -158,7 +158,7 @@ struct Realization {
     double pulse_gamma = 0; ///< oscillatory character of a velocity pulse
     /// The base motion that is this realization's own (noise, a distorted one, one of a set), else null.
     std::shared_ptr<const Motion> motion;
-    double motion_scale = 1; ///< it shakes so many times as strong as its own motion says
+    double motion_scale = 1; ///< factor on its own motion
     /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
     std::shared_ptr<const Motion> vertical;
     ContactForm form = ContactForm::area;

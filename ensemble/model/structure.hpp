@@ -39,7 +39,7 @@ struct DrumSpec {
 
 struct ColumnSpec {
     double x_m = 0;              ///< its axis
-    int fixed_blocks = 0;        ///< so many of the drums, the lowest ones, are fixed to the shaking table
+    int fixed_blocks = 0;        ///< number of drums, the lowest ones, that are fixed to the shaking table
     std::vector<DrumSpec> drums; ///< from the bottom
     friend bool operator==(const ColumnSpec&, const ColumnSpec&) = default;
 };
@@ -66,7 +66,7 @@ struct StructureSpec {
 };
 
 /// A column of equal drums about x = 0.
-/// @param blocks drums, the fixed ones counted   @param fixed so many of them, the lowest, are fixed to the table
+/// @param blocks drums, with the fixed ones   @param fixed number of the lowest ones that are fixed to the table
 StructureSpec equal_column(int blocks, int fixed, double width_m, double height_m, double depth_m, double mass_kg,
                            double gravity_m_s2 = 9.81);
 

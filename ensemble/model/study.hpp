@@ -1,5 +1,5 @@
 #pragma once
-/// A study as plain data: what a study file says, with every default filled in. SI units throughout.
+/// A study as plain data: the content of a study file, with every default filled in. SI units throughout.
 ///
 /// `io/study/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
@@ -21,10 +21,10 @@ namespace stylobate {
 enum class StudyKind {
     single,
     surface,
-    fragility,   ///< many motions, each as strong as is asked: probabilities of damage and their curves
+    fragility,   ///< many motions, each scaled to given intensities: probabilities of damage and their curves
     sensitivity, ///< which of the perturbed quantities the outcomes depend on
     rare,        ///< a probability of collapse too small to be counted
-    survival     ///< what a structure's state tells of the shaking that it has been through
+    survival     ///< past shaking, inferred from the state of a structure
 };
 
 /// Whether frequency and PGA are those of the cells of [surface].
@@ -133,7 +133,7 @@ struct ExcitationSpec {
     std::string file;      ///< as given in the study; relative to the study file's folder, else to the working folder
     std::string run;       ///< of a measured campaign
     std::string component; ///< which one, where a file has several: its name or its column (counted from 1)
-    std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file says it)
+    std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file gives it)
     double time_scale = 1; ///< stretches the record's time; in a surface the frequency axis does this
     bool baseline = true;  ///< correct the record's baseline
     std::optional<BandPass> band_pass; ///< filter it too
@@ -155,7 +155,8 @@ struct Axis {
 /// Confidence of the intervals of an adaptive surface.
 inline constexpr double adaptive_level = 0.95;
 
-/// Realizations where they are needed (ensemble/estimators/surface/adaptive.hpp), instead of as many in each cell.
+/// Realizations where they are needed (ensemble/estimators/surface/adaptive.hpp), instead of equal numbers in each
+/// cell.
 struct AdaptiveSpec {
     std::uint64_t budget = 0;  ///< realizations of the whole surface, at most
     std::uint64_t minimum = 8; ///< of each cell
@@ -183,11 +184,11 @@ enum class IntensityMeasure { pga, pgv, pgd, arias, cav, sa };
 struct RecordSpec {
     std::string file;
     std::string component; ///< empty: the only one there is
-    std::string unit;      ///< empty: the file says it
+    std::string unit;      ///< empty: the file gives it
     friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 
-/// Intervals of curves come from how the motions differ; fewer tell nothing
+/// Intervals of curves follow from the scatter between motions; fewer motions give none
 /// (`ensemble/estimators/fragility/fragility_curve.hpp`).
 inline constexpr int fewest_motions = 8;
 
@@ -201,10 +202,10 @@ struct FragilitySpec {
     IntensityMeasure measure = IntensityMeasure::pga;
     double period_s = 1; ///< of `sa`
     Axis intensity;      ///< of `stripes`; in the measure's unit
-    double scale = 1;    ///< of `cloud`: every motion so many times as strong as it stands
+    double scale = 1;    ///< of `cloud`: factor on every motion
 
-    // A monument has survived many earthquakes: so many shake it one after the other, each as strong as its stripe
-    // says, and what one has displaced the next one finds so.
+    // Number of earthquakes in succession, each with the intensity of its stripe; each begins from the state that the
+    // one before has left.
     int shakings = 1;
     double pause_s = 5; ///< between two of them, in which it comes to rest
 
@@ -257,7 +258,7 @@ struct RareSpec {
     static constexpr std::uint64_t most_levels = 10; ///< beyond the first one
     /// A realization's index is its repeat x this + its number in the repeat.
     static constexpr std::uint64_t indices_of_repeat = std::uint64_t{1} << 32;
-    /// More realizations than it can come to.
+    /// Upper bound of its realizations.
     std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
 };
 
@@ -273,13 +274,13 @@ enum class PastPrior {
 struct ObservedState {
     std::vector<int> joints;          ///< that were measured, counted as the beds of `lay_out`, ascending
     std::vector<double> offset_m;     ///< (joints) how far the faces lie from where they lay when it was built
-    double tolerance_m = 0;           ///< the true offset is within so much of the measured one
+    double tolerance_m = 0;           ///< largest difference between the true and the measured offset
     std::vector<double> rotation_rad; ///< (free blocks) from upright; empty: not measured
     double tolerance_rad = 0;
     bool mirrored = false; ///< the sense of the shaking is unknown: the mirrored state agrees too
 };
 
-/// Rates of exceedance of the intensity, and how sure they are.
+/// Rates of exceedance of the intensity, and their uncertainty.
 struct HazardSpec {
     double k0_per_year = 0; ///< H(a) = k0 a^-k, a in m/s2; 0: the points
     double k = 0;
@@ -288,20 +289,20 @@ struct HazardSpec {
     double sigma_ln = 0;                ///< of the factor on all rates, lognormal about 1
 };
 
-/// What a structure tells by still standing. Of each cell of [surface] the study has `Study::realizations` with one
+/// Inference from the survival of a structure. Of each cell of [surface] the study has `Study::realizations` with one
 /// event, then as many with two in succession, up to `events`.
 struct SurvivalSpec {
-    std::optional<ObservedState> observed = {}; ///< none: that it stands is all that is known
+    std::optional<ObservedState> observed = {}; ///< none: it is only known that it stands
     PastPrior prior = PastPrior::log_uniform;
     double level = 0.95;           ///< of exclusions and credible intervals
-    int events = 1;                ///< at most so many, equally strong
+    int events = 1;                ///< largest number, equally strong
     double pause_s = 5;            ///< between two of them, in which the structure comes to rest
     std::uint64_t monuments = 200; ///< simulated ones by which the credible intervals are tested
     std::optional<double> stands_for_years = {};
     std::optional<HazardSpec> hazard = {};
 };
 
-/// What the twin of a realization differs in.
+/// The property in which the twin of a realization differs.
 enum class TwinBy {
     move,      ///< the place of one drum
     step,      ///< the time step
@@ -309,7 +310,7 @@ enum class TwinBy {
     form       ///< the contact form
 };
 
-/// One kind of twin: the same realization in all draws, but for one thing.
+/// One kind of twin: the same realization in all draws, except for one property.
 struct Twin {
     TwinBy by = TwinBy::move;
     double size = 0; ///< move: how far to the right [m]; step: times the realization's own
@@ -317,11 +318,12 @@ struct Twin {
     friend bool operator==(const Twin&, const Twin&) = default;
 };
 
-/// Twins of every realization of a surface: how sure a verdict is, and what decides it (ensemble/replicas/twins.hpp).
+/// Twins of every realization of a surface: how reliable a verdict is, and what decides it
+/// (ensemble/replicas/twins.hpp).
 struct TwinsSpec {
     std::vector<Twin> kinds; ///< moves, then the step, the precision and the forms
     int block = 0;           ///< the drum that is moved, in layout order
-    /// In each cell the pairs of the first so many realizations are followed step by step, those that are moved.
+    /// Number of realizations of each cell, the first ones, whose displaced twins are followed step by step.
     std::uint64_t followed = 8;
     double tolerance = 0.01; ///< predictable as long as twins are closer than this part of the drums' width
 };
@@ -396,7 +398,8 @@ struct InitialSpec {
 
 struct OutputSpec {
     double trajectory_rate_hz = 1000; ///< in a study file the default is `usual_trajectory_rate_hz`
-    /// Of a single study the trajectories of the first so many realizations are kept; none: as many as `most_mb` holds.
+    /// Number of realizations of a single study, the first ones, whose trajectories are kept; none: as many as
+    /// `most_mb` holds.
     std::optional<std::uint64_t> trajectories = {};
     double most_mb = 100; ///< of trajectories in a results file, in 1e6 bytes
 
@@ -406,7 +409,7 @@ struct OutputSpec {
 /// How long a realization is followed.
 enum class Follow {
     collapse, ///< until a block has fallen
-    rest      ///< on, until what has fallen lies still: partial and total collapse, and their order
+    rest      ///< until all fallen blocks are at rest: partial and total collapse, and their order
 };
 
 struct OutcomeSpec {
@@ -433,7 +436,7 @@ struct RunSpec {
     double step_fraction = 0.9; ///< of the safe bound of each realization (see README.md of this folder)
     StepBasis step_bound = StepBasis::block;
     std::optional<double> step_s; ///< a fixed step instead
-    /// What the numerics may change in a collapse probability; they are chosen for it where the study gives nothing
+    /// Largest change of a collapse probability by the numerics, which are chosen for it where the study gives none
     /// (`Study::chosen`).
     std::optional<double> accuracy;
     bool allow_step_above_bound = false; ///< run such a step all the same
@@ -513,7 +516,7 @@ struct Study {
     {
         return survival ? 1 + static_cast<int>(index / (realizations * cells())) : 1;
     }
-    /// Realizations that are nobody's twins, and that one event shakes.
+    /// Realizations that are not perturbed replicas, under one event.
     std::uint64_t originals() const { return twins || events() > 1 ? realizations * cells() : total(); }
     /// Realizations of the whole study. Of a surface with twins: the originals, then all twins of the first kind in the
     /// same order, and so on; of a survival study those of one event, then those of two, and so on.
@@ -525,9 +528,9 @@ struct Study {
             return rare->repeats * RareSpec::indices_of_repeat;
         return realizations * cells() * (static_cast<std::uint64_t>(events()) + (twins ? twins->kinds.size() : 0));
     }
-    /// The realization whose twin this one is, or that one event shakes in its place; an original's own index.
+    /// The original of a twin, or the realization of one event with the same draws; of an original its own index.
     std::uint64_t original(std::uint64_t index) const { return twins || events() > 1 ? index % originals() : index; }
-    /// What makes it one; null of an original.
+    /// Its kind; null of an original.
     const Twin* twin(std::uint64_t index) const
     {
         return twins && index >= originals() ? &twins->kinds[index / originals() - 1] : nullptr;
@@ -542,7 +545,8 @@ struct Study {
         const auto found = std::find(sensitivity->factors.begin(), sensitivity->factors.end(), name);
         return found == sensitivity->factors.end() ? -1 : static_cast<int>(found - sensitivity->factors.begin());
     }
-    /// By which a realization draws what no factor says: its index, or that of all points of its row.
+    /// Index by which a realization draws the quantities that are not factors: its own, or that of all points of its
+    /// row.
     std::uint64_t rest_index(std::uint64_t index) const
     {
         if (!sensitivity)
@@ -552,9 +556,9 @@ struct Study {
     }
 };
 
-/// How often a trajectory is sampled unless the study says: 100 times in 2 pi / p, p = sqrt(3 g / (4 R)) of the free
+/// Default sampling rate of a trajectory: 100 times in 2 pi / p, p = sqrt(3 g / (4 R)) of the free
 /// block that rocks fastest, R half its diagonal; 20 times in a period of the fastest shaking whose frequency the study
-/// says; and 100 times a second, since records have little above 25 Hz. Rounded up to whole tens.
+/// gives; and 100 times a second, since records have little above 25 Hz. Rounded up to whole tens.
 double usual_trajectory_rate_hz(const Study& study);
 
 } // namespace stylobate

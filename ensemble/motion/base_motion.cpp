@@ -221,7 +221,7 @@ FormulaParameters BaseMotion::parameters(std::array<double, 8>& v, double cycles
     return {&v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7]};
 }
 
-/// U after so many steps, whole or not.
+/// U after a number of steps, whole or not.
 double BaseMotion::formula_displacement(double cycles_per_step, double steps) const
 {
     if (formula_ == MotionFormula::harmonic && change_.distorts())

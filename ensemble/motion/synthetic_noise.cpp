@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double samples_per_second = 200, samples_per_cycle = 100;
-constexpr double decays = 5; ///< after so many the envelope is cut
+constexpr double decays = 5; ///< decay times after which the envelope is cut
 constexpr std::uint64_t motions_for_mean = 128;
 
 /// u'' + 2 z w u' + w2 u = f, exactly over steps in which f is linear (Nigam & Jennings 1969).

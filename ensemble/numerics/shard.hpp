@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// Together the shards of a study are all its realizations, each once; `RunOrder::places` says which are whose.
+/// Together the shards of a study are all its realizations, each once; `RunOrder::places` assigns them.
 struct Shard {
     std::uint64_t number = 1; ///< from 1
     std::uint64_t of = 1;     ///< how many shards there are

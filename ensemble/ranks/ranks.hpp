@@ -8,7 +8,7 @@
 
 namespace stylobate {
 
-/// All ranks execute the same program on the same input and come to the collective calls in the same order. Rank 0
+/// All ranks execute the same program on the same input and reach the collective calls in the same order. Rank 0
 /// leads: it alone reads and writes files of results and talks to the user. One thread of a process calls at a time.
 class Ranks {
 public:
@@ -55,7 +55,7 @@ inline std::string first_said(Ranks& ranks, const std::string& mine)
 }
 
 /// Collective, of all ranks that there are. @param ranks null: this process is alone
-/// @return whether all of them say so
+/// @return whether it is true on all of them
 inline bool all_agree(Ranks* ranks, bool mine)
 {
     return ranks ? first_said(*ranks, mine ? "" : "no").empty() : mine;

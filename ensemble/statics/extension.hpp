@@ -9,7 +9,8 @@
 
 namespace stylobate {
 
-/// Whether any extension of the realization, or its contact form, is other than neutral, or it says so itself.
+/// Whether any extension of the realization, or its contact form, is not neutral, or the realization is marked as
+/// extended.
 bool is_extended(const Realization& realization);
 /// Whether an extension acts on it at rest: its form, its exponents, chips, wedges or eccentricities.
 bool rests_otherwise(const Realization& realization);

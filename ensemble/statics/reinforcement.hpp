@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// Whether anything strengthens the realization, or it says so itself.
+/// Whether anything strengthens the realization, or it is marked as strengthened.
 bool is_reinforced(const Realization& realization);
 
 /// Force of a block's tendon at rest and its moment about the block's geometric centre, in the frame of the base.

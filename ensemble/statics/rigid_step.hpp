@@ -5,7 +5,7 @@
 
 namespace stylobate {
 
-/// What a collapse probability may be off by unless a study says otherwise: measured for six rocking drums
+/// Default error of a collapse probability: measured for six rocking drums
 /// (`docs/rigid_limit.md`).
 inline constexpr double usual_accuracy = 0.05;
 

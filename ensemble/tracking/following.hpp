@@ -1,7 +1,7 @@
 #pragma once
 /// Measured motion, followed by the model in lockstep: an observer and the free windows that start from it.
 ///
-/// Rocking is chaotic: a run that was left alone says nothing of the measurement after a few impacts, and one that is
+/// Rocking is chaotic: a free run carries no information on the measurement after a few impacts, and one that is
 /// restarted from measured states has lost its contacts' overlaps and springs, which no camera sees. So the model
 /// itself runs along the measured motion, weakly nudged towards it in x and rotation,
 ///
@@ -82,7 +82,7 @@ struct FollowReport {
     bool complete = false;             ///< false: the observer asked to stop, and results are missing
 };
 
-/// Runs all jobs. `observer` hears of jobs done (`Progress::done` of `total`), and may stop the run.
+/// Runs all jobs. `observer` is given the number of jobs done (`Progress::done` of `total`), and may stop the run.
 ///
 /// @pre every realization has a base motion of its own (`Realization::motion`) and a step
 /// @throws what setting up a realization throws, after all threads have stopped

@@ -36,7 +36,7 @@ struct SeenValue {
 /// knows is none.
 std::vector<std::vector<SeenValue>> seen_values(const SeenRun& run, const std::vector<SeenWindow>& windows,
                                                 double lag_s);
-/// Kinds of k for so many blocks.
+/// Number of kinds of k for a number of blocks.
 inline std::size_t residual_kinds(std::size_t blocks)
 {
     return blocks * coordinate_count * 2;
