@@ -15,6 +15,7 @@ import tempfile
 from mkdocs.structure.files import File
 
 LINK = re.compile(r"\[([^\[\]]*)(\]\()([^)\s#]+)((?:#[^)\s]*)?\))")
+IMAGE = re.compile(r"(<img [^>]*?src=\")([^\"]+)(\")")  # pictures side by side are HTML
 FENCE = re.compile(r"^\s*(```|~~~)")
 PICTURES = {".png", ".svg", ".gif", ".jpg"}
 LANGUAGES = {".hpp": "cpp", ".cpp": "cpp", ".cu": "cpp", ".cuh": "cpp", ".py": "python", ".sh": "bash", ".toml": "toml"}
@@ -66,10 +67,19 @@ def links_followed(text, page):
             words = title_of(target)
         return "[" + words + middle + posixpath.relpath(place_of(target), posixpath.dirname(place_of(page))) + end
 
+    def show(match):
+        before, link, after = match.groups()
+        target = target_of(link, page)
+        if target is None:
+            return match[0]
+        targets.append(target)
+        # the browser resolves it against the page of the site, which has the folder of its source
+        return before + posixpath.relpath(place_of(target), posixpath.dirname(place_of(page))) + after
+
     for line in text.split("\n"):
         if FENCE.match(line):
             fenced = not fenced
-        lines.append(line if fenced else LINK.sub(follow, line))
+        lines.append(line if fenced else IMAGE.sub(show, LINK.sub(follow, line)))
     return "\n".join(lines), targets
 
 
