@@ -191,7 +191,7 @@ void append_judged(FormCalibration& form, const std::vector<FittedParameter>& ju
     form.parameters.insert(form.parameters.end(), judged.begin(), judged.end());
 }
 
-/// What the other contact forms say of the same parameter.
+/// Adds the results of the other contact forms for the same parameter.
 void compare_forms(std::vector<FormCalibration>& forms)
 {
     for (FormCalibration& form : forms)

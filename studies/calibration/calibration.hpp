@@ -3,7 +3,7 @@
 /// measured, how well they are known, and what was not determined.
 ///
 /// Determined are values of the specimen, with intervals that hold whatever its contact law is: the friction, where
-/// `judge_friction` says so; it is then held at that value, otherwise at the study's. What is found by the search are
+/// `judge_friction` determines it; it is then held at that value, otherwise at the study's. The search finds
 /// values of this model with its contact law, which predict best: they are effective, and determine nothing of the
 /// specimen, however narrow their intervals are. Stiffness and damping of a contact law that the specimen does not have
 /// cannot be anything else.

@@ -39,7 +39,7 @@ std::string interval(const FittedParameter& p)
     return p.determined || p.effective ? fmt::format("{:.4g} to {:.4g}", p.low, p.high) : "–";
 }
 
-/// "better", "worse", or that it cannot be told.
+/// "better", "worse", or undecided.
 std::string held_out_words(const PairedGain& gain)
 {
     return gain.low > 0    ? "it predicts them better than the start study"

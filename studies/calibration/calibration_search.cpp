@@ -29,7 +29,7 @@ double sum(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Points that the profiles of so many parameters take.
+/// Number of points of the profiles of a number of parameters.
 std::size_t most_profile_points(std::size_t keys, const CalibrationOptions& options)
 {
     return 2 * keys * (options.profile + 1 + 2 * fine_steps.size());
@@ -178,7 +178,7 @@ bool CalibrationSearch::fit()
         std::vector<double> spread = surface_.deviation;
         for (std::size_t k = 0; k < d; ++k) {
             spread[k] = std::clamp(widen * spread[k], least_spread, most[k]);
-            // a form that says little of a parameter must not throw the next round out of the region
+            // a form that hardly determines a parameter must not move the next round out of the region
             most[k] = std::min(2 * spread[k], prior_deviation);
         }
         const UnitPoint centre = surface_.best;

@@ -53,7 +53,8 @@ private:
     Study study_at(const UnitPoint& point) const;
     bool try_points(const std::vector<UnitPoint>& points);
     std::size_t best_tried() const;
-    /// Points of the last rounds within so many deviations of the surface, with their scores by the scales of the best.
+    /// Points of the last rounds within a number of deviations of the surface, with their scores by the scales of the
+    /// best.
     std::vector<ScoredPoint> scored(const std::vector<std::size_t>& tried) const;
     bool begin(FormCalibration& result);
     void conclude(FormCalibration& result) const;

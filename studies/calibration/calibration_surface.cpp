@@ -166,7 +166,7 @@ struct Curvature {
     Matrix h;
 };
 
-/// The best point from the centre, one parameter after the other; beyond its points the form says nothing.
+/// The best point from the centre, one parameter after the other; the form does not hold beyond its points.
 Vector best_point(const Vector& slope, const Matrix& h, const WeightedScores& w)
 {
     Vector best = Vector::Zero(slope.size());
@@ -178,8 +178,8 @@ Vector best_point(const Vector& slope, const Matrix& h, const WeightedScores& w)
     return best;
 }
 
-/// Covariance of the best point, from how much the slopes there differ between units, and no smaller than what the
-/// groups say where there are enough of them, each parameter by its own factor.
+/// Covariance of the best point, from the scatter of the slopes there between units, and at least that between groups
+/// where there are enough of them, each parameter by its own factor.
 Matrix covariance_of(const Matrix& unit_coefficients, const std::vector<std::size_t>& units,
                      const std::vector<std::size_t>& group, const Vector& best, const Curvature& curved)
 {

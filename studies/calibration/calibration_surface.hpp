@@ -3,8 +3,8 @@
 ///
 /// The score of a rocking structure is rough: from one parameter set to the next an impact goes the other way, and the
 /// score jumps. A search that follows its slope stalls; so points are spread about the best ones, and a quadratic form
-/// is fitted to all of them by least squares. The same is fitted to the part of each unit (a window, a run): how its
-/// slopes at the best point differ from unit to unit says how uncertain that point is, the roughness included:
+/// is fitted to all of them by least squares. The same is fitted to the part of each unit (a window, a run): the
+/// scatter of its slopes at the best point between units gives the uncertainty of that point, the roughness included:
 ///
 ///   cov = H^-1 J H^-1,   H = - curvature of the sum,   J = sum over units of slope slope^T
 ///

@@ -61,7 +61,7 @@ std::string bytes_of(const Portion& portion)
     return bytes;
 }
 
-/// The portion back again; the checksum says beforehand that the bytes are those that were written.
+/// Reads a portion. The checksum has been verified before, so that the bytes are those that were written.
 Portion portion_of(std::string_view bytes)
 {
     const auto number = [&] {

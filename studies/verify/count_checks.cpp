@@ -14,7 +14,7 @@ namespace stylobate {
 
 namespace {
 
-/// Of the invalid realizations that a file names, so many are run again at most.
+/// Largest number of the invalid realizations in a file that are run again.
 constexpr std::size_t most_invalid_again = 5;
 
 std::string counted_at(const ResultHeader& header, const char* name, std::size_t cell)

@@ -64,7 +64,7 @@ public:
             require("outcome/end_time_s", o.end_time_s, !(o.end_time_s < time), "a time that is not before the falls");
     }
 
-    /// What the fall times say once more.
+    /// Values derived from the fall times.
     void falls()
     {
         const Outcome& o = row_.outcome;
@@ -135,7 +135,7 @@ RowChecks check_rows(const Study& study, const ResultReader& reader)
             check.add({"outcome/invalid_reason", row.index, shown(o.invalid_reason),
                        invalid ? "the reason of an invalid realization" : "none"});
         if (invalid)
-            return; // nothing is said of it
+            return; // it has no value
         look.numbers();
         look.falls();
         look.final_state();

@@ -8,7 +8,7 @@
 namespace stylobate {
 
 /// Every row: its cell, its state and the reason of an invalid one, and of a valid one that its numbers are finite,
-/// that lengths, times and counts are not negative, and that the fall times say the same as what is derived from them.
+/// that lengths, times and counts are not negative, and that the fall times agree with the values derived from them.
 /// @returns the check "rows"; a row with another cell than its index's is `wrong_cell`
 struct RowChecks {
     FileCheck check;

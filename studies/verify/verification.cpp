@@ -33,7 +33,7 @@ std::string version_note(const FileVerification& v)
 {
     return v.same_version ? ""
                           : fmt::format("This is version {}: realizations that are run again may differ in their last "
-                                        "bits, or more where its changelog says so.",
+                                        "bits, or by more where its changelog lists results that move.",
                                         code_version());
 }
 

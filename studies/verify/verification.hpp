@@ -13,14 +13,14 @@ namespace stylobate {
 enum class CheckVerdict {
     passed,
     differs, ///< the file is not what the program makes of its study
-    not_done ///< could not be looked at; the text says why
+    not_done ///< could not be checked; the text has the reason
 };
 
 /// One value of the file and what it should be.
 struct ValueDifference {
     std::string where;                        ///< "outcome/end_time_s", "surface/trials[3]"
     std::optional<std::uint64_t> realization; ///< whose value it is
-    std::string stored, expected;             ///< without an expected value `stored` says all
+    std::string stored, expected;             ///< without an expected value `stored` is the whole message
 };
 
 struct FileCheck {

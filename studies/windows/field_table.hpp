@@ -2,9 +2,9 @@
 /// Lists of structures as tables of an HDF5 file, written once for the writer and the reader.
 ///
 /// Every list is a table: a group with a data set for each field of its items, one value an item. A list inside an item
-/// is a table below the table of the item, whose column `row` says to which item an entry belongs; a thing that may be
-/// absent is a list of none or one. `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each field
-/// of T, in the order of the file; it and the words of enumerations stand beside the structures
+/// is a table below the table of the item, whose column `row` is the item to which an entry belongs; a thing that may
+/// be absent is a list of none or one. `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each
+/// field of T, in the order of the file; it and the words of enumerations stand beside the structures
 /// (`diagnosis_fields.hpp`).
 
 #include "io/files/hdf5.hpp"

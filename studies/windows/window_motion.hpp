@@ -61,7 +61,7 @@ struct WindowMotion {
     double from_s = 0; ///< the cameras' clock; simulations start there
     double to_s = 0;
     std::uint64_t rank = 0;   ///< of its error among all windows; 1: the largest
-    std::uint64_t ranked = 0; ///< so many windows
+    std::uint64_t ranked = 0; ///< number of windows
     std::vector<MotionSample> samples;
     std::vector<MotionTrack> tracks; ///< first the measured one
 };

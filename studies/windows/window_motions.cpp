@@ -50,7 +50,7 @@ std::vector<ShownBlock> shown_blocks(const SpecimenStructure& built)
     return shown;
 }
 
-/// Samples of a window that are kept, of so many.
+/// Number of samples of a window that are kept.
 std::size_t kept_samples(std::size_t all, std::size_t most)
 {
     const std::size_t stride = (all + most - 1) / most;

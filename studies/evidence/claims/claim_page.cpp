@@ -115,7 +115,7 @@ std::string reason_text(const Result& r)
     return why_not_run(r) + ".";
 }
 
-/// The axes that tell a test's cases apart, by number; `axes.size()` stands for the ranges.
+/// The axes that distinguish a test's cases, by number; `axes.size()` stands for the ranges.
 std::vector<std::size_t> telling_axes(const Result& r)
 {
     std::vector<std::size_t> telling;

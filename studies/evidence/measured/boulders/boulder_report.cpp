@@ -406,7 +406,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
     const auto picture = [&](const std::string& name, const std::string& script) {
         run_gnuplot(script, verification::picture_size, place.images() / ("rock_shake_table_" + name + ".png"));
     };
-    // what the baseline says of boulder 1
+    // boulder 1 by the baseline
     Series right_fall{"fell, predicted", {}, {}}, right_stand{"stood, predicted", {}, {}},
         false_fall{"stood, fall predicted", {}, {}}, false_stand{"fell, not predicted", {}, {}};
     std::size_t k = 0;

@@ -140,7 +140,7 @@ std::string parameters(const ImpactStudy& s)
     return text;
 }
 
-/// What the data say of the way in which the surface takes the energy.
+/// How the surface takes the energy, from the data.
 std::string way_of_loss(const ImpactStudy& s)
 {
     const auto both = [&](std::size_t which) {
