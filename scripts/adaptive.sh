@@ -5,7 +5,7 @@
 #                                            many simulated runs of each known surface (default 20)
 #
 # Results are kept in results/adaptive and used again. The reference (±0.02 in every cell, from each cell's own trials)
-# takes some minutes on two cores.
+# takes minutes.
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

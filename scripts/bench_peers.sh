@@ -2,9 +2,9 @@
 # Installs general engines of rigid bodies, builds the comparison with them and runs its tests. Each test writes its
 # results and the same as tables:
 #
-#   rocking       bench/results/peers-PROCESSOR.json, .md                 a quarter of an hour of one core
-#   restitution   bench/results/peers-PROCESSOR-restitution.json, .md     four minutes of one core
-#   collapse      bench/results/peers-PROCESSOR-collapse.json, .md        half an hour of processor time, on all cores
+#   rocking       bench/results/peers-PROCESSOR.json, .md                 tens of minutes
+#   restitution   bench/results/peers-PROCESSOR-restitution.json, .md     minutes
+#   collapse      bench/results/peers-PROCESSOR-collapse.json, .md        tens of minutes, on all cores
 #
 #   scripts/bench_peers.sh                                   all three
 #   scripts/bench_peers.sh --only TEST                       one of them

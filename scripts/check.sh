@@ -12,7 +12,7 @@
 #              UndefinedBehaviorSanitizer
 #   fuzz       a minute (FUZZ_S) of malformed files, shared by all readers
 #
-# --within: a gate that has not begun after so many seconds is left out, with a line that says so (CI has 40 minutes for
+# --within: a gate that has not begun after that many seconds is left out, with a line that states it (CI has 40 minutes for
 # all it does, on machines of several speeds). Exit status 1 if a gate is closed; its findings stand above the last line.
 set -euo pipefail
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What `stylobate check` estimates of studies, against their runs, as the table of docs/check.md.
 
-    scripts/check_estimates.py                  # all of the table: about ten minutes of two cores
+    scripts/check_estimates.py                  # all of the table: minutes
     scripts/check_estimates.py doric_column     # some studies of studies/inputs
 
 Of each study `check` is run, and then `run`: processor time, the most resident memory, and the size of the results

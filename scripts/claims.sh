@@ -2,7 +2,7 @@
 # Tests the paper's claims (studies/evidence/paper) and writes docs/claims.md with its pictures. An interrupted run
 # continues; complete results in results/claims are reused.
 #
-#   scripts/claims.sh                                     all of them, about half an hour on two cores
+#   scripts/claims.sh                                     all of them: tens of minutes
 #   scripts/claims.sh --only P1,P2 --realizations 20      a trial: any option of stylobate_claims; it writes
 #                                                         results/claims_trial/claims.md and does not change docs
 # RECORDS=DIR: folder of the earthquake records; without it, the claims on earthquakes are "not run".

@@ -2,7 +2,7 @@
 # Measures the coverage of the intervals of fragility estimates, and writes the tables into
 # docs/fragility_statistics.md.
 #
-#   scripts/coverage.sh [REPEATS]    simulated campaigns of each kind (default 10000: some ten minutes on one core)
+#   scripts/coverage.sh [REPEATS]    simulated campaigns of each kind (default 10000: minutes)
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

@@ -2,7 +2,7 @@
 # Runs the ready studies of decisions (which strengthening helps, what is the risk, what does the survival of the column
 # still stands) and writes their results and pictures into docs/decisions.md.
 #
-#   scripts/decisions.sh     some twenty minutes on two cores
+#   scripts/decisions.sh     tens of minutes
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

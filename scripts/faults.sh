@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Kills runs, fills disks and breaks calls of the system under them, and writes what became of them into
-# docs/reliability.md. Exit status 1 where a fault is found. Half an hour on two cores; as root a small file system is
+# docs/reliability.md. Exit status 1 where a fault is found. Tens of minutes; as root a small file system is
 # filled, too.
 #
 #   scripts/faults.sh [OPTION...]     options of tests/faults/faults.py: --only PART, --kills N, --seed N

@@ -9,7 +9,7 @@
 #
 # 1. The tests of the slots: every outcome on the GPU against the lanes of the processor.
 # 2. Each study on the GPU and on the processor: all rows of the two results files are compared.
-# 3. The benchmarks that the environment variable BENCHMARKS selects. Some ten minutes in all. Exit status 1 where a test fails or a row differs.
+# 3. The benchmarks that the environment variable BENCHMARKS selects. Minutes in all. Exit status 1 where a test fails or a row differs.
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the benchmarks and writes their tables into docs/performance.md. A quarter of an hour; on an idle machine.
+# Runs the benchmarks and writes their tables into docs/performance.md. Tens of minutes, on an idle machine.
 #
 #   scripts/performance.sh [--row] [RESULTS.json]
 #

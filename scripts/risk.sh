@@ -2,7 +2,7 @@
 # Runs the worked example of docs/risk.md (two ready fragility studies over power-law hazards) and writes its results and
 # its picture there.
 #
-#   scripts/risk.sh [HISTORIES]    simulated histories of a hundred years (default 1000: some minutes on two cores)
+#   scripts/risk.sh [HISTORIES]    simulated histories of a hundred years (default 1000: minutes)
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

@@ -2,7 +2,7 @@
 # Measures the coverage of the intervals of rare events and of Sobol's indices, and writes the tables into
 # docs/sensitivity.md.
 #
-#   scripts/sampling_coverage.sh [REPEATS]    estimates of each kind (default 2000: some twenty minutes on one core)
+#   scripts/sampling_coverage.sh [REPEATS]    estimates of each kind (default 2000: tens of minutes)
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."

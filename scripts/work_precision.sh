@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures error against cost and writes the tables into docs/work_precision.md, with their picture. Costs are counted
-# in steps, so the machine need not be idle. Four minutes of one core.
+# in steps, so the machine need not be idle. It takes minutes.
 #
 #   scripts/work_precision.sh [--realizations N]        of each ensemble; 1024 unless given
 set -euo pipefail

@@ -17,7 +17,7 @@ class CellMap {
     this.outline = svg("rect", {class: "mark", "stroke-width": 2.5, visibility: "hidden"});
     drawing.append(this.outline);
     this.cell = 0;
-    this.figure.before(html("p", {class: "note only-with-script"}, "Pointer or arrow keys: what is known of a cell. ",
+    this.figure.before(html("p", {class: "note only-with-script"}, "Pointer or arrow keys: the values of a cell. ",
                             "Click or Enter: its outcomes", store ? ", and some of its realizations in motion." : "."));
     filled(drawing, {
       tabindex: 0,
