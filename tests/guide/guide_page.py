@@ -7,7 +7,7 @@
     $ COMMAND    # exit status 2    must end with this status instead of 0
     ```toml title="NAME"            (any language): the reader writes this file
     <!-- long -->                   above a block: minutes; run with --long only
-    <!-- not run: REASON -->        above a block: nobody runs it
+    <!-- not run: REASON -->        above a block: it is not run
     <!-- picture NAME.png: figure N of PAGE.html -->    the N-th figure (from 1) of a page that the commands have made
 
 Any other code block is an error: no command of the guide is unproved.
@@ -96,7 +96,7 @@ def read_page(text):
                 steps += commands_of(first + 1, lines, long)
             else:
                 raise PageError(f"line {first}: the block `{language} {rest}` is neither `console` nor a file "
-                                '(title="NAME"); above what nobody runs stands <!-- not run: REASON -->')
+                                '(title="NAME"); a block that is not run has <!-- not run: REASON --> above it')
             mark = None
     if inside:
         raise PageError(f"line {inside[0]}: the block does not end")

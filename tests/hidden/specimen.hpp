@@ -43,8 +43,8 @@ void scatter(Model& model, const Specimen& specimen, Draws& draws);
 /// left alone until it rests.
 State put_on_table(const Model& model, const Specimen& specimen, Draws placement);
 
-/// The study file that a user would write of the specimen: nominal sizes and friction, and a stiffness of the beds as
-/// is usual for dry joints of stone, which nobody has measured.
+/// The study file that a user would write for the specimen: nominal sizes and friction, and the usual stiffness of dry
+/// joints of stone, which was not measured.
 std::string study_text_of(const Planned& planned);
 
 } // namespace stylobate::hidden

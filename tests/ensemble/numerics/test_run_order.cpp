@@ -149,7 +149,7 @@ TEST(DoneSet, JoinsParts)
         DoneSet parts[3] = {DoneSet(order), DoneSet(order), DoneSet(order)}, all(order), joined(order);
         for (std::size_t k = 0; k < places.size(); ++k) {
             if (k % 17 == 0 && trial % 4 < 2)
-                continue; // done by nobody
+                continue; // done by no process
             const bool collapsed = places[k] % 3 == 0, invalid = places[k] % 5 == 1 && !collapsed;
             parts[trial % 2 == 0 ? k % 3 : k / 1000].add(places[k], collapsed, invalid);
             all.add(places[k], collapsed, invalid);

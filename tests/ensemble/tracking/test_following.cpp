@@ -1,5 +1,5 @@
-/// The model along measured motion: free windows go on as the observer would have, bit by bit; the nudging is the
-/// oscillator that it says it is; and nobody's neighbours matter.
+/// The model along measured motion: free windows continue as the observer would have, bit by bit; the nudging is the
+/// oscillator of its documentation; and neighbours have no effect.
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/sampling/sampler.hpp"

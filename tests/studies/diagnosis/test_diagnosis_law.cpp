@@ -217,7 +217,7 @@ TEST(LawSamples, OfTwoColumnsUnderAnEpistyleOnlyTheSumIsKnown)
 
 TEST(LawSamples, AJointThatBeginsAloneDoesNotHideWhatFollows)
 {
-    // One column slides first, under an epistyle that stays: both its joints carry what nobody knows.
+    // One column slides first, under an epistyle that stays: both its joints carry unknown forces.
     const Specimen s = two_columns_and_an_epistyle();
     const double mu = 0.4, assumed = 0.5;
     for (int later = 1; later < 60; later += 4) {

@@ -417,7 +417,7 @@ TEST(Discordance, WhereNoPairIsDiscordantTheRatioHasAnUpperLimit)
     EXPECT_EQ(none.lower, 0);
     EXPECT_GT(none.upper, 0.02);
     EXPECT_LT(none.upper, 0.3);
-    EXPECT_TRUE(std::isnan(discordance_ratio({{.neither = 20}}).ratio)) << "nobody differs from anybody";
+    EXPECT_TRUE(std::isnan(discordance_ratio({{.neither = 20}}).ratio)) << "no pair differs";
     EXPECT_TRUE(std::isnan(discordance_ratio({}).ratio));
 }
 
