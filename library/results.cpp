@@ -8,7 +8,8 @@ namespace stylobate::api {
 
 Result::Data::Data(inner::ResultHeader of, inner::Study from, std::string called)
     : header(std::move(of)), study(std::move(from)), name(std::move(called)),
-      limits(header.block_names.size(), header.kind == "replay" ? 0 : inner::cells_of_motion(study)),
+      limits(header.block_names.size(),
+             header.kind == "replay" ? inner::MotionGroups{} : inner::motion_groups(study, header.motions)),
       trials_(header.kind == "replay" ? study.total() : study.originals())
 {
     if (!header.frequency_hz.empty())

@@ -188,17 +188,16 @@ struct RecordSpec {
     friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 
-/// Intervals of curves follow from the scatter between motions; fewer motions give none
-/// (`ensemble/estimators/fragility/fragility_curve.hpp`).
-inline constexpr int fewest_motions = 8;
-
 /// A fragility study: motions x stripes x structures, `Study::realizations` structures under each motion in each
 /// stripe. The structures of a motion are the same in all its stripes (an incremental dynamic analysis of each), and
 /// others than those of another motion.
 struct FragilitySpec {
     FragilityMethod method = FragilityMethod::stripes;
     std::vector<RecordSpec> records; ///< of an excitation "record", else none
-    int motions = 0;                 ///< those of the records, or as many drawn from the seed
+    /// Files of the folder that hold no accelerations, and its vertical components: not part of the study, for
+    /// messages.
+    std::vector<std::string> left_out;
+    int motions = 0; ///< those of the records, or as many drawn from the seed
     IntensityMeasure measure = IntensityMeasure::pga;
     double period_s = 1; ///< of `sa`
     Axis intensity;      ///< of `stripes`; in the measure's unit
@@ -493,6 +492,9 @@ struct Study {
     }
 
     std::string text; ///< canonical TOML of all the above: two studies are the same if this is
+
+    /// Whether it allows what a check of this name refuses or warns of.
+    bool allows(const std::string& check) const { return std::find(allow.begin(), allow.end(), check) != allow.end(); }
 
     /// Whether it names the mechanism.
     bool names(Mechanism mechanism) const

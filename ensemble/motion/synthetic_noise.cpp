@@ -14,7 +14,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double samples_per_second = 200, samples_per_cycle = 100;
-constexpr double decays = 5; ///< decay times after which the envelope is cut
 constexpr std::uint64_t motions_for_mean = 128;
 
 /// u'' + 2 z w u' + w2 u = f, exactly over steps in which f is linear (Nigam & Jennings 1969).
@@ -85,7 +84,7 @@ SyntheticNoise::SyntheticNoise(const ExcitationSpec& e, double ground_frequency_
       low_cut_hz_(ground_frequency_hz * e.low_cut_ratio), low_cut_damping_ratio_(e.low_cut_damping_ratio),
       rise_s_(e.rise_s), strong_s_(e.strong_s), decay_s_(e.decay_s)
 {
-    const double planned = rise_s_ + strong_s_ + decays * decay_s_;
+    const double planned = rise_s_ + strong_s_ + noise_decays * decay_s_;
     const double rate = std::max(samples_per_second, samples_per_cycle * frequency_hz_);
     const double intervals = std::ceil(planned * rate);
     samples_ = static_cast<std::size_t>(intervals) + 1;

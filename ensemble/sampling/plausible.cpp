@@ -2,6 +2,7 @@
 
 #include "ensemble/model/structure.hpp"
 #include "ensemble/sampling/sampler.hpp"
+#include "ensemble/statics/limit_analysis.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <stdexcept>
 
 namespace stylobate {
 namespace {
@@ -25,11 +28,54 @@ constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
 /// 1998-1:2004).
 constexpr double spectral_amplification = 2.5;
 
+/// The structure on its beds, without shaking and without anything drawn.
+Realization still_realization(const Study& study)
+{
+    Study still;
+    still.structure = study.structure;
+    still.contact = study.contact;
+    still.excitation.kind = ExcitationKind::none;
+    still.excitation.duration_s = 1;
+    return Sampler(still, nullptr).realization(0);
+}
+
 using Finding = std::optional<Doubt>;
 struct Subject {
     const Study& study;
     const StudyFacts& facts;
 };
+
+/// Units in which accelerations and velocities are given by mistake.
+struct Slip {
+    double factor; ///< to m/s2 or m/s
+    const char* unit;
+};
+constexpr double standard_gravity = 9.80665;
+constexpr std::array acceleration_slips = {Slip{1e-2, "cm/s2"}, Slip{1e-3, "mm/s2"}};
+constexpr std::array velocity_slips = {Slip{1e-2, "cm/s"}, Slip{1e-3, "mm/s"}};
+
+/// " Did you mean cm/s2 (1.2 m/s2) or mm/s2 (0.12 m/s2)?": those with which the value is one of an earthquake.
+std::string meant(double value, std::span<const Slip> slips, double high, const char* unit)
+{
+    constexpr double low = 0.05;
+    std::string all;
+    for (const Slip& slip : slips)
+        if (value * slip.factor >= low && value * slip.factor <= high)
+            all += fmt::format("{} {} ({:.4g} {})", all.empty() ? " Did you mean" : " or", slip.unit,
+                               value * slip.factor, unit);
+    return all.empty() ? all : all + "?";
+}
+
+/// "a, b, c and 4 others"
+std::string some_of(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 4;
+    const std::size_t shown = names.size() <= most + 1 ? names.size() : most;
+    std::string all;
+    for (std::size_t i = 0; i < shown; ++i)
+        all += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    return shown == names.size() ? all : fmt::format("{} and {} others", all, names.size() - shown);
+}
 
 Doubt doubt(bool refused, std::string text)
 {
@@ -90,6 +136,16 @@ double strongest_m_s2(const Subject& s)
     return s.study.excitation.pga_m_s2 > 0 ? s.study.excitation.pga_m_s2 : s.facts.pga_m_s2;
 }
 
+/// No structure can rest above this acceleration: some free block slides, or a single column rocks.
+double sliding_bound_m_s2(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    double friction = study.contact.friction;
+    for (const PlacedBed& bed : layout.beds)
+        friction = std::max(friction, bed.bed.friction.value_or(friction));
+    return friction * study.structure.gravity_m_s2;
+}
+
 Finding check_pga(const Subject& s)
 {
     const double pga = strongest_m_s2(s);
@@ -100,15 +156,15 @@ Finding check_pga(const Subject& s)
             return std::nullopt;
         return doubt(pgv > no_ground_m_s,
                      fmt::format("The motions have velocities up to {:.4g} m/s; the largest recorded velocities are "
-                                 "about 4 m/s. Did you mean cm/s ({:.4g} m/s)?",
-                                 pgv, pgv / 100));
+                                 "about 4 m/s.{}",
+                                 pgv, meant(pgv, velocity_slips, fastest_ground_m_s, "m/s")));
     }
     if (pga <= strongest_record_m_s2)
         return std::nullopt;
     const auto beyond_records = [&](bool refused) {
         return doubt(refused, fmt::format("The shaking has up to {:.4g} m/s2; the largest recorded horizontal "
-                                          "acceleration is 27 m/s2. Did you mean cm/s2 ({:.4g} m/s2)?",
-                                          pga, pga / 100));
+                                          "acceleration is 27 m/s2.{}",
+                                          pga, meant(pga, acceleration_slips, strongest_record_m_s2, "m/s2")));
     };
     if (!is_sine(kind))
         return beyond_records(pga > no_record_m_s2);
@@ -119,8 +175,9 @@ Finding check_pga(const Subject& s)
     return doubt(
         pga / omega > no_ground_m_s,
         fmt::format("{:.4g} m/s2 at {:.4g} Hz corresponds to a velocity of {:.3g} m/s and an amplitude of {:.3g} m; "
-                    "ground motions and shaking tables reach about 4 m/s. Did you mean cm/s2 ({:.4g} m/s2)?",
-                    pga, hz, pga / omega, pga / omega / omega, pga / 100));
+                    "ground motions and shaking tables reach about 4 m/s.{}",
+                    pga, hz, pga / omega, pga / omega / omega,
+                    meant(pga, acceleration_slips, strongest_record_m_s2, "m/s2")));
 }
 
 /// Beds into which blocks sink by a considerable part of their size are too soft for stone.
@@ -176,6 +233,101 @@ Finding check_first_frequency(const Subject& s)
                              s.study.contact.normal_stiffness_n_m2));
 }
 
+/// Below the limit of statics no rigid block moves, whatever the history of the shaking. (A rare event is one of the
+/// drawn structures, not of the nominal one.)
+Finding check_weak_shaking(const Subject& s)
+{
+    const Study& study = s.study;
+    if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
+        study.vertical || study.rare)
+        return std::nullopt;
+    const double pga = std::max(strongest_m_s2(s), s.facts.scaled_pga_m_s2);
+    if (!(pga > 0) || pga >= sliding_bound_m_s2(study))
+        return std::nullopt;
+    const std::optional<StaticLimit> limit = static_limit(study);
+    if (!limit || pga >= limit->limit_m_s2)
+        return std::nullopt;
+    const double in_g = pga * standard_gravity;
+    return doubt(false,
+                 fmt::format("The strongest shaking has {:.4g} m/s2. Rigid blocks of this structure begin to move at "
+                             "{:.4g} m/s2 (static limit; g B / H for a column that rocks): what moves below is the "
+                             "compliance of the beds.{} Extend the shaking beyond {:.3g} m/s2, about twice the limit.",
+                             pga, limit->limit_m_s2,
+                             in_g > limit->limit_m_s2 && in_g <= strongest_record_m_s2
+                                 ? fmt::format(" Did you mean g ({:.4g} g is {:.4g} m/s2)?", pga, in_g)
+                                 : "",
+                             2 * limit->limit_m_s2));
+}
+
+Finding check_scale(const Subject& s)
+{
+    constexpr double much = 10;
+    std::vector<StudyFacts::Scaled> worst;
+    for (const StudyFacts::Scaled& motion : s.facts.scaled)
+        if (motion.factor > much)
+            worst.push_back(motion);
+    if (worst.empty())
+        return std::nullopt;
+    std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.factor > b.factor; });
+    std::vector<std::string> names;
+    for (const StudyFacts::Scaled& motion : worst)
+        names.push_back(fmt::format("{} (factor {:.3g})", motion.name, motion.factor));
+    return doubt(false, fmt::format("{} of {} motion{} from files {} scaled by more than a factor of {}: {}. A weak "
+                                    "motion scaled so far has not the frequencies and the duration of a strong one. "
+                                    "Choose stronger records, or a lower intensity.",
+                                    worst.size(), s.facts.scaled.size(), s.facts.scaled.size() == 1 ? "" : "s",
+                                    worst.size() == 1 ? "is" : "are", much, some_of(names)));
+}
+
+Finding check_equal_motions(const Subject& s)
+{
+    if (s.facts.equal_motions.empty())
+        return std::nullopt;
+    std::vector<std::string> groups;
+    std::size_t copies = 0;
+    for (const std::vector<std::string>& equal : s.facts.equal_motions) {
+        groups.push_back(some_of(equal));
+        copies += equal.size() - 1;
+    }
+    std::string text;
+    constexpr std::size_t most = 4;
+    for (std::size_t i = 0; i < std::min(groups.size(), most); ++i)
+        text += (i == 0 ? "" : "; ") + groups[i];
+    if (groups.size() > most)
+        text += fmt::format("; and {} other group{}", groups.size() - most, groups.size() == most + 1 ? "" : "s");
+    return doubt(false, fmt::format("The same ground motion is in the set several times (equal samples, up to a "
+                                    "factor): {}. {} of the {} motions {} therefore no additional evidence: intervals "
+                                    "over motions count each ground motion once. Remove the copies.",
+                                    text, copies, s.study.fragility->motions, copies == 1 ? "is" : "are"));
+}
+
+Finding check_direction(const Subject& s)
+{
+    if (!s.facts.vertical_motions.empty())
+        return doubt(s.study.fragility.has_value(),
+                     fmt::format("Vertical component{} would shake the base horizontally: {}. Take the "
+                                 "horizontal components of the record.",
+                                 s.facts.vertical_motions.size() == 1 ? "" : "s", some_of(s.facts.vertical_motions)));
+    if (s.facts.vertical_motion.empty())
+        return std::nullopt;
+    return doubt(false, fmt::format("The vertical motion {} is a horizontal component by the names in its file: the "
+                                    "study has no vertical record. Give a vertical component by "
+                                    "mechanisms.vertical_motion.component or .file.",
+                                    s.facts.vertical_motion));
+}
+
+Finding check_left_out(const Subject& s)
+{
+    if (!s.study.fragility || s.study.fragility->left_out.empty())
+        return std::nullopt;
+    const std::vector<std::string>& files = s.study.fragility->left_out;
+    return doubt(false,
+                 fmt::format("{} file{} or component{} of fragility.folder {} no horizontal acceleration and "
+                             "{} left out: {}. To choose files give fragility.pattern.",
+                             files.size(), files.size() == 1 ? "" : "s", files.size() == 1 ? "" : "s",
+                             files.size() == 1 ? "is" : "are", files.size() == 1 ? "is" : "are", some_of(files)));
+}
+
 Finding check_shaking_frequency(const Subject& s)
 {
     constexpr double low = 0.05, high = 100;
@@ -197,9 +349,11 @@ Finding check_density(const Subject& s)
         const bool refused = density < no_solid || density > no_metal;
         if (block.fixed || (density >= lightest && density <= heaviest) || (found && (found->refused || !refused)))
             continue;
-        const double thousand = density * 1000;
+        const double thousand = density * 1000, of_weight = thousand / standard_gravity;
         const std::string meant = thousand >= lightest && thousand <= heaviest
                                       ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} g/cm3)?", thousand, density)
+                                  : of_weight >= lightest && of_weight <= heaviest
+                                      ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} kN/m3)?", of_weight, density)
                                       : " Are mass, width, height and depth_m in kg and m?";
         found = doubt(
             refused,
@@ -279,7 +433,9 @@ Finding check_stiffness(const Subject& s)
 
 Finding check_size(const Subject& s)
 {
-    constexpr double smallest = 0.005, tallest = 30, flattest = 20;
+    // the highest ancient columns have 20 m, the obelisks of Axum and Rome 24 to 33; drums are up to 3.6 m wide,
+    // architraves up to 20 m long
+    constexpr double smallest = 0.005, tallest = 35, flattest = 20, widest_drum = 5, longest = 20;
     const double depth = s.study.structure.depth_m;
     double top = 0;
     for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
@@ -292,13 +448,19 @@ Finding check_size(const Subject& s)
             return doubt(false, fmt::format("{} is {:.4g} m wide and {:.4g} m deep. Is depth_m in metres?", block.name,
                                             block.width_m, depth));
         top = std::max(top, block.top());
+        if (const double most = block.role == BlockRole::drum ? widest_drum : longest; block.width_m > most)
+            return doubt(false,
+                         fmt::format("{} is {:.4g} m wide; ancient {} have up to {} m. Lengths are in metres: "
+                                     "{:.4g} mm would be {:.4g} m, {:.4g} cm would be {:.4g} m.",
+                                     block.name, block.width_m,
+                                     block.role == BlockRole::drum ? "columns and obelisks" : "architraves", most,
+                                     block.width_m, block.width_m / 1000, block.width_m, block.width_m / 100));
     }
     if (top <= tallest)
         return std::nullopt;
-    return doubt(false,
-                 fmt::format("The structure is {:.4g} m high; the highest ancient columns have 20 m. Lengths are "
-                             "in metres.",
-                             top));
+    return doubt(false, fmt::format("The structure is {:.4g} m high; the highest ancient columns have 20 m, obelisks "
+                                    "33 m. Lengths are in metres.",
+                                    top));
 }
 
 /// Relative spread of a perturbation; 0 where it has none.
@@ -370,6 +532,11 @@ struct Check {
     Finding (*find)(const Subject&);
 };
 constexpr std::array checks = {Check{"pga", check_pga},
+                               Check{"weak_shaking", check_weak_shaking},
+                               Check{"scale", check_scale},
+                               Check{"equal_motions", check_equal_motions},
+                               Check{"direction", check_direction},
+                               Check{"left_out", check_left_out},
                                Check{"shaking_frequency", check_shaking_frequency},
                                Check{"sinkage", check_sinkage},
                                Check{"first_frequency", check_first_frequency},
@@ -395,7 +562,7 @@ std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts)
 {
     std::vector<Doubt> all;
     for (const Check& check : checks) {
-        if (std::find(study.allow.begin(), study.allow.end(), check.name) != study.allow.end())
+        if (study.allows(check.name))
             continue;
         if (Finding found = check.find({study, facts})) {
             found->check = check.name;
@@ -434,13 +601,30 @@ std::vector<double> static_sinkage_m(const Study& study)
 
 double first_frequency_hz(const Study& study)
 {
-    Study still; // the structure alone
-    still.structure = study.structure;
-    still.contact = study.contact;
-    still.excitation.kind = ExcitationKind::none;
-    still.excitation.duration_s = 1;
-    const Realization r = Sampler(still, nullptr).realization(0);
+    const Realization r = still_realization(study);
     return first_mode(r.blocks, r.joints, r.gravity_m_s2, r.watched).frequency_hz;
+}
+
+std::optional<StaticLimit> static_limit(const Study& study)
+{
+    constexpr std::ptrdiff_t most_blocks = 60;
+    Realization r = still_realization(study);
+    if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) > most_blocks)
+        return std::nullopt;
+    StaticLimit limit;
+    try {
+        limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
+        for (Joint& joint : r.joints)
+            joint.friction *= 1.1;
+        limit.rough_m_s2 = limit_acceleration(r).acceleration_m_s2;
+        constexpr double no_sliding = 1e3;
+        for (Joint& joint : r.joints)
+            joint.friction = no_sliding;
+        limit.rocking_m_s2 = limit_acceleration(r).acceleration_m_s2;
+    } catch (const std::runtime_error&) { // rigid blocks do not rest so: nothing is known
+        return std::nullopt;
+    }
+    return limit;
 }
 
 } // namespace stylobate

@@ -7,6 +7,7 @@
 #include "ensemble/model/study.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,18 @@ namespace stylobate {
 /// Facts that are not in the study itself. Zero: not known, and not checked.
 struct StudyFacts {
     double pga_m_s2 = 0;            ///< of the motions from files as they stand, the largest
+    double scaled_pga_m_s2 = 0;     ///< of the motions of a fragility study in its strongest stripe, the largest
     double motion_frequency_hz = 0; ///< predominant frequency of the motions from files, the highest
     double file_bytes = 0;          ///< that the rows of the results will take
+
+    struct Scaled {
+        std::string name;
+        double factor = 1; ///< the largest that the study applies to the acceleration of this motion
+    };
+    std::vector<Scaled> scaled;                          ///< motions from files
+    std::vector<std::vector<std::string>> equal_motions; ///< names of motions from files with the same samples
+    std::vector<std::string> vertical_motions;           ///< vertical components that shake the base horizontally
+    std::string vertical_motion;                         ///< the vertical motion, where it is a horizontal component
 };
 
 /// What one check has found.
@@ -41,5 +52,16 @@ std::vector<double> static_sinkage_m(const Study& study);
 /// The first natural frequency of the nominal structure, without mechanisms, its beds in full contact [Hz] (generalized
 /// eigenvalue problem K v = w2 M v): 0 if it buckles under its own weight.
 double first_frequency_hz(const Study& study);
+
+/// The structure of a study as it stands on rigid beds, nothing drawn: the largest base acceleration, held for ever,
+/// at which it can rest [m/s2] (limit analysis, `ensemble/statics/limit_analysis.hpp`).
+struct StaticLimit {
+    double rocking_m_s2 = 0; ///< if no bed could slide
+    double limit_m_s2 = 0;   ///< with the friction of the study
+    double rough_m_s2 = 0;   ///< with a tenth more of it
+};
+/// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
+/// rest. @throws InputError as `lay_out`
+std::optional<StaticLimit> static_limit(const Study& study);
 
 } // namespace stylobate

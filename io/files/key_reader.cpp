@@ -13,15 +13,6 @@ namespace stylobate {
 
 namespace {
 
-/// A number for people: three decimals where they are exact (1.450), else as many digits as are worth reading.
-std::string readable(double value)
-{
-    const auto thousandths = std::round(value * 1000);
-    if (std::abs(thousandths) >= 1 && std::abs(thousandths - value * 1000) < 1e-9 * std::abs(thousandths))
-        return fmt::format("{:.3f}", value);
-    return fmt::format("{:.6g}", value);
-}
-
 /// A key for a message: as it stands if it is a bare one.
 std::string shown_key(const std::string& key)
 {
@@ -151,10 +142,8 @@ double KeyReader::check(std::string_view key, const TomlValue& value, const Rang
         refuse(key, fmt::format("is {}, not a number", value.type_name()),
                fmt::format("Give a number in {}. {}", range.text(), range.hint));
     if (!range.contains(value.number)) {
-        std::string todo = range.hint;
-        if (range.guess != 0 && range.contains(value.number * range.guess))
-            todo += fmt::format(" Did you mean {}?", readable(value.number * range.guess));
-        refuse(key, "is outside " + range.text_for(value.number), todo);
+        const std::string meant = range.meant(value.number);
+        refuse(key, "is outside " + range.text_for(value.number), range.hint + (meant.empty() ? "" : " " + meant));
     }
     return value.number + 0.0; // -0 becomes 0, so that equal studies have equal texts
 }

@@ -33,6 +33,15 @@ constexpr std::array unit_endings = {std::pair{"_n_s2_m2", "N s2/m2"},
                                      std::pair{"_m", "m"},
                                      std::pair{"_s", "s"}};
 
+/// A number for people: three decimals where they are exact (1.450), else as many digits as are worth reading.
+std::string readable(double value)
+{
+    const auto thousandths = std::round(value * 1000);
+    if (std::abs(thousandths) >= 1 && std::abs(thousandths - value * 1000) < 1e-9 * std::abs(thousandths))
+        return fmt::format("{:.3f}", value);
+    return fmt::format("{:.6g}", value);
+}
+
 template <class List, class Text>
 std::string in_brackets(const List& values, const Text& text)
 {
@@ -52,6 +61,16 @@ bool Range::is_next_to_zero(double value) const
 bool Range::contains(double value) const
 {
     return std::isfinite(value) && (open ? value > low : value >= low) && value <= high && !is_next_to_zero(value);
+}
+
+std::string Range::meant(double value) const
+{
+    std::string all;
+    for (const Slip& slip : slips)
+        if (contains(value * slip.factor))
+            all += fmt::format("{} {} ({} {})", all.empty() ? "Did you mean" : " or", readable(value * slip.factor),
+                               fmt::format("{:.6g}", value), slip.unit);
+    return all.empty() ? all : all + "?";
 }
 
 std::string Range::text() const

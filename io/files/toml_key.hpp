@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,18 +17,27 @@ namespace stylobate {
 /// The least number of a range above 0: products and quotients of smaller ones would become 0 or infinite.
 inline constexpr double least_above_zero = 1e-30;
 
+/// A unit in which a number may have been given by mistake.
+struct Slip {
+    double factor;    ///< from it to the unit of the key
+    const char* unit; ///< "mm"
+};
+
 /// What a number may be; never NaN or infinite.
 struct Range {
     double low = 0;
     double high = 0;
-    bool open = false;     ///< `low` itself is outside
-    std::string hint = {}; ///< the unit, as a sentence
-    double guess = 0;      ///< a value outside, times this, may be what was meant (mm for m); 0: no guess
+    bool open = false;                ///< `low` itself is outside
+    std::string hint = {};            ///< the unit, as a sentence
+    std::span<const Slip> slips = {}; ///< units in which a value outside may have been given
 
     bool contains(double value) const;
     /// "(0, 10]"
     std::string text() const;
-    /// The same for a message about a value outside: of a range that begins just above 0 it states the least value.
+    /// "Did you mean 0.155 (155 mm) or 1.55 (155 cm)?" of a value outside; empty: in none of those units it is inside.
+    std::string meant(double value) const;
+    /// The same as `text` for a message about a value outside: of a range that begins just above 0 it states the least
+    /// value.
     std::string text_for(double value) const;
 
 private:

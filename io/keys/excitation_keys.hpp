@@ -49,7 +49,7 @@ inline const NumberKey ramp_cycles{"ramp_cycles",
                                    "length of each ramp, in cycles; of a tapered motion at least 1",
                                    {.used = {for_motions({Motion::harmonic, Motion::tapered, Motion::sweep})}}};
 inline const NumberKey cycles{"cycles",
-                              cycles_range,
+                              motion_cycles_range,
                               ExcitationSpec{}.cycles,
                               "number of cycles, including the ramps",
                               {.used = {for_motions({Motion::harmonic, Motion::tapered})}}};

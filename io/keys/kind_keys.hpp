@@ -24,7 +24,7 @@ inline const WholeKey minimum{"minimum",
                               "where it is smaller"};
 inline const NumberKey half_width{
     "half_width",
-    {0.01, 0.25, false, "Half the width of the 95 % interval of each cell's probability.", 0.01},
+    {0.01, 0.25, false, "Half the width of the 95 % interval of each cell's probability.", from_percent},
     AdaptiveSpec{}.half_width,
     "half the width that the 95 % interval of each cell's probability is to have"};
 inline const BooleanKey pooled{"borrow", AdaptiveSpec{}.borrow, "use the counts of neighbouring cells too"};
@@ -51,7 +51,8 @@ inline const TableKey table{"surface",
 
 namespace twins_keys {
 
-inline const Range move_range{0, 10, false, "Lengths are in metres; at most a quarter of the drum's width.", 1e-3};
+inline const Range move_range{0, 10, false, "Lengths are in metres; at most a quarter of the drum's width.",
+                              from_lengths};
 /// From far below any difference that a hand or a survey could find, up to one that both can.
 inline const std::vector<double> usual_moves_m = {1e-12, 1e-9, 1e-6, 1e-3};
 
@@ -64,7 +65,7 @@ inline const WholeKey block{"block",
                             {.absent = "the uppermost drum of the first column"}};
 inline const NumberKey step_ratio{
     "step_ratio",
-    {0.01, 1, false, "A fraction of the realization's own step; 1: no replicas with another step.", 0.01},
+    {0.01, 1, false, "A fraction of the realization's own step; 1: no replicas with another step.", from_percent},
     0.8,
     "a replica with this fraction of the realization's own step; 1: none"};
 inline const BooleanKey precision{"precision",
@@ -79,7 +80,7 @@ inline const WholeKey followed{
     "than study.realizations"};
 inline const NumberKey tolerance{
     "tolerance",
-    {1e-6, 1, false, "The separation limit of replicas: a fraction of the drums' width, and radians.", 0.01},
+    {1e-6, 1, false, "The separation limit of replicas: a fraction of the drums' width, and radians.", from_percent},
     TwinsSpec{}.tolerance,
     "separation at which a motion is no longer predictable: a fraction of the drums' width, and radians"};
 inline const TableKey table{"twins",
@@ -98,10 +99,10 @@ inline const Condition drawn = for_motions({ExcitationKind::ricker, ExcitationKi
                                             ExcitationKind::sweep, ExcitationKind::noise});
 
 inline constexpr std::uint64_t most_motions = 100'000;
-inline const Range period_range{0.01, 20, false, "Periods are in seconds.", 1e-3};
-inline const Range part_range{0, 100, true, "A fraction of the width.", 0.01};
+inline const Range period_range{0.01, 20, false, "Periods are in seconds.", from_ms};
+inline const Range part_range{0, 100, true, "A fraction of the width.", from_percent};
 /// Of all measures; each has its own (`range_of` in io/study/study_fragility.cpp).
-inline const Range intensity_range{0, 10000, true, "", 0};
+inline const Range intensity_range{0, 10000, true, ""};
 
 inline const WordKey<FragilityMethod> method{"method", fragility_method_names, FragilitySpec{}.method,
                                              "stripes: every motion is scaled to each intensity; cloud: every motion "
@@ -111,12 +112,13 @@ inline const TextKey component{"component", "which one, where the file has sever
 inline const TextKey record_unit{
     "unit", "unit of its acceleration", {.absent = "as the file says", .words = acceleration_units}};
 inline const TableKey records{"records",
-                              "the records, at least 8; or give `folder`",
+                              "the records; fewer than 8 give shares without intervals; or give `folder`",
                               {&file, &component, &record_unit},
                               {.absent = "the files of `folder`", .used = {recorded}},
                               KeyType::tables};
 inline const TextKey folder{"folder",
-                            "folder of the records: every horizontal component of its files is a motion",
+                            "folder of the records: every horizontal component of its files is a motion; files without "
+                            "accelerations are left out and listed",
                             {.absent = "the records of `records`", .used = {recorded}, .example = "\"records\""}};
 inline const TextKey pattern{
     "pattern", "names of the files in the folder, as a shell pattern", {.absent = "\"*\"", .used = {recorded}}};
@@ -124,9 +126,9 @@ inline const TextKey unit{"unit",
                           "unit of the accelerations of the files in the folder",
                           {.absent = "as each file says", .used = {recorded}, .words = acceleration_units}};
 inline const WholeKey motions{"motions",
-                              {static_cast<std::uint64_t>(fewest_motions), most_motions,
+                              {1, most_motions,
                                "Motions drawn from the seed. The interval of a curve is estimated from their scatter: "
-                               "20 are few, 100 are sufficient."},
+                               "below 8 there is none, 20 are few, 100 are sufficient."},
                               "number of synthetic motions: 20 are few, 100 are sufficient",
                               {.used = {drawn}, .example = "40"}};
 inline const WordKey<IntensityMeasure> measure{"measure", intensity_measure_names, FragilitySpec{}.measure,
@@ -143,7 +145,7 @@ inline const AxisKey intensity{"intensity",
                                {&measure, &period},
                                {.used = {by_stripes}}};
 inline const NumberKey scale{"scale",
-                             {0, 100, true, "The scale factor of every motion.", 0},
+                             {0, 100, true, "The scale factor of every motion."},
                              FragilitySpec{}.scale,
                              "factor on every motion",
                              {.used = {by_cloud}}};
@@ -152,7 +154,7 @@ inline const WholeKey shakings{"shakings",
                                1,
                                "number of shakings, one after the other: the next finds what the last has displaced"};
 inline const NumberKey pause{"pause_s",
-                             {0, 1000, false, "Times are in seconds.", 1e-3},
+                             {0, 1000, false, "Times are in seconds.", from_ms},
                              FragilitySpec{}.pause_s,
                              "time between two shakings of a sequence"};
 inline const WholeKey contacts{"contacts",
@@ -166,7 +168,7 @@ inline const WholeKey twins{
     1,
     "structures of the same geometry and contacts that differ by `twin_m` only"};
 inline const NumberKey twin{"twin_m",
-                            {0, 1e-3, true, "The displacement of a perturbed replica, in metres.", 0},
+                            {0, 1e-3, true, "The displacement of a perturbed replica, in metres."},
                             FragilitySpec{}.twin_m,
                             "standard deviation of their drums' displacements"};
 inline const ListKey peak_limits{"peak_limits", part_range, FragilitySpec{}.peak_limits,

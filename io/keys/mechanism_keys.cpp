@@ -46,7 +46,7 @@ Range range_of(const MechanismParameter& parameter)
         hint = fmt::format("In {}: {}", unit, hint);
     else if (hint[0] >= 'a' && hint[0] <= 'z')
         hint[0] = static_cast<char>(hint[0] - 'a' + 'A');
-    return {parameter.low, parameter.high, parameter.open, hint + ".", 0};
+    return {parameter.low, parameter.high, parameter.open, hint + "."};
 }
 
 MechanismKey::MechanismKey(const MechanismRule& rule)

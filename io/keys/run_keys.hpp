@@ -57,7 +57,7 @@ namespace output_keys {
 
 inline const NumberKey trajectory_rate{
     "trajectory_rate_hz",
-    {0, 1e6, true, "Samples per second.", 0},
+    {0, 1e6, true, "Samples per second."},
     "sampling rate of trajectories, also for `replay`",
     {.absent = "100 samples in 2 pi / p of the block that rocks fastest, 20 in a period of the fastest shaking, at "
                "least 100 a second"}};
@@ -70,7 +70,7 @@ inline const WholeKey trajectories{
     "number of realizations whose trajectories are kept, from the first; \"fit\": as many as fit into most_mb",
     {.absent = "\"fit\"", .used = {in_studies({StudyKind::single})}, .words = {trajectories_fit, trajectories_all}}};
 inline const NumberKey most_mb{"most_mb",
-                               {0, 1e6, true, "The trajectories of a results file, in 1e6 bytes.", 0},
+                               {0, 1e6, true, "The trajectories of a results file, in 1e6 bytes."},
                                OutputSpec{}.most_mb,
                                "size of the trajectories in a results file",
                                {.used = {in_studies({StudyKind::single})}}};
@@ -89,17 +89,17 @@ inline const WordKey<Follow> follow{"follow",
                                     "blocks are at rest",
                                     {.absent = "\"collapse\" for a column, \"rest\" for a colonnade"}};
 inline const NumberKey height_fraction{"height_fraction",
-                                       {0.01, 0.99, false, "A fraction of the rest height.", 0.01},
+                                       {0.01, 0.99, false, "A fraction of the rest height.", from_percent},
                                        OutcomeSpec{}.collapse_height_fraction,
                                        "a block whose centre is below this fraction of its height at rest has fallen"};
 inline const TableKey collapse{
     "collapse", "when a block has fallen", {&height_fraction}, {.absent = "the default of its key"}};
 inline const NumberKey rocking_threshold{"rocking_threshold_rad",
-                                         {0, 1.5, true, "Angles are in radians.", degree},
+                                         {0, 1.5, true, "Angles are in radians.", from_degrees},
                                          OutcomeSpec{}.rocking_threshold_rad,
                                          "largest relative rotation below which a column has not rocked"};
 inline const NumberKey sliding_threshold{"sliding_threshold",
-                                         {0, 100, true, "A fraction of the drum's width.", 0},
+                                         {0, 100, true, "A fraction of the drum's width."},
                                          OutcomeSpec{}.sliding_threshold,
                                          "total sliding over the drum's width below which a column has not slid"};
 inline const TableKey table{"outcome",
@@ -113,8 +113,8 @@ namespace run_keys {
 
 inline const Range stable_step{
     1e-6, 1, false,
-    "It is a fraction of the largest safe step; a value above 1 needs run.allow_step_above_bound = true.", 0};
-inline const Range any_step{1e-6, 100, false, stable_step.hint, 0};
+    "It is a fraction of the largest safe step; a value above 1 needs run.allow_step_above_bound = true."};
+inline const Range any_step{1e-6, 100, false, stable_step.hint};
 
 inline const WordKey<Precision> precision{"precision", precision_names, RunSpec{}.precision,
                                           "arithmetic of the steps; single supports only the paper's model"};
@@ -131,11 +131,11 @@ inline const WordKey<StepBasis> step_bound{"step_bound",
                                            "neighbours, or of the whole structure (longer)",
                                            {.used = {compliant()}}};
 inline const NumberKey step{"step_s",
-                            {1e-12, 1, false, "Times are in seconds.", 1e-3},
+                            {1e-12, 1, false, "Times are in seconds.", from_ms},
                             "a fixed time step instead",
                             {.absent = "from step_fraction"}};
 inline const NumberKey accuracy{"accuracy",
-                                {0.001, 0.2, false, "A difference of probabilities.", 0.01},
+                                {0.001, 0.2, false, "A difference of probabilities.", from_percent},
                                 "what the numerics may change in a collapse probability: those that the study does "
                                 "not give are chosen for it (form and stiffness of the contacts, step, step_bound, "
                                 "precision), or the study is refused; excludes step_s and step_fraction",
@@ -145,7 +145,7 @@ inline const BooleanKey allow_step_above_bound{"allow_step_above_bound",
                                                "run even with a step above the largest safe one",
                                                {.used = {compliant()}}};
 inline const NumberKey max_invalid{"max_invalid_fraction",
-                                   {0, 1, false, "A fraction of all realizations.", 0.01},
+                                   {0, 1, false, "A fraction of all realizations.", from_percent},
                                    RunSpec{}.max_invalid_fraction,
                                    "fraction of invalid realizations above which the exit status is 3"};
 inline const TableKey table{

@@ -90,7 +90,7 @@ std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParame
 {
     SpreadKey::Quality quality;
     quality.value = range_of(parameter);
-    quality.deviation = {0, parameter.high, true, quality.value.hint, 0};
+    quality.deviation = {0, parameter.high, true, quality.value.hint};
     quality.deviation_key = std::string("sd") + parameter.suffix;
     quality.relative = parameter.low >= 0;
     quality.allowed = rule.place == MechanismPlace::joint   ? std::vector{joint, structure}

@@ -24,7 +24,7 @@ inline const NumberKey density{"density_kg_m3",
                                density_range,
                                "density of the stone; marble has about 2700",
                                {.absent = "that of the column or of all blocks", .example = "2700"}};
-inline const Range offset_range{-length_range.high, length_range.high, false, length_range.hint, length_range.guess};
+inline const Range offset_range{-length_range.high, length_range.high, false, length_range.hint, length_range.slips};
 inline const NumberKey offset{"offset_m", offset_range, 0.0,
                               "distance of the block's centre from the axis of its column, to the right; no more "
                               "than its width"};

@@ -9,14 +9,14 @@ namespace stylobate::survival_keys {
 
 inline constexpr std::uint64_t most_joints = 199; ///< of a structure, counted from 0
 
-inline const Range offset_range{-10, 10, false, "Lengths are in metres, positive to the right.", 1e-3};
-inline const Range tolerance_range{0, 10, true, "Lengths are in metres.", 1e-3};
-inline const Range angle_range{-1.5, 1.5, false, "Angles are in radians, counter-clockwise.", degree};
-inline const Range angle_tolerance_range{0, 1.5, true, "Angles are in radians.", degree};
+inline const Range offset_range{-10, 10, false, "Lengths are in metres, positive to the right.", from_lengths};
+inline const Range tolerance_range{0, 10, true, "Lengths are in metres.", from_lengths};
+inline const Range angle_range{-1.5, 1.5, false, "Angles are in radians, counter-clockwise.", from_degrees};
+inline const Range angle_tolerance_range{0, 1.5, true, "Angles are in radians.", from_degrees};
 
 inline const ListKey joints{"joints",
                             KeyType::wholes,
-                            {0, most_joints, false, "Joints are counted from 0, column by column from the bottom.", 0},
+                            {0, most_joints, false, "Joints are counted from 0, column by column from the bottom."},
                             "the joints that were measured, ascending; joint 0 is the bed of the lowest free drum",
                             {.absent = "all, where tolerance_m is given"}};
 inline const ListKey joint_offset{"joint_offset_m",
@@ -49,7 +49,7 @@ inline const WordKey<PastPrior> prior{"prior", past_prior_names, SurvivalSpec{}.
                                       "density over the PGA of the past: flat in its logarithm, flat, or in "
                                       "proportion to the rates of `hazard`; the frequency is flat in its logarithm"};
 inline const NumberKey level{"level",
-                             {0.5, 0.999, false, "A probability: 95 % is 0.95.", 0.01},
+                             {0.5, 0.999, false, "A probability: 95 % is 0.95.", from_percent},
                              SurvivalSpec{}.level,
                              "of exclusions and of credible intervals"};
 inline const WholeKey events{"events",
@@ -57,7 +57,7 @@ inline const WholeKey events{"events",
                              1,
                              "pasts of one event, of two in succession, and so on up to this number are computed"};
 inline const NumberKey pause{"pause_s",
-                             {0, 1000, false, "Times are in seconds.", 1e-3},
+                             {0, 1000, false, "Times are in seconds.", from_ms},
                              SurvivalSpec{}.pause_s,
                              "time between two events of a past"};
 inline const WholeKey monuments{"monuments",
@@ -65,16 +65,16 @@ inline const WholeKey monuments{"monuments",
                                 SurvivalSpec{}.monuments,
                                 "simulated monuments of known past, by which the credible intervals are tested"};
 inline const NumberKey stands_for{"stands_for_years",
-                                  {0, 1e7, true, "Times are in years.", 0},
+                                  {0, 1e7, true, "Times are in years."},
                                   "how long the structure has stood: updates the rates of `hazard`",
                                   {.absent = "not known, or not used"}};
 
 inline const NumberKey k0{"k0_per_year",
-                          {0, 1000, true, "A rate per year.", 0},
+                          {0, 1000, true, "A rate per year."},
                           "annual rate at which a PGA of 1 m/s2 is exceeded; the rate of a is k0_per_year a^-k",
                           {.absent = "give the points of the hazard curve", .example = "0.02"}};
 inline const NumberKey k{"k",
-                         {0, 20, true, "The slope of a hazard curve; mostly 1 to 4.", 0},
+                         {0, 20, true, "The slope of a hazard curve; mostly 1 to 4."},
                          "slope of the hazard curve in logarithms",
                          {.absent = "needed beside k0_per_year", .example = "2.5"}};
 inline const ListKey intensities{"intensity_m_s2",
@@ -85,7 +85,7 @@ inline const ListKey intensities{"intensity_m_s2",
                                  {.absent = "give k0_per_year or a file"}};
 inline const ListKey rates{"rate_per_year",
                            KeyType::numbers,
-                           {0, 1000, true, "Rates per year.", 0},
+                           {0, 1000, true, "Rates per year."},
                            "annual rate at which each of them is exceeded, descending",
                            {.absent = "give k0_per_year or a file"}};
 inline const TextKey file{"file",

@@ -18,6 +18,7 @@ namespace {
 constexpr double taper_fraction = 0.02; // of the duration, at each end
 constexpr double longest_taper_s = 0.5;
 constexpr double shortest_taper = 2; // samples
+constexpr double least_left = 1e-6;  // of the PGA after the correction: less is rounding
 constexpr std::size_t coefficients = 4;
 constexpr std::size_t constraints = 2;
 
@@ -124,6 +125,8 @@ Motion make_motion(const Record& record, bool correct_baseline, const std::optio
     motion.band_pass = filter;
     motion.dt_s = record.dt_s;
     motion.source = fmt::format("{}, {}", record.file, record.component);
+    if (record.direction != Direction::unknown)
+        motion.is_vertical = record.direction == Direction::vertical;
     motion.predominant_frequency_hz = predominant_frequency(recorded, record.dt_s);
     motion.acceleration_m_s2 = recorded;
     if (correct_baseline) {
@@ -143,6 +146,12 @@ Motion make_motion(const Record& record, bool correct_baseline, const std::optio
     motion.velocity_m_s = std::move(moved.v);
     motion.displacement_m = std::move(moved.u);
     motion.pga_m_s2 = peak(motion.acceleration_m_s2);
+    if (const double left = motion.pga_m_s2 / peak(recorded); left < least_left)
+        throw InputError(record.file, 0,
+                         fmt::format("{}: the baseline correction leaves {:.2g} of the acceleration: the record is a "
+                                     "drift of the instrument and no motion. Take another component, or give "
+                                     "baseline = false.",
+                                     record.component, left));
     const Integrated before = integrate(recorded, record.dt_s);
     motion.baseline = {before.v.back(), before.u.back(), motion.velocity_m_s.back(), motion.displacement_m.back(),
                        peak(recorded),  motion.pga_m_s2, peak(motion.velocity_m_s),  peak(motion.displacement_m)};

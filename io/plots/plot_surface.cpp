@@ -146,6 +146,8 @@ std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
 
 std::string describe_interval(const std::string& interval)
 {
+    if (interval == "none")
+        return "no interval: fewer than 8 different motions";
     const std::size_t blank = interval.find(' ');
     if (blank == std::string::npos || blank == 0)
         return interval;

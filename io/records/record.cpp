@@ -66,8 +66,9 @@ void check_pga(const Record& record)
             hint += fmt::format("{} in {} it would be {:.4g} m/s2", hint.empty() ? "" : ",", other, in_other);
     }
     throw InputError(record.file, 0,
-                     fmt::format("{}: the PGA is {:.6g} m/s2 (unit {}), outside [{}, {}] m/s2. {}", record.component,
-                                 pga, record.unit, smallest_pga_m_s2, largest_pga_m_s2,
+                     fmt::format("{}: the PGA is {:.6g} m/s2 (unit {}), outside [{}, {}] m/s2. {}\n  "
+                                 "A study with motions of another strength says so: study.allow = [\"pga\"].",
+                                 record.component, pga, record.unit, smallest_pga_m_s2, largest_pga_m_s2,
                                  hint.empty() ? "Check the unit and the file." : "Is the unit right?" + hint + "."));
 }
 
@@ -364,24 +365,28 @@ void check_dt(const RecordText& text, std::size_t i, double dt_s)
                                    shortest_dt_s, longest_dt_s));
 }
 
-std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit)
+std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
+                                 bool any_pga)
 {
     std::vector<Record> records = parse(content, file, unit);
-    for (const Record& record : records)
-        check_pga(record);
+    if (!any_pga)
+        for (const Record& record : records)
+            check_pga(record);
     return records;
 }
 
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit)
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, bool any_pga)
 {
-    return read_records(content_of(file, "a ground-motion record"), file.string(), unit);
+    return read_records(content_of(file, "a ground-motion record"), file.string(), unit, any_pga);
 }
 
-Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit)
+Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
+                   bool any_pga)
 {
     std::vector<Record> records = parse(content_of(file, "a ground-motion record"), file.string(), unit);
     Record record = std::move(records[place_of(records, component)]);
-    check_pga(record);
+    if (!any_pga)
+        check_pga(record);
     return record;
 }
 

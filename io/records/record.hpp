@@ -37,7 +37,7 @@ struct Record {
     std::vector<double> acceleration_m_s2;
 };
 
-/// A record with a PGA outside these is refused: its unit is wrong [m/s2].
+/// A record with a PGA outside these is refused, unless its reader allows any: its unit is wrong [m/s2].
 inline constexpr double smallest_pga_m_s2 = 1e-4;
 inline constexpr double largest_pga_m_s2 = 50;
 
@@ -49,17 +49,19 @@ inline constexpr double largest_pga_m_s2 = 50;
 /// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
 ///         says no unit and none is given, or says another unit than the one given, or if a PGA is outside
 ///         [smallest_pga_m_s2, largest_pga_m_s2]
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit);
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, bool any_pga = false);
 
 /// The same from a text in memory.
 /// @param file name of the text, for messages and `Record::file`
-std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit);
+std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
+                                 bool any_pga = false);
 
 /// The one component that is asked for: by name ("chan 1", "column 2"), by an orientation that only one has ("360"), or
 /// by column number ("2"); empty = the only one there is. Upper and lower case are one.
 /// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
 ///         among several
-Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit);
+Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
+                   bool any_pga = false);
 
 /// "horizontal", "vertical" or "unknown".
 const char* to_string(Direction direction);

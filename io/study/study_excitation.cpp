@@ -1,5 +1,6 @@
 #include "io/study/study_excitation.hpp"
 
+#include "ensemble/motion/synthetic_noise.hpp"
 #include "io/keys/excitation_keys.hpp"
 
 #include <fmt/format.h>
@@ -57,9 +58,13 @@ void read_sweep(const KeyReader& keys, ExcitationSpec& e)
     const double cycles =
         e.duration_s *
         (e.spacing == Spacing::log ? (e.to_hz - e.from_hz) / std::log(e.to_hz / e.from_hz) : (e.from_hz + e.to_hz) / 2);
-    if (!cycles_range.contains(cycles))
-        keys.refuse("duration_s", fmt::format("makes {:.0f} cycles, more than {:.0f}", cycles, cycles_range.high),
+    if (cycles > motion_cycles_range.high)
+        keys.refuse("duration_s",
+                    fmt::format("makes {:.0f} cycles, more than {:.0f}", cycles, motion_cycles_range.high),
                     "Give a shorter sweep or lower frequencies.");
+    if (cycles < motion_cycles_range.low)
+        keys.refuse("duration_s", fmt::format("makes {:.2g} cycles, less than {}", cycles, motion_cycles_range.low),
+                    "Give a longer sweep or higher frequencies.");
     check_ramps(keys, 2, e, cycles);
 }
 
@@ -72,6 +77,14 @@ void read_noise(const KeyReader& keys, ExcitationSpec& e)
     e.rise_s = keys.read(excitation_keys::rise);
     e.strong_s = keys.read(excitation_keys::strong);
     e.decay_s = keys.read(excitation_keys::decay);
+    if (const double planned = e.rise_s + e.strong_s + noise_decays * e.decay_s; planned < shortest_noise_s)
+        for (const TomlKey* key : std::initializer_list<const TomlKey*>{
+                 &excitation_keys::strong, &excitation_keys::decay, &excitation_keys::rise})
+            if (keys.has(*key))
+                keys.refuse(key->name,
+                            fmt::format("gives noise of {:.3g} s (rise_s + strong_s + {} decay_s), shorter than {} s",
+                                        planned, noise_decays, shortest_noise_s),
+                            "It has too few samples to be a motion: give a longer strong_s, rise_s or decay_s.");
 }
 
 /// What records and tables share. @param what is in the file

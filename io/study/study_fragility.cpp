@@ -1,5 +1,6 @@
 #include "io/study/study_fragility.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/records/record.hpp"
 #include "io/study/study_axis.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <system_error>
 
 namespace stylobate {
@@ -23,13 +25,13 @@ Range range_of(IntensityMeasure measure)
     case IntensityMeasure::sa:
         return acceleration_range;
     case IntensityMeasure::pgv:
-        return {0, 100, true, "Velocities are in m/s.", 0.01};
+        return {0, 100, true, "Velocities are in m/s.", from_velocities};
     case IntensityMeasure::pgd:
-        return {0, 100, true, "Displacements are in metres.", 0.01};
+        return {0, 100, true, "Displacements are in metres.", from_lengths};
     case IntensityMeasure::arias:
-        return {0, 1000, true, "Arias intensities are in m/s.", 0.01};
+        return {0, 1000, true, "Arias intensities are in m/s.", from_velocities};
     case IntensityMeasure::cav:
-        return {0, 10000, true, "Cumulative absolute velocities are in m/s.", 0.01};
+        return {0, 10000, true, "Cumulative absolute velocities are in m/s.", from_velocities};
     }
     return {};
 }
@@ -53,16 +55,66 @@ RecordSpec record_spec(const KeyReader& keys)
             acceleration_unit(keys, fragility_keys::record_unit)};
 }
 
-/// Of the names that agencies give to components.
-bool is_vertical(const Record& record)
+/// "AT2" of "RSN1_X.at2": how files of one kind end.
+std::string ending(const std::filesystem::path& file)
 {
-    std::string name;
-    for (const char c : record.orientation + " " + record.component)
-        name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    for (const char* word : {"UP", "VERT", "UD", "DOWN", "DWN", "HNZ", "HLZ", "BHZ", "HGZ"})
-        if (name.find(word) != std::string::npos)
-            return true;
-    return record.orientation == "Z" || record.component == "Z" || record.component == "V";
+    std::string all = file.extension().string();
+    for (char& c : all)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return all.empty() ? all : all.substr(1);
+}
+
+/// The files of a folder by what is in them.
+struct ReadFolder {
+    struct Refused {
+        std::filesystem::path file;
+        std::string why;
+    };
+    struct Component {
+        std::string file, name; ///< `name` empty where the file has only one
+        bool vertical = false;
+    };
+    std::vector<Component> components;
+    std::vector<Refused> refused;
+};
+
+ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const std::string& unit, bool any_pga)
+{
+    ReadFolder folder;
+    for (const std::filesystem::path& file : files)
+        try {
+            const std::vector<Record> records = read_records(file, unit, any_pga);
+            for (const Record& record : records)
+                folder.components.push_back(
+                    {record.file, records.size() > 1 ? record.component : "", record.direction == Direction::vertical});
+        } catch (const InputError& error) {
+            folder.refused.push_back({file, error.what()});
+        }
+    return folder;
+}
+
+/// What is no record at all, and what no file of the same ending is, is left out: a download has velocities,
+/// displacements and tables beside the accelerations. A file that cannot be read among others of its ending that can
+/// is an error.
+void check_refused(const std::string& pattern, const ReadFolder& folder)
+{
+    std::set<std::string> read;
+    for (const ReadFolder::Component& component : folder.components)
+        read.insert(ending(component.file));
+    for (const ReadFolder::Refused& refused : folder.refused) {
+        const std::string of_file = ending(refused.file);
+        if (folder.components.empty())
+            throw InputError(refused.why + "\n  No file of fragility.folder can be read as a record of accelerations.");
+        if (read.contains(of_file) && !record_format(refused.file).empty()) {
+            std::string others;
+            for (const std::string& each : read)
+                others += (others.empty() ? "" : ", ") + each;
+            throw InputError(fmt::format("{}\n  Other files *.{} of fragility.folder were read: correct or remove this "
+                                         "one, or leave it out by fragility.pattern "
+                                         "(now \"{}\").",
+                                         refused.why, of_file, pattern));
+        }
+    }
 }
 
 } // namespace
@@ -95,9 +147,6 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
                         "Give method = \"stripes\", or excitation.kind = \"record\".");
         f.motions = static_cast<int>(keys.read(fragility_keys::motions));
     }
-    if (recorded && !f.records.empty() && f.motions < fewest_motions)
-        keys.refuse("records", fmt::format("has {} motions, fewer than {}", f.motions, fewest_motions),
-                    "The interval of a curve is estimated from the scatter of the motions: give more.");
     f.periods_s = ascending(keys, fragility_keys::periods, f.periods_s);
     if (f.method == FragilityMethod::stripes) {
         if (keys.has(fragility_keys::scale))
@@ -134,7 +183,7 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     return f;
 }
 
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, FragilitySpec& fragility)
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, bool any_pga, FragilitySpec& fragility)
 {
     if (!keys.has(fragility_keys::folder))
         return;
@@ -155,17 +204,20 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Fr
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
     const std::string unit = acceleration_unit(keys, fragility_keys::unit);
-    for (const fs::path& file : files) {
-        const std::vector<Record> records = read_records(file, unit);
-        for (const Record& record : records)
-            if (!is_vertical(record))
-                fragility.records.push_back({file.string(), records.size() > 1 ? record.component : "", unit});
+    const ReadFolder read = read_folder(files, unit, any_pga);
+    check_refused(pattern, read);
+    for (const ReadFolder::Refused& refused : read.refused)
+        fragility.left_out.push_back(refused.file.filename().string());
+    for (const ReadFolder::Component& component : read.components) {
+        if (component.vertical)
+            fragility.left_out.push_back(fmt::format("{}{}{} (vertical)", fs::path(component.file).filename().string(),
+                                                     component.name.empty() ? "" : " ", component.name));
+        else
+            fragility.records.push_back({component.file, component.name, unit});
     }
     fragility.motions = static_cast<int>(fragility.records.size());
-    if (fragility.motions < fewest_motions)
-        keys.refuse("folder",
-                    fmt::format("has {} horizontal components, fewer than {}", fragility.motions, fewest_motions),
-                    "The interval of a curve is estimated from the scatter of the motions: give more.");
+    if (fragility.records.empty())
+        keys.refuse("folder", "has no horizontal component", "Give a folder with horizontal components of records.");
 }
 
 } // namespace stylobate

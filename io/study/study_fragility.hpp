@@ -15,9 +15,12 @@ namespace stylobate {
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
                              std::uint64_t structures);
 
-/// Fills in the records of a folder: every horizontal component of every file that its pattern names, by name.
-/// @param beside a relative folder is looked for here first, then in the working folder
-/// @throws InputError if the folder cannot be read, if no file is named by the pattern, or for a file that is no record
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, FragilitySpec& fragility);
+/// Fills in the records of a folder: every horizontal component of every file that its pattern names, by name. Files
+/// without accelerations and vertical components are listed in `FragilitySpec::left_out`.
+/// @param beside  a relative folder is looked for here first, then in the working folder
+/// @param any_pga as of `read_records`
+/// @throws InputError if the folder cannot be read, if no file is named by the pattern, for a file that is damaged, and
+///         if no horizontal component is left
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, bool any_pga, FragilitySpec& fragility);
 
 } // namespace stylobate

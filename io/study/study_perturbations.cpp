@@ -42,6 +42,10 @@ Rule rule_for(Quantity quantity, const Study& study, const Layout& layout)
 {
     const SpreadKey& key = spread_key(quantity);
     Rule rule{&key, distinct(nominal_values(study, layout, quantity)), key.value, key.sd.range};
+    if (quantity == Quantity::drum_width || quantity == Quantity::drum_height || quantity == Quantity::density)
+        rule.section = "[structure]";
+    else if (quantity == Quantity::pulse_frequency || quantity == Quantity::pulse_gamma)
+        rule.section = "[excitation]";
     if (quantity == Quantity::damping_ratio) {
         rule.nominal = {study.contact.normal_damping_ratio, study.contact.tangential_damping_ratio};
         rule.one_for_all = true;
@@ -82,7 +86,7 @@ double normal_between(double a, double b)
 void read_ends(const KeyReader& keys, const Rule& rule, Spread& p)
 {
     Range range = rule.value;
-    range.guess = 0;
+    range.slips = {};
     p.min = keys.maybe_number(rule.key->min.name, range);
     p.max = keys.maybe_number(rule.key->max.name, range);
     if (p.min && p.max && !(*p.min < *p.max))
@@ -98,9 +102,10 @@ void read_ends(const KeyReader& keys, const Rule& rule, Spread& p)
         };
         const double low = p.min ? standard(*p.min) : -HUGE_VAL;
         const double high = p.max ? standard(*p.max) : HUGE_VAL;
-        if (!(normal_between(low, high) >= least_kept))
-            keys.refuse(p.min ? "min" : "max", "leaves less than one draw in a million",
-                        fmt::format("The nominal value is {}: min and max must enclose it.", nominal));
+        if (!(normal_between(low, high) >= least_kept)) // the end that cuts off more is the wrong one
+            keys.refuse(
+                p.min && -low < high ? "min" : "max", "leaves less than one draw in a million",
+                fmt::format("The nominal value in {} is {}: min and max must enclose it.", rule.section, nominal));
     }
 }
 

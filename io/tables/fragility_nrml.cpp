@@ -34,6 +34,8 @@ void append_comment(pugi::xml_node node, std::string text)
 
 std::string interval(const FragilityValue& value, double scale)
 {
+    if (std::isnan(value.lower))
+        return fmt::format("{:.6g} (no interval)", value.value * scale);
     return fmt::format("{:.6g} [{:.6g}, {:.6g}]", value.value * scale, value.lower * scale, value.upper * scale);
 }
 
@@ -65,7 +67,8 @@ void append_function(pugi::xml_node model_node, const FragilityModel& model, con
             std::string text, bounds;
             for (const FragilityValue& value : state.probability) {
                 text += fmt::format("{}{}", text.empty() ? "" : " ", value.value);
-                bounds += fmt::format(" [{:.6g}, {:.6g}]", value.lower, value.upper);
+                bounds += std::isnan(value.lower) ? " [none]"
+                                                  : fmt::format(" [{:.6g}, {:.6g}]", value.lower, value.upper);
             }
             append_comment(node, fmt::format("{} at {:g} %:{}", model.limit_states[s], 100 * model.level, bounds));
             pugi::xml_node poes = node.append_child("poes");

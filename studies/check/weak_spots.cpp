@@ -2,7 +2,6 @@
 
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/statics/limit_analysis.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/study/study_accuracy.hpp"
@@ -45,49 +44,6 @@ using Found = std::optional<WeakSpot>;
 WeakSpot spot(std::string text, std::string todo)
 {
     return {"", std::move(text), std::move(todo)};
-}
-
-/// The structure on its beds, without shaking and without anything drawn.
-Realization nominal(const Study& study)
-{
-    Study still;
-    still.structure = study.structure;
-    still.contact = study.contact;
-    still.excitation.kind = ExcitationKind::none;
-    still.excitation.duration_s = 1;
-    return Sampler(still, nullptr).realization(0);
-}
-
-/// The strongest of the shaking [m/s2].
-double strongest_m_s2(const Subject& s)
-{
-    if (s.study().surface) {
-        const Axis& axis = s.study().surface->pga_m_s2;
-        return std::max(axis.from, axis.to);
-    }
-    double pga = 0;
-    for (const Realization& r : s.sample(64))
-        pga = std::max(pga, r.pga_m_s2);
-    return pga;
-}
-
-/// Below the limit of statics no rigid block moves, whatever the history of the shaking. (A rare event is one of the
-/// drawn structures, not of the nominal one.)
-Found below_limit(const Subject& s)
-{
-    const Study& study = s.study();
-    if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
-        study.vertical || study.rare)
-        return std::nullopt;
-    const std::optional<StaticLimit>& limit = s.limit;
-    const double pga = strongest_m_s2(s);
-    if (!limit || pga >= limit->limit_m_s2)
-        return std::nullopt;
-    return spot(fmt::format("The strongest shaking has {:.4g} m/s2. Rigid blocks of this structure begin to move at "
-                            "{:.4g} m/s2 (static limit; g B / H for a column that rocks): what moves below is the "
-                            "compliance of the beds.",
-                            pga, limit->limit_m_s2),
-                fmt::format("Extend the shaking beyond {:.3g} m/s2, about twice the limit.", 2 * limit->limit_m_s2));
 }
 
 Found slides_first(const Subject& s)
@@ -319,12 +275,51 @@ Found long_step(const Subject& s)
                 "Leave out run.step_s and run.step_fraction (0.9), or give run.accuracy.");
 }
 
+/// Motions that may be vertical components, and a vertical motion that is made from the horizontal one.
+Found unknown_direction(const Subject& s)
+{
+    std::vector<std::string> unknown;
+    if (s.study().fragility && !s.study().fragility->records.empty()) {
+        const MotionSet& set = *s.loaded.experiment().motions().drawn;
+        for (std::size_t i = 0; i < set.size(); ++i)
+            if (!set.motions[i]->is_vertical)
+                unknown.push_back(set.names[i]);
+    }
+    if (const auto& vertical = s.loaded.experiment().motions().vertical; vertical && !vertical->is_vertical)
+        unknown.push_back(vertical->source);
+    if (unknown.empty())
+        return std::nullopt;
+    constexpr std::size_t most = 6;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(unknown.size(), most); ++i)
+        names += (i == 0 ? "" : ", ") + unknown[i];
+    if (unknown.size() > most)
+        names += fmt::format(" and {} more", unknown.size() - most);
+    return spot(
+        fmt::format("The direction of {} motion{} is unknown, because {} file{} not state it: {}.", unknown.size(),
+                    unknown.size() == 1 ? "" : "s", unknown.size() == 1 ? "its" : "their",
+                    unknown.size() == 1 ? " does" : "s do", names),
+        "Check that horizontal motions are horizontal components and that a vertical motion is a vertical one.");
+}
+
+Found no_vertical_record(const Subject& s)
+{
+    const Study& study = s.study();
+    const bool recorded = study.excitation.kind == ExcitationKind::record;
+    if (!recorded || !study.names(Mechanism::vertical_motion) || study.vertical)
+        return std::nullopt;
+    return spot("The vertical motion is the horizontal one times mechanisms.vertical_motion.ratio: no vertical "
+                "component of a record is used. Real vertical components have higher frequencies and other phases.",
+                study.fragility ? "Compare with a study without vertical motion: a fragility study takes no vertical "
+                                  "records."
+                                : "Give mechanisms.vertical_motion.file.");
+}
+
 struct Look {
     const char* name;
     Found (*find)(const Subject&);
 };
-constexpr std::array looks = {Look{"below_limit", below_limit},
-                              Look{"slides_first", slides_first},
+constexpr std::array looks = {Look{"slides_first", slides_first},
                               Look{"one_outcome", one_outcome},
                               Look{"coarse_axis", coarse_axis},
                               Look{"wide_interval", wide_interval},
@@ -332,6 +327,8 @@ constexpr std::array looks = {Look{"below_limit", below_limit},
                               Look{"soft_contacts", soft_contacts},
                               Look{"long_step", long_step},
                               Look{"record_step", record_step},
+                              Look{"unknown_direction", unknown_direction},
+                              Look{"no_vertical_record", no_vertical_record},
                               Look{"record_end", record_end},
                               Look{"cut_off", cut_off}};
 
@@ -349,28 +346,6 @@ std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Do
             all.push_back(std::move(*found));
         }
     return all;
-}
-
-std::optional<StaticLimit> static_limit(const Study& study)
-{
-    constexpr std::ptrdiff_t most_blocks = 60;
-    Realization r = nominal(study);
-    if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) > most_blocks)
-        return std::nullopt;
-    StaticLimit limit;
-    try {
-        limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
-        for (Joint& joint : r.joints)
-            joint.friction *= 1.1;
-        limit.rough_m_s2 = limit_acceleration(r).acceleration_m_s2;
-        constexpr double no_sliding = 1e3;
-        for (Joint& joint : r.joints)
-            joint.friction = no_sliding;
-        limit.rocking_m_s2 = limit_acceleration(r).acceleration_m_s2;
-    } catch (const std::runtime_error&) { // rigid blocks do not rest so: nothing is known
-        return std::nullopt;
-    }
-    return limit;
 }
 
 double capacity_lost(const Study& study)

@@ -16,7 +16,7 @@
 namespace stylobate {
 
 struct WeakSpot {
-    std::string name; ///< "below_limit"
+    std::string name; ///< "wide_interval"
     std::string text; ///< what and why, with its figures: sentences
     std::string todo; ///< a sentence
 };
@@ -24,17 +24,6 @@ struct WeakSpot {
 /// All that are found, in the order of docs/check.md.
 /// @param doubts of the same study, so that nothing is said twice   @param trial null: none was run
 std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial);
-
-/// The structure of a study as it stands on rigid beds, nothing drawn: the largest base acceleration, held for ever,
-/// at which it can rest [m/s2] (limit analysis, `ensemble/statics/limit_analysis.hpp`).
-struct StaticLimit {
-    double rocking_m_s2 = 0; ///< if no bed could slide
-    double limit_m_s2 = 0;   ///< with the friction of the study
-    double rough_m_s2 = 0;   ///< with a tenth more of it
-};
-/// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
-/// rest. @throws InputError as `lay_out`
-std::optional<StaticLimit> static_limit(const Study& study);
 
 /// Part of its static capacity that a monolith of the height and weight of a column loses on a bed of the study's K_N,
 /// against a rigid bed: 3 t* h / b with t* = (sqrt(2 W / K_N) / (6 h))^(2/3), b and h half its width and height, W the

@@ -1,5 +1,6 @@
 #include "studies/experiment/limit_state.hpp"
 
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/numerics/interval.hpp"
 
@@ -103,7 +104,7 @@ void LimitCounts::add(const ResultRow& row)
     if (fell)
         collapse_time_s_.add(o.collapse_time_s);
     OfMotion none;
-    OfMotion& m = cells_of_motion_ > 0 ? of_motion(row.cell / cells_of_motion_) : none;
+    OfMotion& m = groups_.cells > 0 ? of_motion(groups_.of_cell(row.cell)) : none;
     ++m.trials;
     const auto count = [](std::vector<std::uint64_t>& all, std::vector<std::uint64_t>& of_motion, std::size_t i) {
         ++all[i];
@@ -141,8 +142,12 @@ LimitCounts::LimitCounts(const Tally& tally)
 Share LimitCounts::share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const
 {
     Share share = share_of(trials_, count);
-    if (cells_of_motion_ == 0)
+    if (groups_.cells == 0)
         return share;
+    if (groups_.groups < least_records) {
+        share.lower = share.upper = std::nan("");
+        return share;
+    }
     std::vector<RecordCount> counts;
     for (const OfMotion& m : motions_)
         counts.push_back({static_cast<double>(m.trials), static_cast<double>(of_motion(m))});
@@ -181,14 +186,11 @@ LimitCounts::OfMotion& LimitCounts::of_motion(std::size_t motion)
     return motions_[motion];
 }
 
-std::size_t cells_of_motion(const Study& study)
-{
-    return study.fragility ? static_cast<std::size_t>(study.fragility->stripes()) : 0;
-}
-
 std::string LimitCounts::interval() const
 {
-    return cells_of_motion_ > 0 ? fmt::format("motions {}", interval_level) : interval_name();
+    if (groups_.cells == 0)
+        return interval_name();
+    return groups_.groups < least_records ? "none" : fmt::format("motions {}", interval_level);
 }
 
 std::string LimitCounts::moving_text() const

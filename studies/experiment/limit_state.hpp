@@ -4,10 +4,12 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/model/time_counts.hpp"
 #include "io/store/result_store.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -44,7 +46,7 @@ struct Share {
     std::uint64_t trials = 0;
     std::uint64_t count = 0;
     double probability = 0; ///< NaN without trials
-    double lower = 0;       ///< Jeffreys' interval, or that of the motions
+    double lower = 0;       ///< Jeffreys' interval, or that of the motions; NaN: there is none
     double upper = 1;
 };
 Share share_of(std::uint64_t trials, std::uint64_t count);
@@ -52,9 +54,9 @@ Share share_of(std::uint64_t trials, std::uint64_t count);
 /// Counts the outcomes of the realizations of a study; those that are invalid are no trials.
 class LimitCounts {
 public:
-    /// @param cells_of_motion of a fragility study, whose runs under one motion are not independent; 0: all are
-    explicit LimitCounts(std::size_t blocks, std::size_t cells_of_motion = 0)
-        : cells_of_motion_(cells_of_motion), first_(blocks), fallen_(blocks)
+    /// @param motions of a fragility study, whose runs under one ground motion are not independent
+    explicit LimitCounts(std::size_t blocks, MotionGroups motions = {})
+        : groups_(std::move(motions)), first_(blocks), fallen_(blocks)
     {
     }
     /// Over all cells.
@@ -68,7 +70,8 @@ public:
     Share share_first_together() const;
     /// That a block fell at all, of rows.
     Share share_fallen(std::size_t block) const;
-    /// Name of the intervals of these shares: "jeffreys 0.95", or "motions 0.95".
+    /// Name of the intervals of these shares: "jeffreys 0.95", or "motions 0.95"; "none" of fewer than 8 motions, whose
+    /// shares have no limits (NaN).
     std::string interval() const;
     /// How often each block fell before all others. (blocks)
     const std::vector<std::uint64_t>& first() const { return first_; }
@@ -92,7 +95,7 @@ private:
     OfMotion& of_motion(std::size_t motion);
     Share share(std::uint64_t count, const std::function<std::uint64_t(const OfMotion&)>& of_motion) const;
 
-    std::size_t cells_of_motion_ = 0;
+    MotionGroups groups_;
     std::vector<OfMotion> motions_;
     std::uint64_t trials_ = 0;
     std::vector<std::uint64_t> reached_ = std::vector<std::uint64_t>(limit_state_names().size());
@@ -100,8 +103,5 @@ private:
     std::uint64_t first_together_ = 0;
     TimeCounts collapse_time_s_, total_collapse_time_s_;
 };
-
-/// The properties of a study that `LimitCounts` needs.
-std::size_t cells_of_motion(const Study& study);
 
 } // namespace stylobate

@@ -61,6 +61,47 @@ void check_record_is_there(const std::string& file)
                          "record there, or by --set excitation.file=PATH.");
 }
 
+/// How a study's record is scaled, and whether it is a horizontal one.
+void add_record(const LoadedStudy& loaded, StudyFacts& facts)
+{
+    const Study& study = loaded.study();
+    const Motion& record = *loaded.record();
+    facts.pga_m_s2 = record.pga_m_s2;
+    facts.motion_frequency_hz = record.predominant_frequency_hz;
+    const double strongest =
+        study.surface ? std::max(study.surface->pga_m_s2.from, study.surface->pga_m_s2.to) : study.excitation.pga_m_s2;
+    facts.scaled.push_back({record.source, strongest > 0 ? strongest / record.pga_m_s2 : 1});
+    if (record.is_vertical.value_or(false))
+        facts.vertical_motions.push_back(record.source);
+}
+
+/// The same of the motions of a fragility study.
+void add_set(const LoadedStudy& loaded, const MotionTable& table, StudyFacts& facts)
+{
+    const FragilitySpec& fragility = *loaded.study().fragility;
+    const MotionSet& set = *loaded.experiment().motions().drawn;
+    const int strongest = fragility.intensity.from > fragility.intensity.to ? 0 : fragility.stripes() - 1;
+    const bool recorded = !fragility.records.empty();
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const Motion& motion = *set.motions[i];
+        const double factor = motion_scale(fragility, set, i, strongest);
+        facts.pga_m_s2 = std::max(facts.pga_m_s2, motion.pga_m_s2);
+        facts.scaled_pga_m_s2 = std::max(facts.scaled_pga_m_s2, factor * motion.pga_m_s2);
+        if (recorded)
+            facts.scaled.push_back({set.names[i], factor});
+        if (motion.is_vertical.value_or(false))
+            facts.vertical_motions.push_back(set.names[i]);
+    }
+    if (!recorded)
+        return; // those that are drawn from one set of parameters are refused
+    const MotionGroups groups = motion_groups(loaded.study(), table);
+    std::vector<std::vector<std::string>> names(groups.groups);
+    for (std::size_t i = 0; i < set.size(); ++i)
+        names[groups.group[i]].push_back(set.names[i]);
+    std::erase_if(names, [](const auto& group) { return group.size() < 2; });
+    facts.equal_motions = std::move(names);
+}
+
 Experiment with_motions(Study study)
 {
     Motions motions = motions_of(study);
@@ -78,13 +119,14 @@ Motions motions_of(const Study& study, const Record* record)
     else if (excitation.kind == ExcitationKind::record) {
         if (!record)
             check_record_is_there(excitation.file);
-        motions.record =
-            make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit),
-                        excitation.baseline, excitation.band_pass);
+        motions.record = make_motion(
+            record ? *record : read_record(excitation.file, excitation.component, excitation.unit, study.allows("pga")),
+            excitation.baseline, excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table)
         motions.record = read_base_table(excitation.file, excitation.run);
     if (const std::optional<VerticalSpec>& spec = study.vertical)
-        motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit), spec->baseline);
+        motions.vertical =
+            make_motion(read_record(spec->file, spec->component, spec->unit, study.allows("pga")), spec->baseline);
     return motions;
 }
 
@@ -175,15 +217,13 @@ std::vector<Doubt> LoadedStudy::doubts() const
 {
     const ResultHeader header = plain_header();
     StudyFacts facts;
-    if (record()) {
-        facts.pga_m_s2 = record()->pga_m_s2;
-        facts.motion_frequency_hz = record()->predominant_frequency_hz;
-    }
-    const std::size_t measures = motions_.measures.size();
-    for (std::size_t k = 0; k < measures; ++k)
-        if (motions_.measures[k] == "pga_m_s2")
-            for (std::size_t i = 0; i < motions_.names.size(); ++i)
-                facts.pga_m_s2 = std::max(facts.pga_m_s2, motions_.value[i * measures + k]);
+    if (record())
+        add_record(*this, facts);
+    if (study().fragility)
+        add_set(*this, motions_, facts);
+    if (const std::optional<Motion>& vertical = experiment_.motions().vertical)
+        if (!vertical->is_vertical.value_or(true))
+            facts.vertical_motion = vertical->source;
     if (header.has_rows())
         facts.file_bytes = static_cast<double>(header.total) * static_cast<double>(ResultLayout(header).row_bytes());
     return stylobate::doubts(study(), facts);

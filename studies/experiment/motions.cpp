@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 namespace stylobate {
@@ -30,10 +32,11 @@ void stretch(Motion& motion, double scale)
 MotionSet read_motions(const Study& study)
 {
     const ExcitationSpec& excitation = study.excitation;
+    const bool any_pga = study.allows("pga");
     MotionSet set;
     for (const RecordSpec& record : study.fragility->records) {
-        Motion motion = make_motion(read_record(record.file, record.component, record.unit), excitation.baseline,
-                                    excitation.band_pass);
+        Motion motion = make_motion(read_record(record.file, record.component, record.unit, any_pga),
+                                    excitation.baseline, excitation.band_pass);
         if (excitation.time_scale != 1)
             stretch(motion, excitation.time_scale);
         std::string name = std::filesystem::path(record.file).filename().string();
@@ -53,6 +56,8 @@ MotionSet read_motions(const Study& study)
 /// That an excitation of which nothing is drawn makes the same motion again and again is seen before it is run.
 void check_differ(const Study& study, const MotionSet& set)
 {
+    if (set.size() < 2)
+        return;
     for (const auto& motion : set.motions)
         if (motion->acceleration_m_s2 != set.motions.front()->acceleration_m_s2 ||
             motion->dt_s != set.motions.front()->dt_s)
@@ -131,6 +136,66 @@ MotionTable motion_table(const MotionSet& set)
     for (const std::vector<double>& ends : set.ends_s)
         table.shaking_end_s.insert(table.shaking_end_s.end(), ends.begin(), ends.end());
     return table;
+}
+
+namespace {
+
+/// For each motion the first one that is equal to it, itself where none is.
+std::vector<std::size_t> first_equal(const MotionTable& motions, double tolerance)
+{
+    const std::size_t n = motions.names.size(), measures = motions.measures.size();
+    const auto pga = static_cast<std::size_t>(std::find(motions.measures.begin(), motions.measures.end(), "pga_m_s2") -
+                                              motions.measures.begin());
+    std::vector<std::size_t> first(n), order(n);
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    if (pga >= measures || measures < 2)
+        return first;
+    std::vector<std::vector<double>> shape(n); // what scaling does not change
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < measures; ++k)
+            if (k != pga)
+                shape[i].push_back(motions.value[i * measures + k] /
+                                   std::pow(motions.value[i * measures + pga], motions.exponent[k]));
+    const auto near = [tolerance](double a, double b) {
+        return std::fabs(a - b) <= tolerance * std::max(std::fabs(a), std::fabs(b));
+    };
+    order = first;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shape[a] < shape[b]; });
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n && near(shape[order[i]][0], shape[order[j]][0]); ++j)
+            if (std::equal(shape[order[i]].begin(), shape[order[i]].end(), shape[order[j]].begin(), near)) {
+                std::size_t a = order[i], b = order[j]; // each to the first of its group
+                while (first[a] != a)
+                    a = first[a];
+                while (first[b] != b)
+                    b = first[b];
+                first[std::max(a, b)] = std::min(a, b);
+            }
+    for (std::size_t i = 0; i < n; ++i) // those before i point to the first of their group already
+        first[i] = first[first[i]];
+    return first;
+}
+
+} // namespace
+
+MotionGroups motion_groups(const Study& study, const MotionTable& motions)
+{
+    MotionGroups all;
+    if (!study.fragility)
+        return all;
+    all.cells = static_cast<std::size_t>(study.fragility->stripes());
+    all.group.resize(static_cast<std::size_t>(study.fragility->motions));
+    std::iota(all.group.begin(), all.group.end(), std::size_t{0});
+    all.groups = all.group.size();
+    if (motions.names.size() != all.group.size())
+        return all;
+    // files round their samples; of motions that are drawn, parameters that nearly agree are no copies
+    const double tolerance = study.fragility->records.empty() ? 1e-12 : 1e-4;
+    all.groups = 0;
+    const std::vector<std::size_t> first = first_equal(motions, tolerance);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        all.group[i] = first[i] == i ? all.groups++ : all.group[first[i]];
+    return all;
 }
 
 } // namespace stylobate

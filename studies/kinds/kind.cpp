@@ -16,7 +16,7 @@ void check_complete(const ResultReader& reader, const std::string& results)
 }
 
 Kind::Kind(const Study& study, const ResultHeader& header)
-    : study_(study), header_(header), counts_(header.block_names.size(), cells_of_motion(study))
+    : study_(study), header_(header), counts_(header.block_names.size(), motion_groups(study, header.motions))
 {
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace stylobate {
 
@@ -24,6 +25,8 @@ Json share_json(const Share& share, bool fair)
 
 std::string share_text(const Share& share)
 {
+    if (std::isnan(share.lower))
+        return fmt::format("{}, {:.3g} %", share.count, 100 * share.probability);
     return fmt::format("{}, {:.3g} % ({:.3g} to {:.3g})", share.count, 100 * share.probability, 100 * share.lower,
                        100 * share.upper);
 }
@@ -76,7 +79,8 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
         if (total.count > 0)
             text += fmt::format(", median time {:.3g} s", counts.median_total_collapse_time_s());
     }
-    text += fmt::format("; in brackets: {}\n", describe_interval(counts.interval()));
+    text += fmt::format("; {}{}\n",
+                        std::isnan(collapsed.lower) ? "" : "in brackets: ", describe_interval(counts.interval()));
     if (const std::string moving = counts.moving_text(); !moving.empty())
         text += fmt::format("  {}\n", moving);
     const std::vector<std::size_t> first = first_fallen(counts);

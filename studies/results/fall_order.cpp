@@ -7,12 +7,12 @@
 namespace stylobate {
 
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
-                     std::size_t cells_of_motion)
+                     const MotionGroups& motions)
 {
     FallOrder order;
     for (const std::string& name : names)
         order.blocks.push_back({name, 0, {}, 0, 1});
-    LimitCounts counts(names.size(), cells_of_motion);
+    LimitCounts counts(names.size(), motions);
     order.interval = counts.interval();
     for (const ResultRow& row : rows) {
         counts.add(row);

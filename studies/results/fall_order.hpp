@@ -3,6 +3,7 @@
 
 #include "io/plots/plot_order.hpp"
 #include "io/store/result_store.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include <cstddef>
 #include <string>
@@ -13,6 +14,6 @@ namespace stylobate {
 /// Which blocks fell, in which order and when, for its picture.
 /// @param names of the blocks, as many as each row has fall times
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
-                     std::size_t cells_of_motion = 0);
+                     const MotionGroups& motions = {});
 
 } // namespace stylobate

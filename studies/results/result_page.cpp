@@ -37,6 +37,8 @@ std::string percent(double share)
 
 std::string interval_text(const Share& share)
 {
+    if (std::isnan(share.lower))
+        return "–";
     return fmt::format("{:.1f} – {:.1f} %", 100 * share.lower, 100 * share.upper);
 }
 
@@ -148,12 +150,12 @@ private:
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         else
-            text = fmt::format(
-                "{} of {} valid realizations{} collapsed: {} ({} {}).", collapsed.count, collapsed.trials,
-                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA", header_.frequency_hz.size(),
-                                       header_.pga_m_s2.size())
-                         : "",
-                percent(collapsed.probability), describe_interval(counts_.interval()), interval_text(collapsed));
+            text = fmt::format("{} of {} valid realizations{} collapsed: {} ({}{}).", collapsed.count, collapsed.trials,
+                               surface_ ? fmt::format(" over {} × {} cells of frequency and PGA",
+                                                      header_.frequency_hz.size(), header_.pga_m_s2.size())
+                                        : "",
+                               percent(collapsed.probability), describe_interval(counts_.interval()),
+                               std::isnan(collapsed.lower) ? "" : " " + interval_text(collapsed));
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
                     "probability of each cell is given below.";
@@ -255,7 +257,7 @@ private:
     {
         if (!header_.has_rows())
             return first_falls();
-        const FallOrder falls = fall_order(header_.block_names, rows_, cells_of_motion(study_));
+        const FallOrder falls = fall_order(header_.block_names, rows_, motion_groups(study_, header_.motions));
         const std::vector<std::size_t> blocks = order_of_falls(falls);
         if (blocks.empty())
             return;

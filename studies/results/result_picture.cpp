@@ -119,7 +119,7 @@ void order_picture(const Results& results, long long cell, const std::string& gi
         title += ", all cells";
     }
     const Study& study = results.study();
-    FallOrder falls = fall_order(header.block_names, rows, cells_of_motion(study));
+    FallOrder falls = fall_order(header.block_names, rows, motion_groups(study, header.motions));
     for (const PlacedBlock& block : lay_out(study.structure).blocks)
         falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
     std::string note =

@@ -144,6 +144,35 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
         EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
+/// Too few motions for an interval: shares without one, in text, JSON, page and file.
+TEST_F(FragilityProgram, FewMotionsHaveNoInterval)
+{
+    for (const char* motions : {"1", "4"}) {
+        const std::vector<std::string> few = {std::string("fragility.motions=") + motions};
+        const Ended ended = run(words("few.h5", "2", "auto", few));
+        ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        const JsonValue json = JsonParser::parse(ended.out);
+        EXPECT_EQ(json["limits"]["interval"].text, "none");
+        EXPECT_EQ(json["limits"]["collapse"]["lower"].kind, JsonValue::Kind::null);
+        const JsonValue& state = json["fragility"]["states"].items[0];
+        ASSERT_EQ(state["stripes"].items.size(), 5U);
+        EXPECT_EQ(state["stripes"].items[0]["lower"].kind, JsonValue::Kind::null);
+        EXPECT_NE(json["fragility"]["says"].items[0].text.find("too few for an interval over motions (at least 8)"),
+                  std::string::npos);
+        ASSERT_EQ(run(std::vector<std::string>{"report", "few.h5", "-o", "few.html"}).status, 0);
+        const std::string page = bytes("few.html");
+        EXPECT_NE(page.find("too few for an interval over motions"), std::string::npos);
+        EXPECT_EQ(page.find("nan"), std::string::npos) << page.substr(page.find("nan") - 200, 400);
+        EXPECT_EQ(run(std::vector<std::string>{"export", "few.h5", "--to", "nrml"}).status, 0);
+        EXPECT_EQ(run(std::vector<std::string>{"export", "few.h5", "--to", "png"}).status, 0);
+        EXPECT_EQ(run(std::vector<std::string>{"verify-file", "few.h5"}).status, 0);
+        fs::remove_all(folder / "few.h5");
+        fs::remove_all(folder / "few.html");
+        fs::remove_all(folder / "few_nrml");
+        fs::remove_all(folder / "few_fragility.png");
+    }
+}
+
 /// What has fallen by the end of each shaking is counted from the rows; more and more have.
 TEST_F(FragilityProgram, ASequenceCarriesItsDamageAlong)
 {

@@ -50,7 +50,7 @@ std::optional<Comparison> compare_adaptively(const std::vector<std::unique_ptr<W
                                              double level, const RunOptions& options, Observer& observer)
 {
     WholeRun& base = *studies.front();
-    PairLayout layout = pair_layout(base.study(), level);
+    PairLayout layout = pair_layout(base.study(), base.header().motions, level);
     Comparison comparison = comparison_facts(base.study(), base.header(), names.front(), base.results(), level);
     comparison.adaptive_budget = choice.budget;
     comparison.adaptive_margin = choice.margin;

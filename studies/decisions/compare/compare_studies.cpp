@@ -108,7 +108,7 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
 Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
                             const std::string& file, double level)
 {
-    const PairLayout layout = pair_layout(base, level);
+    const PairLayout layout = pair_layout(base, header.motions, level);
     Comparison comparison;
     comparison.kind = header.kind;
     comparison.title = base.title;
@@ -134,7 +134,7 @@ Comparison comparison_of(const std::vector<std::string>& names, const std::vecto
 {
     const ReadStudy base(files.front());
     const ResultHeader& header = base.reader.header();
-    const PairLayout layout = pair_layout(base.study, level);
+    const PairLayout layout = pair_layout(base.study, header.motions, level);
     Comparison comparison = comparison_facts(base.study, header, names.front(), files.front(), level);
     for (std::size_t i = 1; i < files.size(); ++i) {
         const ReadStudy variant(files[i]);

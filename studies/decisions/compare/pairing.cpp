@@ -107,14 +107,15 @@ double p_at_a_look(const PlaceComparison& place, const PairLayout& layout)
 
 } // namespace
 
-PairLayout pair_layout(const Study& study, double level)
+PairLayout pair_layout(const Study& study, const MotionTable& motions, double level)
 {
     PairLayout layout{.per_cell = study.realizations, .level = level};
     if (study.surface)
         layout.cells = static_cast<std::size_t>(study.surface->cells());
     if (study.fragility) {
         layout.cells = static_cast<std::size_t>(study.fragility->stripes());
-        layout.groups = static_cast<std::size_t>(study.fragility->motions);
+        layout.motions = motion_groups(study, motions);
+        layout.groups = layout.motions.groups;
     }
     if (!study.surface && !study.fragility)
         layout.per_cell = study.originals();

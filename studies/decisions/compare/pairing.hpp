@@ -10,8 +10,9 @@ namespace stylobate {
 /// How the pairs of a study are divided.
 struct PairLayout {
     std::size_t cells = 1;      ///< of a surface, or stripes
-    std::size_t groups = 0;     ///< motions; 0: pairs are independent of each other
+    std::size_t groups = 0;     ///< different motions; 0: pairs are independent of each other
     std::uint64_t per_cell = 1; ///< realizations in a cell of a surface, or under a motion in a stripe
+    MotionGroups motions = {};
     double level = interval_level;
     // of an adaptive comparison
     std::vector<std::uint64_t> asked = {}; ///< (cells) of each cell's realizations the first so many; empty: all
@@ -20,9 +21,10 @@ struct PairLayout {
     std::size_t cell(std::uint64_t index) const { return groups > 0 ? index / per_cell % cells : index / per_cell; }
     /// Whether a realization takes part.
     bool has(std::uint64_t index) const { return asked.empty() || index % per_cell < asked[index / per_cell]; }
-    std::size_t group(std::uint64_t index) const { return groups > 0 ? index / per_cell / cells : 0; }
+    std::size_t group(std::uint64_t index) const { return groups > 0 ? motions.of_cell(index / per_cell) : 0; }
 };
-PairLayout pair_layout(const Study& study, double level);
+/// @param motions of the header of its results
+PairLayout pair_layout(const Study& study, const MotionTable& motions, double level);
 
 /// Pairs of one limit state: counts[cell * groups + group].
 std::vector<PairedCounts> count_pairs(const StudySide& base, const StudySide& variant, std::size_t base_limit,

@@ -1,5 +1,6 @@
 #include "studies/decisions/search/search.hpp"
 
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/search/search_answer.hpp"
 #include "ensemble/model/input_error.hpp"
@@ -121,7 +122,12 @@ public:
     std::optional<SearchResult> run()
     {
         base_ = run_at(files_, spec_, {});
-        layout_ = pair_layout(base_->study(), result_.level);
+        layout_ = pair_layout(base_->study(), base_->header().motions, result_.level);
+        if (layout_.motions.cells > 0 && layout_.groups < least_records)
+            throw InputError(files_.study, 0,
+                             fmt::format("[optimise]: a search needs at least {} different motions, and the study has "
+                                         "{}.\n  Its points are compared by the scatter over motions: give more.",
+                                         least_records, layout_.groups));
         if (!base_->run(options_, observer_))
             return std::nullopt;
         base_side_ = side_of(*base_);

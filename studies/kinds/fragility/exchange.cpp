@@ -87,8 +87,9 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
             continue;
         FragilityModel model;
         model.id = group.id;
-        model.description = fmt::format("{}: {}; {} motions, {} structures under each; intervals clustered by motion",
-                                        study, group.describe, f.motions, f.structures);
+        model.description = fmt::format(
+            "{}: {}; {} motions, {} structures under each; {}", study, group.describe, f.motions, f.structures,
+            f.different < least_records ? "too few motions for intervals" : "intervals clustered by motion");
         for (const StateFragility* s : states)
             model.limit_states.push_back(s->state.name);
         if (states.front()->stripes)

@@ -5,11 +5,13 @@
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/quantiles.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,7 +19,6 @@ namespace stylobate {
 
 namespace {
 
-static_assert(fewest_motions == static_cast<int>(least_records));
 constexpr std::size_t grid_points = 60;
 
 /// 95 %, from the values that are found with each of the motions left out.
@@ -36,19 +37,21 @@ Limits jackknife_limits(double value, const std::vector<double>& without)
 /// Where a realization stands in the design.
 struct Place {
     std::uint32_t motion = 0, stripe = 0, structure = 0;
-    double scale = 1; ///< of its motion
+    std::uint32_t ground = 0; ///< the ground motion that the motion is
+    double scale = 1;         ///< of its motion
 };
 
 class Analysis {
 public:
     /// @param rows by index
     Analysis(const Study& study, const ResultHeader& header, std::vector<FragilityOutcome> rows)
-        : header_(header), study_(study)
+        : header_(header), study_(study), groups_(motion_groups(study, header.motions))
     {
         const FragilitySpec& spec = *study_.fragility;
         out_.method = spec.method;
         out_.measure = measure_of(spec);
         out_.motions = header_.motions.names.size();
+        out_.different = groups_.groups;
         out_.structures = study_.realizations;
         for (FragilityOutcome& row : rows) {
             const Place at = place(row);
@@ -105,17 +108,17 @@ private:
     {
         const auto stripes = static_cast<std::size_t>(study_.fragility->stripes());
         const int shakings = study_.fragility->shakings;
-        // by motion, stripe and shaking: how many structures, and how many had fallen
+        // by ground motion, stripe and shaking: how many structures, and how many had fallen
         const auto at = [&](std::size_t motion, std::size_t stripe, int k) {
             return (motion * stripes + stripe) * static_cast<std::size_t>(shakings) + static_cast<std::size_t>(k - 1);
         };
-        std::vector<double> trials(out_.motions * stripes),
-            fallen(out_.motions * stripes * static_cast<std::size_t>(shakings));
+        const std::size_t grounds = out_.different;
+        std::vector<double> trials(grounds * stripes), fallen(grounds * stripes * static_cast<std::size_t>(shakings));
         for (std::size_t i = 0; i < places_.size(); ++i) {
             const Place& p = places_[i];
-            trials[p.motion * stripes + p.stripe] += 1;
+            trials[p.ground * stripes + p.stripe] += 1;
             for (int k = 1; k <= shakings; ++k)
-                fallen[at(p.motion, p.stripe, k)] +=
+                fallen[at(p.ground, p.stripe, k)] +=
                     outcomes_[i].state == State::collapsed && outcomes_[i].collapse_time_s <= until_s(p.motion, k);
         }
         // mean over the stripes without one motion (or with all)
@@ -123,7 +126,7 @@ private:
             std::pair<double, double> mean{0, 0};
             for (std::size_t s = 0; s < stripes; ++s) {
                 double n = 0, first = 0, by_k = 0;
-                for (std::size_t m = 0; m < out_.motions; ++m)
+                for (std::size_t m = 0; m < grounds; ++m)
                     if (m != without) {
                         n += trials[m * stripes + s];
                         first += fallen[at(m, s, 1)];
@@ -137,13 +140,17 @@ private:
             return mean;
         };
         for (int k = 1; k <= shakings; ++k) {
-            const auto [by_k, fresh] = shares(k, out_.motions);
+            const auto [by_k, fresh] = shares(k, grounds);
             std::vector<double> without;
-            for (std::size_t m = 0; m < out_.motions; ++m) {
+            for (std::size_t m = 0; m < grounds; ++m) {
                 const auto [a, b] = shares(k, m);
                 without.push_back(a - b);
             }
-            out_.sequence.push_back({k, by_k, fresh, k == 1 ? Limits{0, 0} : jackknife_limits(by_k - fresh, without)});
+            const double none = std::nan("");
+            out_.sequence.push_back({k, by_k, fresh,
+                                     k == 1                    ? Limits{0, 0}
+                                     : grounds < least_records ? Limits{none, none}
+                                                               : jackknife_limits(by_k - fresh, without)});
         }
     }
 
@@ -153,6 +160,7 @@ private:
         Place p;
         p.motion = static_cast<std::uint32_t>(row.cell / stripes);
         p.stripe = static_cast<std::uint32_t>(row.cell % stripes);
+        p.ground = static_cast<std::uint32_t>(groups_.group.at(p.motion));
         p.structure = static_cast<std::uint32_t>(row.index % study_.realizations);
         p.scale = row.pga_m_s2 / measured(p.motion, "pga_m_s2");
         return p;
@@ -180,19 +188,28 @@ private:
 
     bool results_suffice()
     {
-        std::vector<bool> seen(out_.motions);
+        if (places_.empty()) {
+            out_.says.emplace_back("No realization is valid: there are no shares and no curve.");
+            return false;
+        }
+        std::vector<bool> seen(out_.different);
         for (const Place& p : places_)
-            seen[p.motion] = true;
-        const auto motions = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
-        if (motions < least_records)
+            seen[p.ground] = true;
+        const auto grounds = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+        if (out_.different < out_.motions)
+            out_.says.push_back(fmt::format("{} of the {} motions are different; equal ones (up to a factor) count as "
+                                            "one in all intervals.",
+                                            out_.different, out_.motions));
+        if (grounds < least_records)
+            out_.says.push_back(fmt::format("{} different motion{} too few for an interval over motions (at least {}): "
+                                            "shares and curves are those of {}, and have no interval.",
+                                            grounds, grounds == 1 ? " is" : "s are", least_records,
+                                            grounds == 1 ? "this motion" : "these motions"));
+        else if (grounds < enough_records)
             out_.says.push_back(fmt::format(
-                "Only {} motions have valid realizations: an interval, and therefore a curve, needs at least {}.",
-                motions, least_records));
-        else if (motions < enough_records)
-            out_.says.push_back(fmt::format(
-                "Intervals are from {} motions; with fewer than {} their coverage is below the nominal level.", motions,
+                "Intervals are from {} motions; with fewer than {} their coverage is below the nominal level.", grounds,
                 enough_records));
-        return motions >= least_records;
+        return true;
     }
 
     void grid()
@@ -216,7 +233,7 @@ private:
             const Place& p = places_[i];
             FragilityRun& run = cells[{p.motion, p.stripe}];
             if (run.intensity.empty()) {
-                run.record = p.motion;
+                run.record = p.ground;
                 run.trials = 0;
                 for (const std::string& measure : measures)
                     run.intensity.push_back(intensity(p, measure));
@@ -250,15 +267,49 @@ private:
         CurveOptions options;
         for (const double at : out_.grid)
             options.at.push_back({at});
-        s.curve = fragility_curve(one, options);
-        s.fit = lack_of_fit(fitted_curve(one, log_predictors(one), Link::probit));
+        if (one.points() > 1) {
+            s.curve = fragility_curve(one, options);
+            s.fit = lack_of_fit(fitted_curve(one, log_predictors(one), Link::probit));
+        } else {
+            of_one_intensity(one, s.curve);
+        }
+        if (one.records < least_records)
+            without_intervals(s.curve);
         if (out_.method == FragilityMethod::stripes) {
             s.stripes = stripe_shares(one);
+            if (one.records < least_records)
+                for (StripeShare& stripe : s.stripes->stripes)
+                    stripe.limits = stripe.band = {std::nan(""), std::nan("")};
             count_resurrected(reached, s);
         }
-        if (s.curve.reached > 0 && s.curve.reached < s.curve.trials)
+        if (s.curve.reached > 0 && s.curve.reached < s.curve.trials && one.records > 1)
             s.shares = shares(reached);
         s.data = one;
+    }
+
+    static void of_one_intensity(const FragilityData& one, FragilityCurve& curve)
+    {
+        curve.records = one.records;
+        for (const FragilityRow& row : one.rows) {
+            curve.trials += row.trials;
+            curve.reached += row.reached;
+        }
+        curve.maximum = Maximum::none;
+        curve.median.value = curve.dispersion.value = std::nan("");
+        curve.says.emplace_back("All runs have one intensity: there is a share and no curve.");
+    }
+
+    /// Of too few motions an interval over motions would be a guess.
+    static void without_intervals(FragilityCurve& curve)
+    {
+        const auto none = [](CurveEstimate& estimate) {
+            const Limits limits{std::nan(""), std::nan("")};
+            estimate.records = estimate.profile_records = estimate.profile_runs = estimate.bootstrap = limits;
+        };
+        none(curve.median);
+        none(curve.dispersion);
+        for (CurvePoint& point : curve.at)
+            none(point.probability);
     }
 
     void count_resurrected(const Reached& reached, StateFragility& s) const
@@ -288,8 +339,9 @@ private:
             if (!reached[i])
                 continue;
             const Place& p = places_[i];
+            const auto all = static_cast<std::uint32_t>(out_.structures), structure = p.motion * all + p.structure;
             runs.push_back(
-                {p.motion, p.structure / (contacts * twins), p.structure / twins, p.stripe, *reached[i] ? 1.0 : 0.0});
+                {p.ground, structure / (contacts * twins), structure / twins, p.stripe, *reached[i] ? 1.0 : 0.0});
         }
         return dispersion_shares(runs);
     }
@@ -298,11 +350,11 @@ private:
     void rank(const Reached& reached)
     {
         const auto ones = std::ranges::count_if(reached, [](const auto& r) { return r && *r; });
-        if (ones == 0 || ones == static_cast<std::ptrdiff_t>(reached.size()))
+        if (ones == 0 || ones == static_cast<std::ptrdiff_t>(reached.size()) || out_.different < least_records)
             return;
-        std::vector<bool> seen(out_.motions);
+        std::vector<std::size_t> motion_of(out_.different, out_.motions); // one of each ground motion that was run
         for (const Place& p : places_)
-            seen[p.motion] = true;
+            motion_of[p.ground] = p.motion;
         std::vector<std::string> scaling, features;
         std::vector<std::vector<double>> values;
         for (std::size_t m = 0; m < header_.motions.measures.size(); ++m) {
@@ -313,8 +365,8 @@ private:
             }
             features.push_back(name);
             values.emplace_back();
-            for (std::size_t motion = 0; motion < out_.motions; ++motion)
-                if (seen[motion])
+            for (const std::size_t motion : motion_of)
+                if (motion < out_.motions)
                     values.back().push_back(measured(motion, name));
         }
         try {
@@ -326,6 +378,7 @@ private:
 
     const ResultHeader& header_;
     const Study& study_;
+    MotionGroups groups_;
     std::vector<Place> places_;
     std::vector<Outcome> outcomes_;
     Fragility out_;

@@ -44,6 +44,7 @@ struct Fragility {
     std::string measure; ///< "pgv_m_s"
     FragilityMethod method = FragilityMethod::stripes;
     std::size_t motions = 0, structures = 0; ///< structures under each motion
+    std::size_t different = 0;               ///< ground motions, equal ones counted once
     std::uint64_t valid = 0, invalid = 0;
     std::vector<std::int32_t> motion; ///< (rows) of each realization
     std::vector<double> intensity;    ///< (rows) by the measure

@@ -17,17 +17,22 @@ std::string legend_of(const StateFragility& s)
                        s.fit.p_value < fit_significance ? ", does not fit" : "");
 }
 
+/// A probability with its limits inside 0 to 1; without an interval all three are the value.
+void add_point(double x, double value, const Limits& limits, FigureSeries& to)
+{
+    to.x.push_back(x);
+    to.y.push_back(value);
+    to.low.push_back(std::isnan(limits.lower) ? value : std::max(limits.lower, 0.0));
+    to.high.push_back(std::isnan(limits.upper) ? value : std::min(limits.upper, 1.0));
+}
+
 void add_state(const StateFragility& s, Figure& figure)
 {
     const std::string name = legend_of(s);
     if (has_curve(s)) {
         FigureSeries curve{name, SeriesKind::line, {}, {}, {}, {}, name, "fitted curve"};
-        for (const CurvePoint& at : s.curve.at) {
-            curve.x.push_back(at.intensity[0]);
-            curve.y.push_back(at.probability.value);
-            curve.low.push_back(std::max(at.probability.records.lower, 0.0));
-            curve.high.push_back(std::min(at.probability.records.upper, 1.0));
-        }
+        for (const CurvePoint& at : s.curve.at)
+            add_point(at.intensity[0], at.probability.value, at.probability.records, curve);
         figure.series.push_back(std::move(curve));
     }
     if (!s.stripes)
@@ -35,10 +40,7 @@ void add_state(const StateFragility& s, Figure& figure)
     FigureSeries shares{name, SeriesKind::points, {}, {}, {}, {}, name, "shares of the stripes"};
     FigureSeries monotone{name, SeriesKind::line, {}, {}, {}, {}, name, "monotone curve"};
     for (const StripeShare& stripe : s.stripes->stripes) {
-        shares.x.push_back(stripe.intensity);
-        shares.y.push_back(stripe.share);
-        shares.low.push_back(std::max(stripe.limits.lower, 0.0));
-        shares.high.push_back(std::min(stripe.limits.upper, 1.0));
+        add_point(stripe.intensity, stripe.share, stripe.limits, shares);
         monotone.x.push_back(stripe.intensity);
         monotone.y.push_back(stripe.monotone);
     }

@@ -53,7 +53,8 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
     std::string data, bands, curves;
     const std::vector<const StateFragility*> states = chosen(f, names);
     const auto point = [](double x, double p, const Limits& limits) {
-        return fmt::format("{} {} {} {}\n", x, p, std::max(limits.lower, 0.0), std::min(limits.upper, 1.0));
+        return fmt::format("{} {} {} {}\n", x, p, std::isnan(limits.lower) ? p : std::max(limits.lower, 0.0),
+                           std::isnan(limits.upper) ? p : std::min(limits.upper, 1.0));
     };
     for (std::size_t k = 0; k < states.size(); ++k) {
         const StateFragility& s = *states[k];
@@ -84,8 +85,9 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
                                   k, style.colour, style.point, gnuplot_text(s.state.describe));
     }
     const std::string said =
-        fmt::format("{} motions, {} structures under each · bands and bars: 95 % intervals, clustered by motion",
-                    f.motions, f.structures);
+        fmt::format("{} motions, {} structures under each · {}", f.motions, f.structures,
+                    f.different < least_records ? "too few motions for intervals"
+                                                : "bands and bars: 95 % intervals, clustered by motion");
     const std::string script =
         data + gnuplot_heading(title, said) +
         fmt::format("set logscale x\nset xrange [{}:{}]\n", f.grid.front() * 0.97, f.grid.back() * 1.03) +

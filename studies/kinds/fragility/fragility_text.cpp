@@ -18,6 +18,8 @@ std::string number(double value)
 
 std::string interval(const Limits& limits)
 {
+    if (std::isnan(limits.lower) && std::isnan(limits.upper))
+        return "no interval";
     return fmt::format("{} to {}", number(limits.lower), number(limits.upper));
 }
 
@@ -34,6 +36,12 @@ Json limits_json(const CurveEstimate& e)
         .member("upper", e.records.upper)
         .member("lower_if_runs_were_independent", e.profile_runs.lower)
         .member("upper_if_runs_were_independent", e.profile_runs.upper);
+}
+
+std::string percent_interval(const Limits& limits)
+{
+    return std::isnan(limits.lower) ? "without interval"
+                                    : fmt::format("{} to {}", percent(limits.lower), percent(limits.upper));
 }
 
 /// What a reader must know of a state besides its numbers.
@@ -56,12 +64,23 @@ std::vector<std::string> remarks(const StateFragility& s)
     return all;
 }
 
+/// "20 motions, 4 structures under each"; equal motions are mentioned.
+std::string design_text(const Fragility& f)
+{
+    return fmt::format("{} motion{}{}, {} structure{} under each", f.motions, f.motions == 1 ? "" : "s",
+                       f.different < f.motions ? fmt::format(" ({} different)", f.different) : "", f.structures,
+                       f.structures == 1 ? "" : "s");
+}
+
 std::string share_text(const DispersionShares& shares)
 {
     std::string text;
     for (std::size_t l = 0; l < dispersion_levels; ++l) {
         const DispersionShare& share = shares.levels[l];
-        if (share.known)
+        if (share.known && !std::isfinite(share.share_limits.lower))
+            text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", to_string(static_cast<DispersionLevel>(l)),
+                                100 * share.share);
+        else if (share.known)
             text += fmt::format("{}{} {:.0f} % ({:.0f} to {:.0f})", text.empty() ? "" : ", ",
                                 to_string(static_cast<DispersionLevel>(l)), 100 * share.share,
                                 100 * share.share_limits.lower, 100 * share.share_limits.upper);
@@ -73,9 +92,10 @@ std::string share_text(const DispersionShares& shares)
 
 std::string fragility_text(const Fragility& f)
 {
-    std::string text = fmt::format(
-        "  {} motions, {} structures under each; intensity: {}; in brackets: 95 % intervals, clustered by motion\n",
-        f.motions, f.structures, describe_measure(f.measure));
+    std::string text =
+        fmt::format("  {}; intensity: {}; in brackets: {}\n", design_text(f), describe_measure(f.measure),
+                    f.different < least_records ? "no intervals, as the motions are too few"
+                                                : "95 % intervals, clustered by motion");
     for (const StateFragility& s : f.states) {
         text += fmt::format("  {:<16} {:>6} of {}", s.state.name, s.curve.reached, s.curve.trials);
         if (has_curve(s))
@@ -95,9 +115,8 @@ std::string fragility_text(const Fragility& f)
     }
     for (const SequenceShare& s : f.sequence)
         text += fmt::format("  fallen by the end of shaking {}: {} of all stripes; expected for undamaged structures: "
-                            "{}; difference {} to {}\n",
-                            s.shaking, percent(s.fallen), percent(s.fresh), percent(s.beyond.lower),
-                            percent(s.beyond.upper));
+                            "{}; difference {}\n",
+                            s.shaking, percent(s.fallen), percent(s.fresh), percent_interval(s.beyond));
     for (const std::string& line : f.says)
         text += "  " + line + "\n";
     return text;
@@ -186,6 +205,7 @@ Json fragility_json(const Fragility& f)
     return Json::object()
         .member("measure", f.measure)
         .member("motions", f.motions)
+        .member("different_motions", f.different)
         .member("structures", f.structures)
         .member("states", states)
         .member("measures", measures)
@@ -196,10 +216,13 @@ Json fragility_json(const Fragility& f)
 void fragility_section(const Fragility& f, HtmlPage& page)
 {
     page.section("Fragility");
-    page.paragraph(fmt::format("{} motions, {} structures under each. Intensity: {}. Each curve is a lognormal fit by "
-                               "maximum likelihood. Intervals (95 %) are clustered by motion: runs of one motion are "
-                               "not independent, and intervals that assume independence would be too narrow.",
-                               f.motions, f.structures, describe_measure(f.measure)));
+    page.paragraph(fmt::format(
+        "{}. Intensity: {}. Each curve is a lognormal fit by maximum likelihood. {}", design_text(f),
+        describe_measure(f.measure),
+        f.different < least_records
+            ? "There are no intervals, as the motions are too few."
+            : "Intervals (95 %) are clustered by motion: runs of one motion are not independent, and intervals that "
+              "assume independence would be too narrow."));
     for (const std::string& line : f.says)
         page.box("warn", "Note", line);
     if (!f.states.empty())
@@ -231,8 +254,8 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         HtmlTable table_of{
             "rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
         for (const SequenceShare& s : f.sequence)
-            table_of.rows.push_back({fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh),
-                                     fmt::format("{} to {}", percent(s.beyond.lower), percent(s.beyond.upper))});
+            table_of.rows.push_back(
+                {fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh), percent_interval(s.beyond)});
         page.table(table_of);
         page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
                   "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
@@ -243,9 +266,11 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         if (s.shares) {
             std::vector<Html> row = {s.state.describe};
             for (const DispersionShare& share : s.shares->levels)
-                row.push_back(share.known ? fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share,
-                                                        100 * share.share_limits.lower, 100 * share.share_limits.upper)
-                                          : std::string("with the left"));
+                row.push_back(share.known && f.different < least_records ? fmt::format("{:.0f} %", 100 * share.share)
+                              : share.known
+                                  ? fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share,
+                                                100 * share.share_limits.lower, 100 * share.share_limits.upper)
+                                  : std::string("with the left"));
             shares.rows.push_back(std::move(row));
         }
     page.table(shares);

@@ -209,7 +209,7 @@ TEST(Plausible, AccelerationOfASineAgainstItsVelocity)
     const Study surface = read_study(root / "studies/inputs/small_scale_column.toml",
                                      {"surface.pga_m_s2={ from = 100, to = 1200, count = 16 }"});
     EXPECT_EQ(verdict(surface, "pga"), "refuses");
-    EXPECT_NE(text_of(surface, "pga").find("Did you mean cm/s2 (12 m/s2)?"), std::string::npos)
+    EXPECT_NE(text_of(surface, "pga").find("Did you mean cm/s2 (12 m/s2) or mm/s2 (1.2 m/s2)?"), std::string::npos)
         << text_of(surface, "pga");
 }
 
@@ -265,9 +265,59 @@ TEST(Plausible, SizesAndStiffnessPerDepth)
     EXPECT_EQ(bed("0.048", "4.9e11"), "warns");
 
     const std::string tall = "[structure]\nblocks = 4\ndrum_width_m = 3\ndepth_m = 3\ndensity_kg_m3 = 2700\n"
-                             "drum_height_m = 7.4\n[contact]\nnormal_stiffness_n_m2 = 1e11\nfriction = 0.7\n";
+                             "drum_height_m = 8.7\n[contact]\nnormal_stiffness_n_m2 = 1e11\nfriction = 0.7\n";
     EXPECT_EQ(verdict(read(sine + tall), "size", {}, {"first_frequency"}), "");
-    EXPECT_EQ(verdict(read(sine + tall, {"structure.drum_height_m=7.6"}), "size", {}, {"first_frequency"}), "warns");
+    EXPECT_EQ(verdict(read(sine + tall, {"structure.drum_height_m=8.8"}), "size", {}, {"first_frequency"}), "warns");
+}
+
+TEST(Plausible, ObelisksAreHigh)
+{
+    const std::string obelisk = "[structure]\nblocks = 1\ndrum_width_m = 2.8\ndepth_m = 2.8\ndensity_kg_m3 = 2700\n"
+                                "drum_height_m = 32\n[contact]\nnormal_stiffness_n_m2 = 1e11\nfriction = 0.7\n";
+    EXPECT_EQ(verdict(read(sine + obelisk), "size", {}, {"first_frequency"}), "") << "Lateran obelisk";
+    const Study wide = read(sine + obelisk, {"structure.drum_width_m=12"});
+    EXPECT_EQ(verdict(wide, "size", {}, {"first_frequency"}), "warns");
+    EXPECT_NE(text_of(wide, "size").find("12 mm would be 0.012 m, 12 cm would be 0.12 m"), std::string::npos);
+}
+
+TEST(Plausible, MotionsOfASet)
+{
+    Study study = read(noise + drums);
+    study.fragility = FragilitySpec{};
+    study.fragility->motions = 9;
+    study.fragility->measure = IntensityMeasure::arias;
+    const auto found = [&](const std::string& check, const StudyFacts& facts) {
+        for (const Doubt& doubt : doubts(study, facts))
+            if (doubt.check == check)
+                return (doubt.refused ? "refuses: " : "warns: ") + doubt.text;
+        return std::string();
+    };
+    StudyFacts facts;
+    facts.scaled = {{"a.AT2", 10}, {"b.AT2", 0.01}};
+    EXPECT_EQ(found("scale", facts), "");
+    facts.scaled = {{"a.AT2", 10.1}, {"b.AT2", 357}, {"c.AT2", 2}};
+    const std::string scale = found("scale", facts);
+    EXPECT_TRUE(scale.starts_with("warns: 2 of 3 motions")) << scale;
+    EXPECT_NE(scale.find("b.AT2 (factor 357) and a.AT2 (factor 10.1)"), std::string::npos) << scale;
+
+    facts.equal_motions = {{"a", "b", "c"}, {"x", "y"}};
+    const std::string equal = found("equal_motions", facts);
+    EXPECT_NE(equal.find("a, b and c; x and y. 3 of the 9 motions are"), std::string::npos) << equal;
+
+    facts.vertical_motions = {"v.AT2"};
+    EXPECT_TRUE(found("direction", facts).starts_with("refuses: Vertical component would shake")) << "a vertical one";
+    facts.vertical_motions.clear();
+    facts.vertical_motion = "h.AT2";
+    EXPECT_TRUE(found("direction", facts).starts_with("warns: The vertical motion h.AT2")) << "no vertical one";
+
+    EXPECT_EQ(found("left_out", facts), "");
+    study.fragility->left_out = {"x.VT2"};
+    EXPECT_NE(found("left_out", facts).find("1 file or component of fragility.folder is no horizontal"),
+              std::string::npos)
+        << found("left_out", facts);
+    study.allow = {"scale", "equal_motions", "direction", "left_out"};
+    for (const std::string& check : study.allow)
+        EXPECT_EQ(found(check, facts), "") << check;
 }
 
 TEST(Plausible, FrictionAndDamping)

@@ -122,9 +122,15 @@ TEST(StudyExcitation, RefusesSyntheticExcitationsThatMakeNoSense)
     refused(sweep + "from_hz = 2\nto_hz = 2\nduration_s = 9", 4, {"is from_hz too", "harmonic"});
     refused(sweep + "from_hz = 1\nto_hz = 2\nduration_s = 2", 5, {"does not fit", "longer duration_s"});
     refused(sweep + "from_hz = 100\nto_hz = 900\nduration_s = 100", 5, {"cycles, more than 10000"});
+    refused(sweep + "from_hz = 1\nto_hz = 2\nramp_cycles = 1e-9\nduration_s = 0.01", 6, {"makes 0.015 cycles"});
+    refused("kind = \"harmonic\"\nstart = \"abrupt\"\nend = \"abrupt\"\n" + at + "cycles = 0.01", 6,
+            {"excitation.cycles = 0.01 is outside [0.1, 10000]", "no motion"});
     refused(sweep + "frequency_hz = 1", 3, {"not used by excitation.kind = \"sweep\"", "from_hz"});
     refused("kind = \"noise\"\nfrequency_hz = 40\npga_m_s2 = 1", 2, {"outside [0.05, 25]", "ground"});
-    refused(noise + "ground_damping_ratio = 60", 4, {"outside [0.05, 0.95]", "Did you mean 0.600?"});
+    refused(noise + "ground_damping_ratio = 60", 4, {"outside [0.05, 0.95]", "Did you mean 0.600 (60 %)?"});
+    // a burst without a sample, and one of less than 20
+    refused(noise + "strong_s = 0\nrise_s = 1e-9\ndecay_s = 1e-9", 4, {"strong_s = 0 gives noise of 6e-09 s", "0.1 s"});
+    refused(noise + "rise_s = 0.01\ndecay_s = 0.005\nstrong_s = 0.06", 6, {"noise of 0.095 s", "too few samples"});
     refused(noise + "rise_s = 0", 4, {"outside (0, 60]"});
     refused(noise + "pga_of = \"median\"", 4, {"\"realization\", \"mean\""});
     refused(noise + "phase_rad = 1", 4, {"not used by excitation.kind = \"noise\""});

@@ -242,12 +242,14 @@ TEST(StudyFile, RefusesMissingKeys)
 
 TEST(StudyFile, RefusesValuesOutOfRange)
 {
-    expect_line_refused(
-        8, "drum_height_m = 1450",
-        {"structure.drum_height_m = 1450 is outside (0, 10].", "\n  Lengths are in metres. Did you mean 1.450?"});
-    expect_line_refused(7, "drum_width_m = 48", {"is outside (0, 10]", "Did you mean 0.048?"});
-    expect_line_refused(7, "drum_width_m = 0", {"structure.drum_width_m = 0 is outside (0, 10]"});
-    expect_line_refused(7, "drum_width_m = -0.048", {"= -0.048 is outside (0, 10]"});
+    expect_line_refused(8, "drum_height_m = 1450",
+                        {"structure.drum_height_m = 1450 is outside (0, 40].",
+                         "\n  Lengths are in metres. Did you mean 1.450 (1450 mm) or 14.500 (1450 cm)?"});
+    expect_line_refused(7, "drum_width_m = 155", {"Did you mean 0.155 (155 mm) or 1.550 (155 cm)?"});
+    expect_line_refused(7, "drum_width_m = 35000", {"Did you mean 35.000 (35000 mm)?"});
+    expect_line_refused(7, "drum_width_m = 48", {"is outside (0, 40]", "Did you mean 0.048 (48 mm) or 0.480 (48 cm)?"});
+    expect_line_refused(7, "drum_width_m = 0", {"structure.drum_width_m = 0 is outside (0, 40]"});
+    expect_line_refused(7, "drum_width_m = -0.048", {"= -0.048 is outside (0, 40]"});
     expect_line_refused(7, "drum_width_m = nan", {"= nan is outside"});
     expect_line_refused(7, "drum_width_m = inf", {"= inf is outside"});
     expect_line_refused(5, "blocks = 0", {"[1, 200]"});
@@ -263,7 +265,8 @@ TEST(StudyFile, RefusesValuesOutOfRange)
     expect_line_refused(10, "density_kg_m3 = 2.7e6", {"outside (0, 30000]"});
     expect_line_refused(12, "normal_stiffness_n_m2 = 1e16", {"(0, 1e+15]", "N/m2"});
     expect_line_refused(12, "normal_stiffness_n_m2 = 0", {"(0, 1e+15]"});
-    expect_line_refused(13, "friction = 68", {"contact.friction = 68 is outside (0, 10]", "Did you mean 0.680?"});
+    expect_line_refused(13, "friction = 68",
+                        {"contact.friction = 68 is outside (0, 10]", "Did you mean 0.680 (68 %)?"});
     expect_line_refused(16, "cycles = 3", {"excitation.cycles = 3", "two ramps of 2 cycles"});
     expect_line_refused(18, "frequency_hz = { from = 0, to = 8, count = 5 }", {"surface.frequency_hz.from = 0", "Hz"});
     expect_line_refused(18, "frequency_hz = { from = 9, to = 8, count = 5 }", {"from = 9 is above to = 8"});
@@ -379,6 +382,13 @@ TEST(StudyFile, RefusesPerturbationsThatLeaveThePhysicalRange)
                         {"perturbation.friction.min = 5", "one draw in a million", "0.68"});
     expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0.1, min = 0.7, max = 0.6 }",
                         {"min = 0.7 is not below max = 0.6"});
+    // of the end that is wrong: the nominal value is 0.68
+    expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0.02, min = 0.1, max = 0.5 }",
+                        {"perturbation.friction.max = 0.5 leaves", "nominal value in [contact] is 0.68"});
+    expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0.02, min = 0.9, max = 1.0 }",
+                        {"perturbation.friction.min = 0.9 leaves"});
+    expect_line_refused(21, "drum_width = { distribution = \"normal\", sd_m = 0.0001, max = 0.01 }",
+                        {"perturbation.drum_width.max = 0.01 leaves", "nominal value in [structure] is"});
     expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0 }", {"cov = 0 is outside (0, 5]"});
     expect_line_refused(21, "friction = { distribution = \"normal\" }", {"perturbation.friction.sd is missing", "cov"});
     expect_line_refused(21, "friction = { distribution = \"normal\", sd = 0.1, cov = 0.1 }", {"exclude each other"});
@@ -387,7 +397,7 @@ TEST(StudyFile, RefusesPerturbationsThatLeaveThePhysicalRange)
     expect_line_refused(21, "damping_ratio = { distribution = \"log_uniform\", from = 0, to = 0.3 }",
                         {"perturbation.damping_ratio.from = 0 is outside (0, 2]"});
     expect_line_refused(21, "drum_offset = { distribution = \"normal\", sd_m = 0.24 }",
-                        {"sd_m = 0.24 is outside (0, 0.048]", "Did you mean 0.00024?"});
+                        {"sd_m = 0.24 is outside (0, 0.048]", "Did you mean 0.00024 (0.24 mm) or 0.0024 (0.24 cm)?"});
     expect_line_refused(21, "drum_offset = { distribution = \"normal\", cov = 0.1 }", {"drum_offset.cov", "not used"});
     expect_line_refused(21, "phase = { distribution = \"uniform\", from = 1 }", {"perturbation.phase.to is missing"});
 }

@@ -82,7 +82,7 @@ std::vector<std::string> samples()
     const std::string surface = "[study]\nkind = \"surface\"\nrealizations = 40\n" + drums + contact;
     const std::string fragility = "[study]\nkind = \"fragility\"\nrealizations = 4\n" + drums + contact;
     std::string records = "records = [";
-    for (int i = 0; i < fewest_motions; ++i)
+    for (int i = 0; i < 8; ++i)
         records += "{ file = \"a" + std::to_string(i) + "\" }, ";
     records += "]\n";
     std::vector<std::string> all = {
