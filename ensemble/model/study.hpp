@@ -196,7 +196,7 @@ struct FragilitySpec {
     std::vector<RecordSpec> records; ///< of an excitation "record", else none
     /// Files of the folder that hold no accelerations, and its vertical components: not part of the study, for
     /// messages.
-    std::vector<std::string> left_out;
+    std::vector<std::string> left_out = {};
     int motions = 0; ///< those of the records, or as many drawn from the seed
     IntensityMeasure measure = IntensityMeasure::pga;
     double period_s = 1; ///< of `sa`

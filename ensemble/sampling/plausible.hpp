@@ -24,10 +24,10 @@ struct StudyFacts {
         std::string name;
         double factor = 1; ///< the largest that the study applies to the acceleration of this motion
     };
-    std::vector<Scaled> scaled;                          ///< motions from files
-    std::vector<std::vector<std::string>> equal_motions; ///< names of motions from files with the same samples
-    std::vector<std::string> vertical_motions;           ///< vertical components that shake the base horizontally
-    std::string vertical_motion;                         ///< the vertical motion, where it is a horizontal component
+    std::vector<Scaled> scaled = {};                          ///< motions from files
+    std::vector<std::vector<std::string>> equal_motions = {}; ///< names of motions from files with the same samples
+    std::vector<std::string> vertical_motions = {};           ///< vertical components that shake the base horizontally
+    std::string vertical_motion = {}; ///< the vertical motion, where it is a horizontal component
 };
 
 /// What one check has found.

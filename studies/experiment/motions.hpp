@@ -20,9 +20,9 @@ MotionTable motion_table(const MotionSet& set);
 /// The motions of a fragility study by ground motion. Runs under equal motions are not independent, and count as runs
 /// under one.
 struct MotionGroups {
-    std::size_t cells = 0;          ///< of one motion: its stripes; 0: the study has no motions
-    std::size_t groups = 0;         ///< different ground motions
-    std::vector<std::size_t> group; ///< (motions) the ground motion of each, numbered in their order
+    std::size_t cells = 0;               ///< of one motion: its stripes; 0: the study has no motions
+    std::size_t groups = 0;              ///< different ground motions
+    std::vector<std::size_t> group = {}; ///< (motions) the ground motion of each, numbered in their order
 
     std::size_t of_cell(std::size_t cell) const { return group.at(cell / cells); }
 };
