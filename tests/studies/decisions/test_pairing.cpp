@@ -43,7 +43,10 @@ struct Sides {
         : study(parse_study(text, "study.toml")), base(study, header), variant(study, header)
     {
     }
-    VariantComparison compared() const { return compare_sides(base, names, variant, names, pair_layout(study, 0.95)); }
+    VariantComparison compared() const
+    {
+        return compare_sides(base, names, variant, names, pair_layout(study, {}, 0.95));
+    }
 
     Study study;
     ResultHeader header;
@@ -82,7 +85,7 @@ TEST(Pairing, OfASearchIsOverWhatIsValidEverywhere)
 {
     for (const std::string& text : {surface, fragility}) {
         Sides s(text);
-        const PairLayout layout = pair_layout(s.study, 0.95);
+        const PairLayout layout = pair_layout(s.study, {}, 0.95);
         const SearchObjective objective({}, "study.toml", s.study, 0.95);
         const std::uint64_t all = s.base.size();
         for (std::uint64_t index = 0; index < all; ++index) {

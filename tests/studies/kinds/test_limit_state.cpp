@@ -125,7 +125,8 @@ TEST(LimitState, IntervalsAreJeffreys)
 /// Of a fragility study each motion counts once: thirty runs under one of two motions are not thirty observations.
 TEST(LimitState, RunsUnderOneMotionAreNotIndependent)
 {
-    LimitCounts counts(5, 2), alone(5);
+    MotionGroups motions{2, 10, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
+    LimitCounts counts(5, motions), alone(5);
     for (std::uint64_t cell = 0; cell < 20; ++cell) // ten motions of two cells
         for (int run = 0; run < 15; ++run) {
             ResultRow row = cell < 6 ? row_of(State::collapsed, {-1, 2, -1, -1, 3}) : row_of(State::stood, {});
@@ -143,6 +144,23 @@ TEST(LimitState, RunsUnderOneMotionAreNotIndependent)
     EXPECT_EQ(counts.share_fallen(0).count, 0U);
     EXPECT_EQ(alone.interval(), interval_name());
     EXPECT_GT(alone.share(LimitState::collapse).lower, 0.24);
+
+    // two that are equal are one: 3 of 9; of seven there is no interval
+    motions.group[9] = 8;
+    motions.groups = 9;
+    LimitCounts equal(5, motions);
+    MotionGroups seven{2, 7, {0, 1, 2, 3, 4, 5, 6, 6, 6, 6}};
+    LimitCounts few(5, seven);
+    for (std::uint64_t cell = 0; cell < 20; ++cell)
+        for (LimitCounts* each : {&equal, &few}) {
+            ResultRow row = row_of(cell < 6 ? State::collapsed : State::stood, {});
+            row.cell = cell;
+            each->add(row);
+        }
+    EXPECT_GT(equal.share(LimitState::collapse).upper, 0.6525);
+    EXPECT_EQ(few.share(LimitState::collapse).probability, 0.3);
+    EXPECT_TRUE(std::isnan(few.share(LimitState::collapse).lower));
+    EXPECT_EQ(few.interval(), "none");
 }
 
 /// Where nothing has fallen yet the share is not known to be 0.
