@@ -122,7 +122,7 @@ inline const TextKey component{"component",
 inline const TextKey unit{
     "unit",
     "unit of the record's acceleration",
-    {.absent = "as the file says", .used = {for_motions({Motion::record}), no_list}, .words = acceleration_units}};
+    {.absent = "as in the file", .used = {for_motions({Motion::record}), no_list}, .words = acceleration_units}};
 inline const NumberKey scale_to_pga{"scale_to_pga_m_s2",
                                     acceleration_range,
                                     "PGA to which the motion is scaled",

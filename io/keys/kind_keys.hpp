@@ -39,9 +39,9 @@ inline const AxisKey pga{
     "pga_m_s2", "PGA of the motion, np values", acceleration_range, {"1.0", "8.0", "8", "\"linear\""}};
 inline const TableKey adaptive{
     "adaptive",
-    "realizations where they are needed, instead of as many in each cell",
+    "realizations where they are needed, instead of equal numbers in each cell",
     {&adaptive_keys::budget, &adaptive_keys::minimum, &adaptive_keys::half_width, &adaptive_keys::pooled},
-    {.absent = "as many in each cell", .used = {in_studies({StudyKind::surface})}}};
+    {.absent = "equal numbers in each cell", .used = {in_studies({StudyKind::surface})}}};
 inline const TableKey table{"surface",
                             "the axes of a surface: every frequency with every PGA",
                             {&frequency, &pga, &adaptive},
@@ -110,7 +110,7 @@ inline const WordKey<FragilityMethod> method{"method", fragility_method_names, F
 inline const TextKey file{"file", "the record: a path relative to the study file", {.example = "\"record.at2\""}};
 inline const TextKey component{"component", "which one, where the file has several", {.absent = "the only one"}};
 inline const TextKey record_unit{
-    "unit", "unit of its acceleration", {.absent = "as the file says", .words = acceleration_units}};
+    "unit", "unit of its acceleration", {.absent = "as in the file", .words = acceleration_units}};
 inline const TableKey records{"records",
                               "the records; fewer than 8 give shares without intervals; or give `folder`",
                               {&file, &component, &record_unit},
@@ -124,7 +124,7 @@ inline const TextKey pattern{
     "pattern", "names of the files in the folder, as a shell pattern", {.absent = "\"*\"", .used = {recorded}}};
 inline const TextKey unit{"unit",
                           "unit of the accelerations of the files in the folder",
-                          {.absent = "as each file says", .used = {recorded}, .words = acceleration_units}};
+                          {.absent = "as in each file", .used = {recorded}, .words = acceleration_units}};
 inline const WholeKey motions{"motions",
                               {1, most_motions,
                                "Motions drawn from the seed. The interval of a curve is estimated from their scatter: "

@@ -15,7 +15,7 @@ namespace vertical_keys {
 inline const TextKey file{"file", "record of the vertical motion; excludes `ratio`", {.absent = "by `ratio`"}};
 inline const TextKey component{"component", "which one, where the file has several", {.absent = "the only one"}};
 inline const TextKey unit{
-    "unit", "unit of its acceleration", {.absent = "as the file says", .words = acceleration_units}};
+    "unit", "unit of its acceleration", {.absent = "as in the file", .words = acceleration_units}};
 inline const BooleanKey baseline{"baseline", VerticalSpec{}.baseline, "correct the baseline of the vertical record"};
 
 } // namespace vertical_keys

@@ -136,10 +136,10 @@ inline const NumberKey step{"step_s",
                             {.absent = "from step_fraction"}};
 inline const NumberKey accuracy{"accuracy",
                                 {0.001, 0.2, false, "A difference of probabilities.", from_percent},
-                                "what the numerics may change in a collapse probability: those that the study does "
+                                "largest change of a collapse probability by the numerics: those that the study does "
                                 "not give are chosen for it (form and stiffness of the contacts, step, step_bound, "
                                 "precision), or the study is refused; excludes step_s and step_fraction",
-                                {.absent = "not asked for"}};
+                                {.absent = "none"}};
 inline const BooleanKey allow_step_above_bound{"allow_step_above_bound",
                                                RunSpec{}.allow_step_above_bound,
                                                "run even with a step above the largest safe one",
