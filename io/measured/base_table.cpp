@@ -52,10 +52,11 @@ void check_names(const RecordText& text, const ColumnTable& table)
 void check_peak(const Motion& motion, const std::filesystem::path& file)
 {
     if (!(motion.pga_m_s2 <= largest_pga_m_s2))
-        throw InputError(file.string(), 0,
-                         fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
-                                     "wrong, or displacements have too few digits.",
-                                     motion.pga_m_s2, largest_pga_m_s2));
+        throw InputError(
+            file.string(), 0,
+            fmt::format("the motion has a peak acceleration of {:.4g} m/s2, more than {}: a unit is "
+                        "wrong, or displacements have too few digits.\n  If it is right: study.allow = [\"pga\"].",
+                        motion.pga_m_s2, largest_pga_m_s2));
 }
 
 Motion of_campaign(const std::filesystem::path& file, const std::string& run)
@@ -70,7 +71,7 @@ Motion of_campaign(const std::filesystem::path& file, const std::string& run)
     throw InputError(file.string(), 0, fmt::format("has no run \"{}\". It has: {}.", run, fmt::join(names, ", ")));
 }
 
-Motion of_columns(const std::filesystem::path& file)
+Motion of_columns(const std::filesystem::path& file, bool any_pga)
 {
     const std::string content = content_of(file, "a table of the base motion");
     const RecordText text = lines_of(file.string(), content);
@@ -98,22 +99,23 @@ Motion of_columns(const std::filesystem::path& file)
         run.base_acceleration_m_s2.values = *acceleration;
         run.base_displacement_m.values = *displacement;
         Motion motion = base_motion_of(run);
-        check_peak(motion, file);
+        if (!any_pga)
+            check_peak(motion, file);
         return motion;
     }
     Motion motion =
         motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
-    if (!acceleration) // a base that is hit is faster than any ground
+    if (!acceleration && !any_pga) // a base that is hit is faster than any ground
         check_peak(motion, file);
     return motion;
 }
 
 } // namespace
 
-Motion read_base_table(const std::filesystem::path& file, const std::string& run)
+Motion read_base_table(const std::filesystem::path& file, const std::string& run, bool any_pga)
 {
-    Motion motion = run.empty() ? of_columns(file) : of_campaign(file, run);
-    if (!run.empty())
+    Motion motion = run.empty() ? of_columns(file, any_pga) : of_campaign(file, run);
+    if (!run.empty() && !any_pga)
         check_peak(motion, file);
     if (!(motion.predominant_frequency_hz > 0))
         motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);

@@ -123,7 +123,7 @@ Motions motions_of(const Study& study, const Record* record)
             record ? *record : read_record(excitation.file, excitation.component, excitation.unit, study.allows("pga")),
             excitation.baseline, excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table)
-        motions.record = read_base_table(excitation.file, excitation.run);
+        motions.record = read_base_table(excitation.file, excitation.run, study.allows("pga"));
     if (const std::optional<VerticalSpec>& spec = study.vertical)
         motions.vertical =
             make_motion(read_record(spec->file, spec->component, spec->unit, study.allows("pga")), spec->baseline);

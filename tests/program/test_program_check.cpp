@@ -49,6 +49,23 @@ TEST_F(Check, RefusesAnAccuracyThatNoChoiceReaches)
     EXPECT_NE(ended.err.find("is not reached by any stiffness"), std::string::npos) << ended.err;
 }
 
+/// 0.05 to 0.6 m/s2 are 0.05 to 0.6 g: `check`, `run`, `info` and the results all say so.
+TEST_F(Check, AWeakShakingIsSaidByEveryVerb)
+{
+    const Words in_g = {"surface.pga_m_s2={from=0.05,to=0.6,count=2}", "surface.frequency_hz.count=1",
+                        "study.realizations=2"};
+    const std::string name = "Did you mean g (0.6 g is 5.884 m/s2)?", monolith = input("small_scale_monolith");
+    const JsonValue warnings = json_of(look("small_scale_monolith", in_g))["warnings"];
+    ASSERT_EQ(warnings.items.size(), 1U);
+    EXPECT_NE(warnings.items[0].text.find(name), std::string::npos) << warnings.items[0].text;
+    const Ended info = run(with({"info", monolith}, in_g));
+    EXPECT_NE(info.out.find(name), std::string::npos) << info.out;
+    const Ended ran = run(with({"run", monolith, "-o", "weak.h5"}, in_g));
+    EXPECT_EQ(ran.status, 0) << testing::PrintToString(ran);
+    EXPECT_NE(ran.err.find(name), std::string::npos) << ran.err;
+    EXPECT_NE(run({"info", "weak.h5"}).out.find(name), std::string::npos);
+}
+
 TEST_F(Check, TellsWhatWillBeRun)
 {
     const JsonValue surface = json_of(look("small_scale_column"));

@@ -361,6 +361,13 @@ TEST_F(MotionSets, OfPublicKinds)
     EXPECT_EQ(motion_groups(same.study(), same.result_header().motions).groups, 1U);
     EXPECT_NE(doubt(same, "equal_motions"), "");
 
+    std::string single = text("").substr(0, text("").find("[fragility]"));
+    single.replace(single.find("fragility"), 9, "single").replace(single.find("realizations = 2\n"), 17, "");
+    single += "file = \"" + fs::canonical(cases / "physics/double_impulse.csv").string() + "\"\n";
+    single.replace(single.find("\"record\""), 8, "\"table\"");
+    EXPECT_THROW(load(single), InputError);
+    EXPECT_NO_THROW(load(single, {"study.allow=[\"pga\"]"}).warnings("study.toml"));
+
     fs::create_directories(folder / "unam");
     fs::copy_file(cases / "vertical/asa_as_unam.asa", folder / "unam" / "a.asa");
     EXPECT_EQ(load(text("folder = \"unam\"")).study().fragility->motions, 2);
