@@ -59,7 +59,7 @@ public:
                     if (finish(lanes, lane, compliant))
                         refill(lanes, lane);
                 step(compliant, lanes.active() == 0);
-                report(false);
+                report(false, &lanes);
             }
         });
     }
@@ -211,7 +211,8 @@ private:
     }
 
     /// Reports to the observer, at most ten times a second except for the last time, and polls whether to go on.
-    void report(bool last)
+    /// @param lanes of the thread that reports; null: not known
+    void report(bool last, const LaneSet* lanes = nullptr)
     {
         const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
         if (!last && seconds < next_report_)
@@ -227,6 +228,8 @@ private:
         const DoneSet::Part sample = done_.sample(places_.begin);
         if (sample.end > 0)
             estimate_share(progress_, sample.done(places_.begin) - sample.invalid, sample.collapsed);
+        if (lanes != nullptr)
+            progress_.furthest = lanes->furthest();
         observer_.progress(progress_);
         if (observer_.stop_requested())
             stopped_ = true;

@@ -555,6 +555,17 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
     place.outcome = o;
 }
 
+SimulatedTime LaneSet::furthest() const
+{
+    SimulatedTime furthest;
+    for (const Place& place : places_) {
+        const double reached = static_cast<double>(place.watch.steps) * place.watch.step_s;
+        if (place.busy && reached > furthest.reached_s)
+            furthest = {reached, static_cast<double>(place.watch.last_step) * place.watch.step_s};
+    }
+    return furthest;
+}
+
 Snapshot LaneSet::snapshot(int lane) const
 {
     const Realization& r = realization(lane);

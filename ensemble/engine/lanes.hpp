@@ -5,6 +5,7 @@
 #include "ensemble/engine/rigid_order.hpp"
 #include "ensemble/engine/single_bundle.hpp"
 #include "ensemble/engine/watch.hpp"
+#include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/base_motion.hpp"
@@ -107,6 +108,8 @@ public:
     /// Takes its state and its watch over from a column.
     void read_column(int lane, const double* column);
     std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
+    /// Of the realizations at work, the one that is furthest in simulated time.
+    SimulatedTime furthest() const;
     /// The check after `done` steps of a chunk, as `advance` does it; every `check_steps` there is one.
     void check(int lane, int done);
     /// What its base goes along (`BaseMotion::along_shared_samples`).

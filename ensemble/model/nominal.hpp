@@ -19,6 +19,6 @@ std::vector<double> nominal_restitution(const Study& study, const Layout& layout
 /// `tail_after_shaking` (base_motion.hpp) of the structure as it is given, nothing drawn [s].
 double nominal_tail_s(const StructureSpec& structure);
 /// So many times longer a realization may be simulated until it lies still (`Tail::rest`).
-inline constexpr double rest_tails = 5;
+inline constexpr double rest_tails = 20;
 
 } // namespace stylobate

@@ -7,6 +7,11 @@
 
 namespace stylobate {
 
+/// How far a realization is that has not ended [s].
+struct SimulatedTime {
+    double reached_s = 0, latest_end_s = 0; ///< 0: not known
+};
+
 struct Progress {
     std::uint64_t done = 0;        ///< realizations that have ended, those of an earlier part of the run counted
     std::uint64_t total = 0;       ///< of the study, or the most that it can take
@@ -16,6 +21,7 @@ struct Progress {
     double seconds = 0;            ///< since this run began
     double rate = 0;               ///< realizations per second of this run
     double occupancy = 0;          ///< part of the lanes that worked on a realization
+    SimulatedTime furthest;        ///< of those that run now, the one that is furthest
     /// Share of the collapse in the whole study, as estimated from a fair sample of it, and its 95 % interval; NaN:
     /// nothing is known yet.
     double share = std::numeric_limits<double>::quiet_NaN();

@@ -607,9 +607,9 @@ double first_frequency_hz(const Study& study)
 
 std::optional<StaticLimit> static_limit(const Study& study)
 {
-    constexpr std::ptrdiff_t most_blocks = 60;
     Realization r = still_realization(study);
-    if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) > most_blocks)
+    if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) >
+        most_static_limit_blocks)
         return std::nullopt;
     StaticLimit limit;
     try {

@@ -60,8 +60,9 @@ struct StaticLimit {
     double limit_m_s2 = 0;   ///< with the friction of the study
     double rough_m_s2 = 0;   ///< with a tenth more of it
 };
-/// Nothing for more than 60 free blocks, for which the dense linear programme is slow, and where rigid blocks cannot
-/// rest. @throws InputError as `lay_out`
+inline constexpr std::ptrdiff_t most_static_limit_blocks = 60;
+/// Nothing for more free blocks than `most_static_limit_blocks`, for which the dense linear programme is slow, and
+/// where rigid blocks cannot rest. @throws InputError as `lay_out`
 std::optional<StaticLimit> static_limit(const Study& study);
 
 } // namespace stylobate

@@ -141,15 +141,15 @@ inline const ListKey band_pass{"band_pass_hz",
                                corner_range,
                                "corners of a band-pass filter",
                                {.absent = "no filter", .used = {for_motions({Motion::record})}}};
-inline const NumberKey tail{"tail_s",
-                            tail_range,
-                            "longest simulated time after the shaking",
-                            {.absent = "\"rest\" where the kind of study reports residual displacements (single, "
-                                       "sensitivity, fragility with residual_limits): until the realization lies "
-                                       "still, at most 60 / p; else \"structure\": 12 / p, p = sqrt(3 g / (4 R)) of "
-                                       "the whole column of each realization, R half its diagonal",
-                             .used = {moving},
-                             .words = {tail_names[0].word, tail_names[1].word}}};
+inline const NumberKey tail{
+    "tail_s",
+    tail_range,
+    "longest simulated time after the shaking",
+    {.absent = "\"rest\" in studies that count residual displacements (sensitivity, fragility with residual_limits): "
+               "until the realization lies still, at most 240 / p; else \"structure\": 12 / p, p = sqrt(3 g / (4 R)) "
+               "of the whole column of each realization, R half its diagonal",
+     .used = {moving},
+     .words = {tail_names[0].word, tail_names[1].word}}};
 
 inline const TableKey table{
     "excitation",

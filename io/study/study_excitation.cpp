@@ -142,7 +142,7 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
 void read_tail(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
 {
     const TomlValue* tail = keys.find(excitation_keys::tail.name);
-    const bool reports = kind == StudyKind::single || kind == StudyKind::sensitivity || kind == StudyKind::fragility;
+    const bool reports = kind == StudyKind::sensitivity || kind == StudyKind::fragility;
     if (tail == nullptr)
         e.tail = reports ? Tail::rest : Tail::structure;
     else if (const auto* word = std::ranges::find_if(

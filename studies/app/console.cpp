@@ -87,6 +87,11 @@ std::string progress_line(const Progress& p)
     if (p.rate > 0 && p.done < end)
         line += fmt::format(", {}{} left", p.open_end ? "about " : "",
                             duration_text(static_cast<double>(end - p.done) / p.rate));
+    if (const SimulatedTime& t = p.furthest; p.done == 0 && t.reached_s > 0) { // a realization takes long
+        line += fmt::format(", {:.3g} of at most {:.3g} s simulated", t.reached_s, t.latest_end_s);
+        if (p.seconds > 0 && p.total == 1)
+            line += fmt::format(", at most {} left", duration_text((t.latest_end_s / t.reached_s - 1) * p.seconds));
+    }
     if (!std::isnan(p.share))
         line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})", 100 * p.share, 100 * p.share_lower,
                             100 * p.share_upper);

@@ -69,13 +69,16 @@ std::string trial_text(const CheckReport& r)
     if (shares.valid > 0)
         text += fmt::format("; {:.3g} of them collapsed",
                             static_cast<double>(shares.collapsed) / static_cast<double>(shares.valid));
-    if (!r.time) {
-        text +=
-            fmt::format("\ntime: unknown. Not all of the first realizations ended in the trial; give a longer one by "
-                        "--trial-seconds.\n");
-        return text;
-    }
+    if (!r.time)
+        return text + "\ntime: unknown. The trial was stopped.\n";
     const RunTime& time = *r.time;
+    if (trial.unfinished)
+        return text +
+               fmt::format("\ntime: at most {}: {} steps in a realization, at {} steps a second with each thread. "
+                           "Not all of the first realizations ended in the trial; a longer one (--trial-seconds) "
+                           "shows how soon they end.\n",
+                           seconds_text(time.range_s().high), between_text(time.steps, "{:.3g}"),
+                           rate_text(1 / trial.lane_s_per_step));
     text += fmt::format("; {} steps each\n", between_text(time.steps, "{:.0f}"));
     const Between range = time.range_s();
     if (time.at_most)
@@ -154,10 +157,17 @@ std::string check_text(const CheckReport& r)
     if (const std::optional<std::uint64_t> n = counted_trials(study))
         text += fmt::format("interval: a probability near 1/2 that is counted of {} is open by ±{:.2g} (95 %)\n", *n,
                             worst_half_width(*n));
+    if (const std::optional<FirstMode>& mode = r.free.mode)
+        text += fmt::format("first mode: {:.3g} Hz, damping ratio {:.2g} % (contacts closed, nothing drawn)\n",
+                            mode->frequency_hz, 100 * mode->damping_ratio);
+    if (r.free.decay)
+        text += fmt::format("free rocking: {}\n", decay_text(*r.free.decay));
     for (const WeakSpot& spot : r.weak)
         text += fmt::format("weak: {}: {}\n  {}\n", spot.name, spot.text, spot.todo);
     if (r.weak.empty())
         text += "weak: nothing was found.\n";
+    for (const std::string& line : r.not_looked_for)
+        text += fmt::format("not looked for: {}\n", line);
     if (r.pilot)
         text += pilot_text(r);
     else
@@ -215,7 +225,20 @@ Json check_json(const CheckReport& r)
                                 .member("processor_seconds", r.time->processor_s)
                                 .member("block_steps", r.time->block_steps)
                                 .member("steps", between_json(r.time->steps)));
-    json.member("warnings", Json::list(r.warnings)).member("weak_spots", weak);
+    if (const std::optional<FirstMode>& mode = r.free.mode)
+        json.member(
+            "first_mode",
+            Json::object().member("frequency_hz", mode->frequency_hz).member("damping_ratio", mode->damping_ratio));
+    if (const std::optional<RockingDecay>& decay = r.free.decay) {
+        Json free = Json::object();
+        free.member("slenderness_rad", decay->slenderness_rad).member("released", 0.5).member("returned", decay->law);
+        if (decay->rigid)
+            free.member("returned_rigid", *decay->rigid);
+        json.member("free_rocking", free.member("returned_housner", decay->housner));
+    }
+    json.member("warnings", Json::list(r.warnings))
+        .member("weak_spots", weak)
+        .member("not_looked_for", Json::list(r.not_looked_for));
     if (r.pilot) {
         const NumericsCheck& check = *r.pilot;
         const auto n = static_cast<double>(check.realizations);

@@ -23,7 +23,9 @@ struct CheckReport {
     std::optional<Trial> trial{};
     std::optional<RunTime> time{};
     double memory_bytes = 0;
+    FreeMotion free{};
     std::vector<WeakSpot> weak{};
+    std::vector<std::string> not_looked_for{}; ///< sentences
     std::string why_no_pilot{};
     std::optional<NumericsCheck> pilot{};
 

@@ -83,9 +83,13 @@ std::optional<CheckReport> StudyCheck::run(Observer& observer)
     report.size = size_of_run(loaded_, trajectories_, trial);
     if (trial && !trial->unfinished)
         report.time = time_of_run(loaded_, *trial, report.size, drawing_s_);
+    else if (trial && trial->lane_s_per_step > 0)
+        report.time = longest_time_of_run(*trial, report.size);
     report.memory_bytes = memory_of_run(report.study, report.size, peak_memory_bytes());
     tell("weak spots");
-    report.weak = weak_spots(loaded_, loaded_.doubts(), trial);
+    report.free = free_motion(report.study);
+    report.weak = weak_spots(loaded_, loaded_.doubts(), trial, &report.free);
+    report.not_looked_for = not_looked_for(loaded_, trial, report.free);
     if (report.why_no_pilot.empty()) {
         tell(fmt::format("pilot of {} realizations, run twice", pilot_));
         report.pilot = check_numerics(loaded_.experiment(), report.run, pilot_, observer);

@@ -63,6 +63,9 @@ Study release_of(const Study& study)
 std::optional<double> first_return(const Study& study)
 {
     const Realization r = Sampler(study, nullptr).realization(0);
+    constexpr double most_block_steps = 2e7;
+    if (study.excitation.duration_s / r.step_s * static_cast<double>(r.blocks.size()) > most_block_steps)
+        return std::nullopt;
     LaneSet set(study, nullptr, kernels(Isa::scalar), r);
     set.load(0, r);
     const auto is_free = [](const Block& block) { return !block.fixed; };
@@ -117,6 +120,21 @@ std::optional<RockingDecay> rocking_decay(const Study& study)
     rigid.contact.restitution = 0;
     decay.rigid = first_return(rigid);
     return decay;
+}
+
+FreeMotion free_motion(const Study& study)
+{
+    FreeMotion free;
+    if (study.contact.form == ContactForm::rigid)
+        return free;
+    Study still;
+    still.structure = study.structure;
+    still.contact = study.contact;
+    still.excitation.kind = ExcitationKind::none;
+    still.excitation.duration_s = 1;
+    free.mode = first_mode(Sampler(still, nullptr).realization(0));
+    free.decay = rocking_decay(study);
+    return free;
 }
 
 } // namespace stylobate

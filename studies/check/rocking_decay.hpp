@@ -2,6 +2,7 @@
 /// How fast a structure stops rocking, by the contact law of its study and by rigid contacts.
 
 #include "ensemble/model/study.hpp"
+#include "ensemble/statics/step_bound.hpp"
 
 #include <optional>
 
@@ -20,7 +21,16 @@ struct RockingDecay {
     double lost(double lean) const;
 };
 
-/// Nothing where the study's contacts are rigid, and where the column falls instead of rocking.
+/// Nothing where the study's contacts are rigid, where the column falls or does not lean to the other side, and where
+/// this would take more than 2e7 steps of a block.
+/// @throws InputError as `lay_out`
 std::optional<RockingDecay> rocking_decay(const Study& study);
+
+/// How a structure moves without shaking: the nominal one, without mechanisms.
+struct FreeMotion {
+    std::optional<FirstMode> mode; ///< of compliant contacts, with the damping of the study
+    std::optional<RockingDecay> decay;
+};
+FreeMotion free_motion(const Study& study);
 
 } // namespace stylobate

@@ -226,6 +226,20 @@ RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize
     return time;
 }
 
+RunTime longest_time_of_run(const Trial& trial, const RunSize& size)
+{
+    RunTime time;
+    time.at_most = true;
+    // one realization is stepped by one thread
+    time.threads =
+        static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(trial.threads), size.realizations));
+    time.steps = size.longest_steps;
+    time.block_steps = size.most_block_steps;
+    time.processor_s = trial.lane_s_per_step * size.most_block_steps / std::max(size.free_blocks, 1);
+    time.processor_range_s = {0, time.processor_s};
+    return time;
+}
+
 double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
 {
     constexpr double writer = 6e6; // the library of the files, which a check does not use

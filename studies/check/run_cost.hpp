@@ -56,6 +56,10 @@ struct RunTime {
 /// @pre the trial has run something
 RunTime time_of_run(const LoadedStudy& loaded, const Trial& trial, const RunSize& size, double drawing_s);
 
+/// The longest that a run of an unfinished trial can take: all of its steps, at the speed of the trial.
+/// @pre trial.lane_s_per_step > 0
+RunTime longest_time_of_run(const Trial& trial, const RunSize& size);
+
 /// Resident memory of the run [bytes]: what this process holds now, which has read the same study, and what the run
 /// adds for each realization.
 /// @param peak_bytes the most that this process has held

@@ -1,5 +1,6 @@
 #include "studies/check/study_trial.hpp"
 
+#include "ensemble/engine/lanes.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "studies/check/run_cost.hpp"
@@ -97,7 +98,8 @@ private:
                              .end_s = outcome.end_time_s,
                              .cut_off = shaken && ended_upright &&
                                         outcome.end_time_s >= longest_s(experiment_, realization) &&
-                                        energy_j >= scales_of(realization).barrier_j});
+                                        energy_j >= scales_of(realization).barrier_j,
+                             .at_rest = outcome.at_rest != 0});
     }
 
     double step(const std::vector<std::uint64_t>& indices, Observer& observer)
@@ -119,7 +121,7 @@ private:
         plan.indices = indices;
         plan.recorded = trajectories;
         plan.sink = [this](const FollowedRealization& f) { take(f.realization, f.outcome); };
-        plan.stop = [&](double occupancy) {
+        plan.stop = [&](double occupancy, const SimulatedTime&) {
             busy += occupancy;
             ++asked;
             return observer.stop_requested();
@@ -157,6 +159,31 @@ bool try_part(PartTrial& part, std::uint64_t lanes, double seconds, std::uint64_
             return true;
         count = std::min(4 * count, static_cast<std::uint64_t>(std::max(fits, 1.0)));
     }
+}
+
+/// Processor time of a step of one realization [s], in a register that is as full as the study fills it.
+double time_of_step(const Experiment& experiment, Isa isa, std::uint64_t realizations)
+{
+    constexpr double enough_s = 0.3;
+    TrialOrder order(experiment.study(), 0, realizations);
+    const std::vector<std::uint64_t> indices = order.next(static_cast<std::uint64_t>(kernels(isa).lanes));
+    LaneSet lanes(experiment.study(), experiment.record(), kernels(isa), experiment.sampler().realization(indices[0]),
+                  realizations);
+    for (std::size_t i = 0; i < indices.size() && static_cast<int>(i) < lanes.lanes(); ++i)
+        lanes.load(static_cast<int>(i), experiment.sampler().realization(indices[i]));
+    const double begin = processor_seconds();
+    double steps = 0, took = 0;
+    while (took < enough_s) {
+        steps += static_cast<double>(chunk_steps * lanes.active());
+        lanes.advance();
+        for (int lane = 0; lane < lanes.lanes(); ++lane)
+            if (!lanes.free(lane) && lanes.done(lane))
+                lanes.clear(lane);
+        took = processor_seconds() - begin;
+        if (lanes.active() == 0)
+            break;
+    }
+    return took / steps;
 }
 
 /// Indices of the realizations of a rare event that are drawn before all others.
@@ -229,6 +256,9 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
         if (observer.stop_requested())
             break;
     }
+    if (trial.unfinished && !observer.stop_requested())
+        trial.lane_s_per_step =
+            time_of_step(experiment, options.isa, study.rare ? study.rare->samples : study.originals());
     trial.seconds = seconds_since(begin);
     trial.processor_s = processor_seconds() - processor_begin;
     return trial;

@@ -23,6 +23,7 @@ struct TrialRealization {
     /// When its time was over it had not come to rest, and had at least the energy that topples the weakest part of it
     /// (`Scales::barrier_j`): it may still fall.
     bool cut_off = false;
+    bool at_rest = false; ///< `Outcome::at_rest`
 };
 
 /// Realizations that are stepped together: all of a study, or of one with twins a range of them.
@@ -47,8 +48,9 @@ struct Trial {
     double seconds = 0;     ///< elapsed
     double processor_s = 0; ///< of all threads
     int threads = 1;
-    std::uint64_t lanes = 1; ///< of all threads
-    bool unfinished = false; ///< not even the first realizations of every part have ended in time
+    std::uint64_t lanes = 1;    ///< of all threads
+    bool unfinished = false;    ///< not even the first realizations of every part have ended in time
+    double lane_s_per_step = 0; ///< of an unfinished one: processor time of a step of one realization [s]
     std::uint64_t count() const;
     TrialShares shares() const;
     /// Whether it has run all that the study has.

@@ -23,6 +23,7 @@ struct Subject {
     const LoadedStudy& loaded;
     const std::vector<Doubt>& doubts;
     const Trial* trial;
+    const FreeMotion* free;
     std::optional<StaticLimit> limit; ///< of the nominal structure
     const Study& study() const { return loaded.study(); }
     bool doubts_of(std::string_view check) const
@@ -315,6 +316,64 @@ Found no_vertical_record(const Subject& s)
                                 : "Give mechanisms.vertical_motion.file.");
 }
 
+/// A structure that hardly loses energy while it rocks or sways.
+Found hardly_damped(const Subject& s)
+{
+    constexpr double little = 0.5, calm = 0.005; // of the loss of rigid contacts; of critical
+    if (s.free == nullptr || !s.free->mode)
+        return std::nullopt;
+    const FirstMode& mode = *s.free->mode;
+    const std::optional<RockingDecay>& decay = s.free->decay;
+    const double rigid = decay ? decay->rigid.value_or(decay->housner) : 0;
+    const bool rocks_on = decay && decay->lost(decay->law) < little * decay->lost(rigid);
+    const bool sways_on = mode.frequency_hz > 0 && mode.damping_ratio < calm;
+    if (!rocks_on && !sways_on)
+        return std::nullopt;
+    std::string text;
+    if (rocks_on)
+        text = fmt::format("{} The first impact takes {:.0f} % of the energy, and {:.0f} % on rigid contacts.",
+                           decay_text(*decay), 100 * decay->lost(decay->law), 100 * decay->lost(rigid));
+    if (sways_on)
+        text += fmt::format("{}The first mode ({:.3g} Hz) has a damping ratio of {:.2g} %, and the structure hardly "
+                            "comes to rest.",
+                            text.empty() ? "" : " ", mode.frequency_hz, 100 * mode.damping_ratio);
+    const bool centroid =
+        s.study().contact.form == ContactForm::area && s.study().contact.damping == DampingAt::centroid;
+    return spot(text, centroid ? "Give contact.damping = \"ends\" (with a normal_damping_ratio of 0.3 to 0.5 an impact "
+                                 "takes nearly what it takes on rigid contacts), or contact.form = \"rigid\"."
+                               : "Give a contact.normal_damping_ratio of 0.3 to 0.5, or contact.form = \"rigid\".");
+}
+
+/// Whether the results of a study have residual displacements.
+bool reports_residuals(const Study& study)
+{
+    return study.kind == StudyKind::single || study.sensitivity ||
+           (study.fragility && !study.fragility->residual_limits.empty());
+}
+
+Found still_moving(const Subject& s)
+{
+    constexpr double many = 0.01;
+    if (!s.trial || !reports_residuals(s.study()))
+        return std::nullopt;
+    std::uint64_t standing = 0, moving = 0;
+    for (const TrialPart& part : s.trial->parts)
+        for (const TrialRealization& r : part.run) {
+            const bool stands = r.state != State::collapsed && r.state != State::invalid;
+            standing += stands;
+            moving += stands && !r.at_rest;
+        }
+    if (static_cast<double>(moving) <= many * static_cast<double>(standing))
+        return std::nullopt;
+    const bool free = s.study().excitation.kind == ExcitationKind::none;
+    return spot(
+        fmt::format("{} of {} realization{} of the trial without collapse still moved at the end. Their residual "
+                    "displacements are not known.",
+                    moving, standing, standing == 1 ? "" : "s"),
+        fmt::format("Give more damping (contact.damping = \"ends\"), or a longer excitation.{}.",
+                    free ? "duration_s" : "tail_s"));
+}
+
 struct Look {
     const char* name;
     Found (*find)(const Subject&);
@@ -330,15 +389,22 @@ constexpr std::array looks = {Look{"slides_first", slides_first},
                               Look{"unknown_direction", unknown_direction},
                               Look{"no_vertical_record", no_vertical_record},
                               Look{"record_end", record_end},
-                              Look{"cut_off", cut_off}};
+                              Look{"cut_off", cut_off},
+                              Look{"hardly_damped", hardly_damped},
+                              Look{"still_moving", still_moving}};
+
+/// Whether a trial says something of the study: those that have ended of an unfinished one are the short ones.
+bool is_fair(const Trial* trial)
+{
+    return trial != nullptr && !trial->parts.empty() && !trial->unfinished;
+}
 
 } // namespace
 
-std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial)
+std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial,
+                                 const FreeMotion* free)
 {
-    if (trial && (trial->parts.empty() || trial->unfinished)) // those that have ended are the short ones
-        trial = nullptr;
-    const Subject subject{loaded, doubts, trial, static_limit(loaded.study())};
+    const Subject subject{loaded, doubts, is_fair(trial) ? trial : nullptr, free, static_limit(loaded.study())};
     std::vector<WeakSpot> all;
     for (const Look& look : looks)
         if (Found found = look.find(subject)) {
@@ -346,6 +412,34 @@ std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Do
             all.push_back(std::move(*found));
         }
     return all;
+}
+
+std::vector<std::string> not_looked_for(const LoadedStudy& loaded, const Trial* trial, const FreeMotion& free)
+{
+    std::vector<std::string> all;
+    const Study& study = loaded.study();
+    if (!is_fair(trial))
+        all.push_back(fmt::format("one_outcome, coarse_axis, cut_off, still_moving: {}.",
+                                  trial ? "not all of the first realizations ended in the trial" : "no trial was run"));
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    if (const std::ptrdiff_t free_blocks = std::ranges::count(blocks, false, &PlacedBlock::fixed);
+        free_blocks > most_static_limit_blocks)
+        all.push_back(
+            fmt::format("weak_shaking, slides_first: the static limit is computed for at most {} free blocks, "
+                        "and this structure has {}.",
+                        most_static_limit_blocks, free_blocks));
+    if (study.contact.form != ContactForm::rigid && !free.decay)
+        all.push_back("hardly_damped: the free rocking of the first column was not computed (it falls, or it takes too "
+                      "many steps); the damping of the first mode was.");
+    return all;
+}
+
+std::string decay_text(const RockingDecay& decay)
+{
+    return fmt::format("Released from 0.5 of its slenderness angle ({:.3g} rad), the first column leans back to {:.3g} "
+                       "of it after the first impact{}; Housner's rigid monolith to {:.4g}.",
+                       decay.slenderness_rad, decay.law,
+                       decay.rigid ? fmt::format("; on rigid contacts to {:.3g}", *decay.rigid) : "", decay.housner);
 }
 
 double capacity_lost(const Study& study)

@@ -4,6 +4,7 @@
 /// trial.
 
 #include "ensemble/sampling/plausible.hpp"
+#include "studies/check/rocking_decay.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/check/study_trial.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -23,7 +24,15 @@ struct WeakSpot {
 
 /// All that are found, in the order of docs/check.md.
 /// @param doubts of the same study, so that nothing is said twice   @param trial null: none was run
-std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial);
+/// @param free of the same study; null: not looked at
+std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial,
+                                 const FreeMotion* free = nullptr);
+
+/// What `weak_spots` cannot look for in this study, and why: sentences.
+std::vector<std::string> not_looked_for(const LoadedStudy& loaded, const Trial* trial, const FreeMotion& free);
+
+/// "Released from 0.5 of ...": a sentence.
+std::string decay_text(const RockingDecay& decay);
 
 /// Part of its static capacity that a monolith of the height and weight of a column loses on a bed of the study's K_N,
 /// against a rigid bed: 3 t* h / b with t* = (sqrt(2 W / K_N) / (6 h))^(2/3), b and h half its width and height, W the

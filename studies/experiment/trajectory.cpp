@@ -78,6 +78,7 @@ public:
 
     int lanes() const { return lanes_.lanes(); }
     int active() const { return lanes_.active(); }
+    SimulatedTime furthest() const { return lanes_.furthest(); }
 
     void load(int lane, Realization realization, bool record)
     {
@@ -233,13 +234,13 @@ public:
                 lanes.advance();
                 for (int lane = 0; lane < lanes.lanes(); ++lane)
                     if (lanes.ended(lane)) {
-                        auto followed = lanes.take(lane, [&] { return go_on(lanes.lanes(), lanes.active()); });
+                        auto followed = lanes.take(lane, [&] { return go_on(lanes); });
                         if (!followed)
                             return;
                         deliver(number[static_cast<std::size_t>(lane)], std::move(*followed));
                         refill(lane);
                     }
-                go_on(lanes.lanes(), lanes.active());
+                go_on(lanes);
             }
         } catch (...) {
             const std::lock_guard lock(mutex_);
@@ -271,10 +272,11 @@ private:
         }
     }
 
-    bool go_on(int lanes, int active)
+    bool go_on(const Follower& lanes)
     {
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock.owns_lock() && plan_.stop && plan_.stop(static_cast<double>(active) / lanes))
+        if (lock.owns_lock() && plan_.stop &&
+            plan_.stop(static_cast<double>(lanes.active()) / lanes.lanes(), lanes.furthest()))
             stopped_ = true;
         return !stopped_;
     }

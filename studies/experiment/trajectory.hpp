@@ -36,8 +36,9 @@ struct FollowPlan {
     std::uint64_t recorded = 0; ///< those with a lower index have their trajectory recorded
     /// Takes one after the other, in the order of `indices`.
     std::function<void(FollowedRealization)> sink;
-    /// Polled from time to time with the share of busy lanes; true stops the run. May be empty.
-    std::function<bool(double occupancy)> stop;
+    /// Asked now and then whether to stop; told the share of the lanes that are busy, and how far the realization is
+    /// that is furthest. May be empty.
+    std::function<bool(double occupancy, const SimulatedTime& furthest)> stop;
 };
 
 /// Runs realizations of a study without replicas to their ends, several in a register and on several threads: the same

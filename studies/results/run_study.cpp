@@ -23,6 +23,7 @@ Progress joined(const Progress& before, const Progress& round, bool fair)
     all.invalid += round.invalid;
     all.block_steps += round.block_steps;
     all.seconds += round.seconds;
+    all.furthest = round.furthest;
     if (fair) {
         all.share = round.share;
         all.share_lower = round.share_lower;
@@ -130,11 +131,13 @@ public:
             count(f.outcome.state);
         };
         double next_report_s = 0;
-        plan.stop = [&](double occupancy) {
+        plan.stop = [&](double occupancy, const SimulatedTime& furthest) {
             if (seconds() < next_report_s)
                 return false;
             next_report_s = seconds() + 0.1;
             progress.occupancy = occupancy;
+            progress.seconds = seconds();
+            progress.furthest = furthest;
             observer.progress(progress);
             return observer.stop_requested();
         };

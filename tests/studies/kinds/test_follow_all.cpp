@@ -145,7 +145,7 @@ TEST(FollowAll, WhatIsHandedOverCanBeStopped)
     plan.indices = {0};
     plan.sink = [](const FollowedRealization&) { ADD_FAILURE() << "it had not ended"; };
     asked = 0;
-    plan.stop = [&](double) { return ++asked > rigid.steps(0) / chunk_steps + 1; };
+    plan.stop = [&](double, const SimulatedTime&) { return ++asked > rigid.steps(0) / chunk_steps + 1; };
     EXPECT_FALSE(follow_all(experiment, {Isa::scalar, 1}, plan));
 }
 
@@ -163,7 +163,7 @@ TEST(FollowAll, StopsAndDeliversWhatHasEnded)
         last = f.realization.index;
         ++ended;
     };
-    plan.stop = [&](double occupancy) {
+    plan.stop = [&](double occupancy, const SimulatedTime&) {
         EXPECT_GE(occupancy, 0);
         EXPECT_LE(occupancy, 1);
         return ended >= 5;
