@@ -370,8 +370,10 @@ Found still_moving(const Subject& s)
         fmt::format("{} of {} realization{} of the trial without collapse still moved at the end. Their residual "
                     "displacements are not known.",
                     moving, standing, standing == 1 ? "" : "s"),
-        fmt::format("Give more damping (contact.damping = \"ends\"), or a longer excitation.{}.",
-                    free ? "duration_s" : "tail_s"));
+        fmt::format("Give {}, or more damping (contact.damping = \"ends\").",
+                    free                                           ? "a longer excitation.duration_s"
+                    : s.study().excitation.tail == Tail::structure ? "excitation.tail_s = \"rest\""
+                                                                   : "a longer excitation.tail_s"));
 }
 
 struct Look {
