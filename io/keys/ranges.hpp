@@ -50,7 +50,9 @@ inline const Range taper_range{1, 5000, false, "A shorter ramp is equivalent to 
 inline const Range cycles_range{0, 10000, true, ""};
 inline const Range motion_cycles_range{0.1, 10000, false, "Less than a tenth of a cycle is no motion."};
 inline const Range duration_range{0, 10000, true, "Times are in seconds."};
-inline const Range tail_range{0, 10000, false, "Times are in seconds; the default is \"structure\", 12 / p."};
+inline const Range tail_range{0, 10000, false,
+                              "Times are in seconds; or give \"structure\" (12 / p) or \"rest\" (until the realization "
+                              "lies still, at most 240 / p)."};
 inline const Range time_scale_range{0.001, 1000, false, "2 makes the record twice as long."};
 inline const Range phase_range{-100, 100, false, "Angles are in radians.", from_degrees};
 inline const Range tilt_range{-0.5, 0.5, false, "Angles are in radians.", from_degrees};

@@ -45,6 +45,19 @@ TEST(Progress, SlowRatesAreNotZero)
     EXPECT_EQ(progress_line(p), "2 of 10 realizations");
 }
 
+TEST(Progress, OfALongRealizationIsItsSimulatedTime)
+{
+    Progress p;
+    p.total = 1;
+    p.seconds = 60;
+    p.furthest = {2, 200};
+    EXPECT_EQ(progress_line(p), "0 of 1 realizations, 2 of at most 200 s simulated, at most 1 h 39 min left");
+    p.total = 5;
+    EXPECT_EQ(progress_line(p), "0 of 5 realizations, 2 of at most 200 s simulated");
+    p.done = 1;
+    EXPECT_EQ(progress_line(p), "1 of 5 realizations");
+}
+
 TEST_F(Single, RateAndBlockStepsAreCounted)
 {
     const Ended ended = run(run_words(mechanisms, seven_blocks(3), {"-o", "a.h5", "--json"}));

@@ -137,6 +137,19 @@ TEST(Plausible, AThousandTimesTooSoft)
     EXPECT_EQ(verdict(marble, "sinkage", {}, {"stiffness", "first_frequency"}), "refuses");
 }
 
+/// The check is made for every size: cubes of a metre on beds of 3 GPa/m.
+TEST(Plausible, TallStacksBuckle)
+{
+    for (const char* blocks : {"100", "101", "200"}) {
+        const Study stack =
+            read("[study]\nkind = \"single\"\n[structure]\ndrum_width_m = 1\ndrum_height_m = 1\ndepth_m = "
+                 "1\ndensity_kg_m3 = 2700\n[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.6\n"
+                 "[excitation]\nkind = \"none\"\nduration_s = 10\n",
+                 {std::string("structure.blocks=") + blocks});
+        EXPECT_NE(text_of(stack, "first_frequency").find("buckles"), std::string::npos) << blocks;
+    }
+}
+
 TEST(Plausible, FirstFrequencyAgainstTheShaking)
 {
     EXPECT_NEAR(first_frequency_hz(read(sine + drums)), 36.925220, 1e-5);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <random>
 
 using namespace stylobate;
@@ -166,6 +168,85 @@ TEST(LinearResponse, LowestFrequencyOfTheSpecimens)
     EXPECT_NEAR(response(with(spec, 7.46820e6)).frequency_hz[0], 10, 1e-4);
     EXPECT_NEAR(response(with(spec, 2.94390e7)).frequency_hz[0], 20, 1e-4);
     EXPECT_NEAR(response(with(spec, 6.60571e7)).frequency_hz[0], 30, 1e-4);
+}
+
+/// One block on its bed slides by x and turns by t about its centre, h above the bed (THEORY.md, section 1):
+///   K = | k_t    k_t h                    |    M = diag(m, I)    C = | c_t    c_t h       |
+///       | k_t h  k_th + k_t h2 - W h       |                         | c_t h  c_t h2 + c_th |
+/// with k_th = K_N B3 / 12, c_th = 0 for a dashpot at the centroid and C_N B2 / 4 for dashpots at the ends, a half
+/// each.
+TEST(FirstMode, OfOneBlockByHand)
+{
+    for (const bool ends : {false, true}) {
+        Column column = with(mono, 1e8, 0.1);
+        column.ends = ends;
+        const double m = 0.813, B = 0.048, H = 0.174, h = H / 2, g = 9.81, k_n = 1e8 * B, I = m * (B * B + H * H) / 12;
+        const double c = 2 * 0.1 * std::sqrt(k_n * m), c_th = ends ? c * B * B / 4 : 0;
+        const double a = k_n / m, b = k_n * h, d = (1e8 * B * B * B / 12 + k_n * h * h - m * g * h) / I;
+        const double w2 = (a + d) / 2 - std::sqrt((a - d) * (a - d) / 4 + b * b / (m * I));
+        const double x = -b / (k_n - m * w2); // beside a turn of 1
+        const double work = c * (x + h) * (x + h) + c_th, mass = m * x * x + I;
+        const FirstMode mode = first_mode(make(column));
+        EXPECT_NEAR(mode.frequency_hz, std::sqrt(w2) / (2 * std::numbers::pi), 1e-9 * mode.frequency_hz);
+        EXPECT_NEAR(mode.damping_ratio, work / (2 * std::sqrt(w2) * mass), 1e-6 * mode.damping_ratio) << ends;
+    }
+}
+
+/// Two blocks: against the roots of det(M s2 + C s + K) = 0, the matrices from springs at Gauss points.
+TEST(FirstMode, OfTwoBlocks)
+{
+    for (const bool ends : {false, true}) {
+        Column column = with(spec, 1e8, 0.1);
+        column.free_blocks = 2;
+        column.ends = ends;
+        const Realization r = make(column);
+        Matrices s = springs(r, std::vector<Part>(r.joints.size()));
+        const double W = column.mass * 9.81, h = column.height / 2;
+        s.K(2, 2) -= (2 * W + W) * h; // a joint takes N h from each of its blocks
+        s.K(5, 5) -= W * h;
+        const Eigen::Index n = s.M.rows();
+        Eigen::MatrixXd map = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+        map.topRightCorner(n, n).setIdentity();
+        map.bottomLeftCorner(n, n) = -s.M.inverse() * s.K;
+        map.bottomRightCorner(n, n) = -s.M.inverse() * s.C;
+        const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(map, false).eigenvalues();
+        std::complex<double> first = 1e30;
+        for (const std::complex<double>& root : roots)
+            if (root.imag() > 0 && std::abs(root) < std::abs(first))
+                first = root;
+        const FirstMode mode = first_mode(r);
+        EXPECT_NEAR(mode.frequency_hz, std::abs(first) / (2 * std::numbers::pi), 1e-3 * mode.frequency_hz) << ends;
+        EXPECT_NEAR(mode.damping_ratio, -first.real() / std::abs(first), 0.01 * mode.damping_ratio) << ends;
+    }
+}
+
+/// The specimens of docs/verification.md: dashpots at the ends damp the first mode by 0.114 of their ratio, at the
+/// centroid hardly.
+TEST(FirstMode, DampingOfTheSpecimens)
+{
+    for (const double K_N : {1e7, 1e8, 1e9}) {
+        Column column = with(spec, K_N, 0.1);
+        EXPECT_LT(first_mode(make(column)).damping_ratio, 2e-4);
+        column.ends = true;
+        EXPECT_NEAR(first_mode(make(column)).damping_ratio, 0.0114, 2e-4) << K_N;
+    }
+}
+
+/// As the dense solution, and for any number of blocks.
+TEST(FirstMode, OfTallStacks)
+{
+    for (const int blocks : {1, 3, 12, 30}) {
+        Column column = with(spec, 1e10);
+        column.free_blocks = blocks;
+        const double dense = response(column).frequency_hz[0];
+        EXPECT_NEAR(first_mode(make(column)).frequency_hz, dense, 1e-8 * dense) << blocks;
+    }
+    Column cube{.width = 1, .height = 1, .mass = 2700};
+    cube.normal_stiffness = 3e9;
+    for (const int blocks : {100, 101, 200}) { // they buckle from 59 on
+        cube.free_blocks = blocks;
+        EXPECT_EQ(first_mode(make(cube)).frequency_hz, 0) << blocks;
+    }
 }
 
 TEST(LinearResponse, BucklesUnderItsWeightAtTheKnownStiffness)

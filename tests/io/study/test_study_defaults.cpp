@@ -230,6 +230,28 @@ TEST(StudyDefaults, TheValuesThatWereMissing)
     EXPECT_FALSE(parse_study(study.text, "again").excitation.tail_s) << "each realization has its own still";
 }
 
+/// Where residual displacements are counted, a realization is followed until it lies still.
+TEST(StudyDefaults, TailsLastUntilRestWhereResidualsAreCounted)
+{
+    const auto column = [](const std::vector<std::string>& settings) {
+        return read_study(root / "studies/inputs/fragility_column.toml", settings);
+    };
+    const Study study = column({});
+    EXPECT_EQ(study.excitation.tail, Tail::rest);
+    // 240 / p of six drums of 1 x 0.8 m: R = hypot(0.5, 2.4) m, p = 1.7325 rad/s
+    EXPECT_NE(study.text.find("tail_s = \"rest\" # until it lies still, at most 240 / p of each realization; of the "
+                              "structure as given 138.5 s\n"),
+              std::string::npos)
+        << study.text;
+    EXPECT_EQ(parse_study(study.text, "again").excitation.tail, Tail::rest);
+    EXPECT_EQ(column({"fragility.residual_limits=[]"}).excitation.tail, Tail::structure);
+    EXPECT_EQ(column({"excitation.tail_s=\"structure\""}).excitation.tail, Tail::structure);
+    EXPECT_EQ(column({"excitation.tail_s=3"}).excitation.tail_s, 3);
+    EXPECT_EQ(read_study(root / "studies/inputs/sensitivity_column.toml").excitation.tail, Tail::rest);
+    for (const char* name : {"small_scale_column", "mechanisms", "rare_collapse"})
+        EXPECT_EQ(read_study(root / "studies/inputs" / (std::string(name) + ".toml")).excitation.tail, Tail::structure);
+}
+
 TEST(StudyDefaults, TheRateOfTrajectoriesFollowsTheStructureAndItsShaking)
 {
     const std::string marble = "[study]\nkind = \"single\"\n[structure]\nblocks = 3\ndrum_width_m = 1\n"

@@ -51,6 +51,21 @@ TEST(TrialOrder, OfARangeStaysInIt)
     EXPECT_EQ(all.back(), 1023U);
 }
 
+/// A realization of 1e9 steps does not end in a trial: its time is that of its steps.
+TEST(StudyTrial, TheTimeOfALongRealizationIsThatOfItsSteps)
+{
+    const LoadedStudy loaded = ready("free_rocking", {"excitation.duration_s=10000"});
+    Observer nobody;
+    const Trial trial = try_study(loaded.experiment(), {best_isa(), 1}, 0.01, 0, nobody);
+    ASSERT_TRUE(trial.unfinished);
+    ASSERT_GT(trial.lane_s_per_step, 0);
+    const RunSize size = size_of_run(loaded, 0, nullptr);
+    const RunTime time = longest_time_of_run(trial, size);
+    EXPECT_TRUE(time.at_most);
+    EXPECT_EQ(time.threads, 1);
+    EXPECT_DOUBLE_EQ(time.processor_s, trial.lane_s_per_step * size.longest_steps.high);
+}
+
 /// What a trial has simulated.
 std::vector<std::tuple<std::uint64_t, State, std::uint64_t>> seen(const Trial& trial)
 {
