@@ -30,7 +30,8 @@ public:
                  {"structure.kind", word_for(structure_kind_names, choice.structure)},
                  {"contact.form", word_for(contact_form_names, ContactSpec{}.form)},
                  {"excitation.kind", word_for(excitation_kind_names, *choice.excitation)},
-                 {"fragility.method", word_for(fragility_method_names, FragilitySpec{}.method)}}
+                 {"fragility.method", word_for(fragility_method_names, FragilitySpec{}.method)}},
+          comes_to_rest_(choice.study != StudyKind::surface && choice.study != StudyKind::rare)
     {
     }
 
@@ -72,6 +73,9 @@ private:
     {
         if (const auto kind = kinds_.find(path); kind != kinds_.end() && path != "fragility.method")
             return toml_quoted(kind->second);
+        // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
+        if (path == "contact.damping" && comes_to_rest_)
+            return toml_quoted(word_for(damping_at_names, DampingAt::ends));
         if (!key.example.empty())
             return key.example;
         return key.needed() && !key.keys.empty() ? inline_table(key) : std::string();
@@ -114,6 +118,7 @@ private:
     }
 
     std::map<std::string, std::string> kinds_;
+    bool comes_to_rest_;
 };
 
 } // namespace

@@ -108,6 +108,18 @@ TEST(StudyTemplate, OfEveryKindIsAStudyOfThatKind)
     }
 }
 
+/// Where residual displacements are counted, new studies have dashpots that bring the structure to rest.
+TEST(StudyTemplate, StructuresComeToRestWhereResidualsAreCounted)
+{
+    const auto damping = [](StudyKind kind) {
+        return parse_study(study_template({.study = kind}), "new.toml").contact.damping;
+    };
+    EXPECT_EQ(damping(StudyKind::surface), DampingAt::centroid);
+    EXPECT_EQ(damping(StudyKind::rare), DampingAt::centroid);
+    for (const StudyKind kind : {StudyKind::single, StudyKind::fragility, StudyKind::sensitivity})
+        EXPECT_EQ(damping(kind), DampingAt::ends);
+}
+
 TEST(StudyTemplate, ADefaultThatIsUncommentedChangesNothing)
 {
     int tried = 0;
