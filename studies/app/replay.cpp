@@ -155,9 +155,10 @@ void print_text(const Replayed& r)
         fmt::print(" ({})", to_string(o.invalid_reason));
     if (!r.chosen.empty())
         fmt::print("\n  {}", r.chosen);
-    fmt::print("\n  centre of the top block: peak displacement {:.4g} m, residual {:.4g} m; sliding {:.4g} m, "
-               "rocking {:.4g} rad\n",
-               o.peak_top_displacement_m, o.residual_top_displacement_m, o.total_sliding_m, o.total_rocking_rad);
+    const std::string residual = o.at_rest != 0 ? fmt::format("residual {:.4g} m", o.residual_top_displacement_m)
+                                                : "residual not known (it still moved at the end)";
+    fmt::print("\n  centre of the top block: peak displacement {:.4g} m, {}; sliding {:.4g} m, rocking {:.4g} rad\n",
+               o.peak_top_displacement_m, residual, o.total_sliding_m, o.total_rocking_rad);
     if (falls.size() > 1) {
         fmt::print("  {} of {} blocks fell: {}\n", falls.size(), r.names.size(),
                    falls_text(falls, r.names, o.fall_time_s));

@@ -253,7 +253,7 @@ TEST_F(ResultStore, IsPlainHdf5WithTheNamesOfTheContract)
     const Plain plain(file);
     ASSERT_GE(plain.id, 0);
     EXPECT_EQ(plain.attribute("/", "format"), "stylobate");
-    EXPECT_EQ(plain.attribute("/", "format_version"), "4");
+    EXPECT_EQ(plain.attribute("/", "format_version"), "5");
     EXPECT_EQ(plain.attribute("/", "kind"), "surface");
     EXPECT_EQ(plain.attribute("/", "study_toml"), sample_header(1).study_toml);
     EXPECT_EQ(plain.attribute("/", "seed"), "18364758544493064720");
