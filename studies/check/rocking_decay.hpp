@@ -8,8 +8,8 @@
 
 namespace stylobate {
 
-/// The first column of a study as it is given, nothing drawn and nothing on it, without friction limits that matter,
-/// released from half of its slenderness angle on the beds of the study.
+/// The first column of a study as it is given, nothing drawn and nothing on it, released from half of its slenderness
+/// angle on the beds of the study.
 struct RockingDecay {
     double slenderness_rad = 0; ///< atan(B / H) of the free part of the column
     double law = 0;             ///< largest lean to the other side after the first impact, over the slenderness

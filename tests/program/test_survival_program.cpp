@@ -55,10 +55,10 @@ TEST_F(SurvivalProgram, OneEventIsTheSurfaceAndTheCountsAreThoseOfTheRows)
         double sum = 0;
         for (const double offset : o.bed_offset_m)
             sum += std::fabs(offset);
-        if (o.at_rest != 0)
+        EXPECT_EQ(o.at_rest == 0, std::isnan(o.residual_sliding_m));
+        if (o.at_rest != 0) {
             EXPECT_EQ(sum, o.residual_sliding_m);
-        else
-            EXPECT_TRUE(std::isnan(o.residual_sliding_m));
+        }
     }
     const JsonValue said = json_of(ended)["survival"];
     EXPECT_EQ(said["valid"].number, static_cast<double>(valid));

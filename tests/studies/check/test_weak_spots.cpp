@@ -279,7 +279,7 @@ TEST(WeakSpots, RockingThatHardlyDecays)
     const FreeMotion free = free_motion(ends.study());
     const std::vector<WeakSpot> found = weak_spots(ends, ends.doubts(), nullptr, &free);
     EXPECT_EQ(std::ranges::find(found, "hardly_damped", &WeakSpot::name), found.end());
-    EXPECT_FALSE(free_motion(block("4.0", {"contact.form=\"rigid\""}).study()).mode);
+    EXPECT_FALSE(free_motion(ready("rigid_column").study()).mode);
 }
 
 TEST(WeakSpots, WhatStillMovesAtTheEnd)
