@@ -32,7 +32,7 @@ protected:
 TEST_F(LibraryCheck, HasTheTextAndTheJsonOfTheProgram)
 {
     const std::vector<std::pair<std::string, Words>> studies{
-        {"small_scale_column.toml", {"study.realizations=4"}},     // it has a weak spot
+        {"small_scale_column.toml", {"study.realizations=4"}},     // it has two weak spots
         {"small_scale_monolith.toml", {"surface.pga_m_s2.to=40"}}, // it has a warning
         {"rigid_column.toml", {"run.accuracy=0.2"}},
         {"mechanisms.toml", {}},
@@ -73,7 +73,7 @@ TEST_F(LibraryCheck, HasTheTextAndTheJsonOfTheProgram)
         for (std::size_t i = 0; i < check->chosen().size(); ++i)
             EXPECT_EQ(check->chosen()[i].value, said["chosen"].items[i]["value"].text);
         ASSERT_EQ(check->warnings().size(), said["warnings"].items.size()) << input;
-        EXPECT_EQ(check->weak_spots().empty(), input != "small_scale_column.toml") << input;
+        EXPECT_EQ(check->weak_spots().empty(), input == "rigid_column.toml") << input; // of the others the damping
         EXPECT_EQ(check->chosen().empty(), input != "rigid_column.toml") << input;
         EXPECT_EQ(check->warnings().empty(), input != "small_scale_monolith.toml") << input;
     }

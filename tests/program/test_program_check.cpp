@@ -81,7 +81,14 @@ TEST_F(Check, TellsWhatWillBeRun)
     EXPECT_FALSE(surface.has("trial"));
     EXPECT_FALSE(surface.has("time"));
     EXPECT_FALSE(surface.has("pilot"));
-    EXPECT_EQ(surface["weak_spots"].items.size(), 0U);
+    ASSERT_EQ(surface["weak_spots"].items.size(), 1U); // the dashpots of the paper
+    EXPECT_EQ(surface["weak_spots"].items[0]["name"].text, "hardly_damped");
+    EXPECT_NEAR(surface["first_mode"]["frequency_hz"].number, 36.925220, 1e-5);
+    EXPECT_LT(surface["first_mode"]["damping_ratio"].number, 2e-4);
+    EXPECT_GT(surface["free_rocking"]["returned"].number, 0);
+    const JsonValue ends = json_of(look("small_scale_column", {"contact.damping=\"ends\""}));
+    EXPECT_NEAR(ends["first_mode"]["damping_ratio"].number, 0.0114, 2e-4);
+    EXPECT_EQ(ends["not_looked_for"].items.size(), 1U) << "no trial was run";
 }
 
 /// What others choose has no pilot, and of its realizations only the most is known.
@@ -144,8 +151,9 @@ TEST_F(Check, ShowsWhatIsImplausibleAndWhatIsWeak)
     const JsonValue json = json_of(ended);
     ASSERT_EQ(json["warnings"].items.size(), 1U);
     EXPECT_NE(json["warnings"].items[0].text.find("study.allow = [\"pga\"]"), std::string::npos);
-    ASSERT_EQ(json["weak_spots"].items.size(), 1U);
+    ASSERT_EQ(json["weak_spots"].items.size(), 2U);
     EXPECT_EQ(json["weak_spots"].items[0]["name"].text, "wide_interval");
+    EXPECT_EQ(json["weak_spots"].items[1]["name"].text, "hardly_damped");
     const Ended text = run(with({"check", input("small_scale_monolith"), "--pilot", "0", "--trial-seconds", "0"},
                                 {"study.realizations=4"}));
     EXPECT_NE(text.out.find("weak: wide_interval: 4 realizations in each cell"), std::string::npos) << text.out;
