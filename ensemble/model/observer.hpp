@@ -21,7 +21,7 @@ struct Progress {
     double seconds = 0;            ///< since this run began
     double rate = 0;               ///< realizations per second of this run
     double occupancy = 0;          ///< part of the lanes that worked on a realization
-    SimulatedTime furthest;        ///< of those that run now, the one that is furthest
+    SimulatedTime furthest{};      ///< of those that run now, the one that is furthest
     /// Share of the collapse in the whole study, as estimated from a fair sample of it, and its 95 % interval; NaN:
     /// nothing is known yet.
     double share = std::numeric_limits<double>::quiet_NaN();

@@ -116,10 +116,10 @@ std::optional<RockingDecay> rocking_decay(const Study& study)
         return std::nullopt;
     decay.law = *law;
     Study rigid = compliant;
-    rigid.contact = {.form = ContactForm::rigid,
-                     .normal_damping_ratio = 0,
-                     .tangential_damping_ratio = 0,
-                     .friction = study.contact.friction};
+    rigid.contact = ContactSpec(); // as a study file gives it
+    rigid.contact.form = ContactForm::rigid;
+    rigid.contact.normal_damping_ratio = rigid.contact.tangential_damping_ratio = 0;
+    rigid.contact.friction = study.contact.friction;
     decay.rigid = first_return(rigid);
     return decay;
 }
