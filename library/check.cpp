@@ -160,7 +160,10 @@ std::optional<Check> check(const Experiment& experiment, const CheckOptions& opt
     return translated([&]() -> std::optional<Check> {
         const auto& given = Inside::of(experiment);
         inner::StudyCheck check(given.loaded, given.name,
-                                {.pilot = options.pilot, .trial_seconds = options.trial_seconds, .stage = options.tell},
+                                {.pilot = options.pilot,
+                                 .trial_seconds = options.trial_seconds,
+                                 .law_seconds = options.law_seconds,
+                                 .stage = options.tell},
                                 run_options(options.threads, options.simd));
         CheckTeller teller(options);
         std::optional<inner::CheckReport> report;

@@ -69,6 +69,7 @@ struct CheckOptions {
     /// allows it (not rare, sensitivity, or surface.adaptive).
     std::uint64_t pilot = 0;
     double trial_seconds = 2;  ///< of the trial, up to 3600; 0: none, and no time is estimated
+    double law_seconds = 20;   ///< most, of the pilot under other contact laws, up to 86400; 0: none
     int threads = 0;           ///< of the run to be estimated; 0: as many as the process may use
     std::string simd = "auto"; ///< as `RunOptions::simd`
     std::function<void(const std::string& line)> tell = {}; ///< called with each stage, as a line of text; may be empty

@@ -125,6 +125,32 @@ ContourCommands contour_commands(const SurfaceTable& surface, const PlotAxis& f,
     return commands;
 }
 
+/// The contour lines 0.5 of the two surfaces of a range, as data blocks $low and $high where there are lines.
+std::string range_commands(const SurfaceTable& surface, const SurfaceRange& range, const PlotAxis& f, const PlotAxis& a)
+{
+    std::string data;
+    SurfaceTable other = surface;
+    const auto add = [&](const char* name, const std::vector<double>& probability) {
+        if (probability.size() != surface.probability.size())
+            throw InputError("the band over contact laws has other cells than the surface: one of the two is not of "
+                             "this study");
+        other.probability = probability;
+        const std::vector<ContourLine> lines = contours(other, f, a, 0.5);
+        if (lines.empty())
+            return;
+        data += fmt::format("${} << EOD\n", name);
+        for (const ContourLine& line : lines) {
+            for (const ContourPoint& p : line)
+                data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
+            data += '\n';
+        }
+        data += "EOD\n";
+    };
+    add("low", range.low);
+    add("high", range.high);
+    return data;
+}
+
 std::string subtitle(const SurfaceTable& surface)
 {
     double widest = 0;
@@ -182,7 +208,7 @@ std::string describe_realizations(const SurfaceTable& surface)
 }
 
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
-                  const std::filesystem::path& png)
+                  const std::filesystem::path& png, const std::optional<SurfaceRange>& range)
 {
     const std::string below_title = subtitle(surface);
     const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
@@ -207,8 +233,9 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
     }
     cells += "EOD\n";
 
+    const std::string range_data = range ? range_commands(surface, *range, frequency, pga) : "";
     std::string script =
-        cells + contour.data + viridis_palette() + gnuplot_heading(title, below_title) + contour.labels;
+        cells + contour.data + range_data + viridis_palette() + gnuplot_heading(title, below_title) + contour.labels;
     script += "set lmargin at screen 0.095\nset rmargin at screen 0.855\n"
               "set bmargin at screen 0.115\nset tmargin at screen 0.865\n"
               "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
@@ -219,6 +246,9 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
               " offset 0.8,0\n"
               "set style fill solid 1.0 noborder\n" +
               frequency.commands('x') + pga.commands('y');
+    if (range)
+        script += fmt::format("set label {} at screen 0.5, screen 0.883 center font ',18' textcolor rgb '#a34e00'\n",
+                              gnuplot_text(range->words + "; dashed: 0.5 of the lowest and the highest"));
     if (empty > 0)
         script += fmt::format("set object rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#b8b8b8' "
                               "fillstyle solid 1 noborder\n"
@@ -234,6 +264,9 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
             layers.push_back(fmt::format("$contour{} with lines linewidth {} linecolor rgb '#ffffff'", k,
                                          contour_levels[k] == 0.5 ? 2.0 : 1.4));
         }
+    for (const char* end : {"low", "high"})
+        if (range_data.find(fmt::format("${} << EOD\n", end)) != std::string::npos)
+            layers.push_back(fmt::format("${} with lines linewidth 2.6 dashtype 2 linecolor rgb '#ff7f0e'", end));
     if (layers.empty())
         layers.emplace_back("1/0"); // the frame with nothing in it
     script += "plot ";

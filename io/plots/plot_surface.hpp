@@ -5,10 +5,17 @@
 #include "io/store/result_store.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// A second pair of surfaces around the one that is drawn.
+struct SurfaceRange {
+    std::string words;             ///< "contact law: 0.61 to 0.88": below the title
+    std::vector<double> low, high; ///< (cells)
+};
 
 /// Draws a heat map of the probability over frequency and PGA (1800 x 1350 pixels): each cell at its true
 /// extent, an axis logarithmic where its values are spaced so, cells without a trial grey, contour lines at 0.05, 0.5
@@ -16,10 +23,11 @@ namespace stylobate {
 ///
 /// @param limit what the probability is one of: "collapse"
 /// @param png the file; its folder must exist
+/// @param range the contour lines 0.5 of its two surfaces are dashed
 /// @throws InputError if the table has no axes or its arrays do not fit them, if gnuplot is missing or fails, or if
 ///         the picture cannot be written
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
-                  const std::filesystem::path& png);
+                  const std::filesystem::path& png, const std::optional<SurfaceRange>& range = {});
 
 /// The contour lines of one probability, and where its name is best written, in the unit square of the picture's frame
 /// (an axis logarithmic where its values are spaced so).

@@ -94,18 +94,19 @@ void add_check(py::module_& module)
         .def("draw", &C::draw, "picture"_a, py::call_guard<py::gil_scoped_release>());
     module.def(
         "check",
-        [](const sb::Experiment& experiment, std::uint64_t pilot, double trial_seconds, int threads,
+        [](const sb::Experiment& experiment, std::uint64_t pilot, double trial_seconds, double law_seconds, int threads,
            const std::string& simd, const py::object& progress) {
             sb::CheckOptions options;
             options.pilot = pilot;
             options.trial_seconds = trial_seconds;
+            options.law_seconds = law_seconds;
             options.threads = threads;
             options.simd = simd;
             return interruptible_lines<std::optional<C>>(
                 std::move(options), progress,
                 [&](const sb::CheckOptions& told) { return sb::check(experiment, told); });
         },
-        "experiment"_a, "pilot"_a, "trial_seconds"_a, "threads"_a, "simd"_a, "progress"_a);
+        "experiment"_a, "pilot"_a, "trial_seconds"_a, "law_seconds"_a, "threads"_a, "simd"_a, "progress"_a);
 }
 
 } // namespace stylobate::python

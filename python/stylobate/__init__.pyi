@@ -31,6 +31,7 @@ class Study:
         *,
         pilot: int = 0,
         trial_seconds: float = 2,
+        law_seconds: float = 20,
         threads: int = 0,
         simd: str = "auto",
         progress: Callable[[str], object] | None = None,

@@ -57,7 +57,7 @@ class Check:
 
     @property
     def longest_steps(self):
-        """Steps of a realization that neither falls nor comes to rest, from and to."""
+        """Steps of a realization that runs to the time limit, from and to."""
         return self._core.longest_steps
 
     @property
@@ -125,10 +125,11 @@ class Check:
                 f"{len(self.weak_spots)} weak spots>")
 
 
-def check(study, pilot, trial_seconds, threads, simd, progress, record):
+def check(study, pilot, trial_seconds, law_seconds, threads, simd, progress, record):
     """`Study.check`."""
     pilot, threads = whole_number(pilot, "pilot"), whole_number(threads, "threads")
-    found = _core.check(experiment_of(study, record), pilot, number(trial_seconds, "trial_seconds"), threads, simd,
+    found = _core.check(experiment_of(study, record), pilot, number(trial_seconds, "trial_seconds"),
+                        number(law_seconds, "law_seconds"), threads, simd,
                         progress)
     if found is None:
         return None

@@ -45,11 +45,13 @@ class Study:
         width = max(len(name) for name, _ in lines)
         return "\n".join(f"{name:<{width}}  {text}" for name, text in lines)
 
-    def check(self, *, pilot=0, trial_seconds=2, threads=0, simd="auto", progress=None, record=None):
+    def check(self, *, pilot=0, trial_seconds=2, law_seconds=20, threads=0, simd="auto", progress=None,
+              record=None):
         """Before a run: what will be run, its time, memory and file, and where the study is weak. Returns a Check.
 
         pilot          realizations that are run twice, the second time with finer numerics: 16 to 10,000,000; 0: none
         trial_seconds  [s] spent on a fair sample of the realizations, for the time of the run; 0: none
+        law_seconds    [s] most, spent on the pilot under other contact laws; 0: none. The text of the Check has the band
         threads, simd  of the run that is asked about, as of `run`
         progress       called with a line of text; returns False to stop, and None is returned
         record         a Record that shakes the base instead of the study's [excitation]
@@ -60,7 +62,7 @@ class Study:
         """
         from . import _check
 
-        return _check.check(self, pilot, trial_seconds, threads, simd, progress, record)
+        return _check.check(self, pilot, trial_seconds, law_seconds, threads, simd, progress, record)
 
     @property
     def text(self):

@@ -38,7 +38,14 @@ int check_command(const CommonOptions& options, const std::string& file, const C
 {
     check_kind(file, "check");
     StudyCheck check(LoadedStudy::from_file(file, options.set), file,
-                     {.pilot = wanted.pilot, .trial_seconds = wanted.trial_seconds, .stage = {}},
+                     {.pilot = wanted.pilot,
+                      .trial_seconds = wanted.trial_seconds,
+                      .law_seconds = wanted.law_seconds,
+                      .costs =
+                          [&](const std::string& costs) {
+                              if (!options.quiet)
+                                  say(costs + "\n");
+                          }},
                      options.run_options());
     const fs::path picture = picture_path(file, wanted);
     if (!picture.empty())

@@ -61,6 +61,7 @@ struct ExportOptions {
 struct CheckOptions {
     std::optional<std::uint64_t> pilot; ///< realizations that are run twice; 0: none
     double trial_seconds = 2;           ///< of the trial; 0: none
+    double law_seconds = 20;            ///< of the pilot under other contact laws; 0: none
     std::string format;                 ///< of the drawing: "png", "svg", "pdf"; empty: by `output`
     std::string output;                 ///< the drawing; empty and no format: none
 };
@@ -129,7 +130,9 @@ struct NewStudyOptions {
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`.
 /// @param shard "3/8": that part of the study alone; empty: all of it
-int run_command(const CommonOptions& options, const std::string& study, std::string results, const std::string& shard);
+/// @param laws also under other contact laws
+int run_command(const CommonOptions& options, const std::string& study, std::string results, const std::string& shard,
+                bool laws);
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial);
 int compare_command(const CommonOptions& options, const CompareOptions& wanted);

@@ -5,10 +5,12 @@
 #include "io/store/export_csv.hpp"
 #include "io/store/export_vtk.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/csv.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
+#include "studies/decisions/laws/law_runs.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_page.hpp"
 #include "studies/report/json.hpp"
@@ -115,6 +117,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     const PictureKind asked = picture_of(results, wanted);
     const std::uint64_t realization =
         wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    const std::optional<LawBand> laws = law_band_beside(file, results.study(), results.header());
     Picture picture;
     if (asked.name == strip.name) {
         picture.name = fmt::format("strip_realization_{}", realization);
@@ -129,7 +132,8 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     } else {
         const bool all = results.kind().pictures_want_all(asked.name);
         picture = (all ? results.concluded() : results.kind())
-                      .picture(results.reader(), file, {asked.name, wanted.limit, wanted.frequencies});
+                      .picture(results.reader(), file,
+                               {asked.name, wanted.limit, wanted.frequencies, laws ? &*laws : nullptr});
     }
     // two pictures of one result differ in their names
     const fs::path to =
@@ -213,6 +217,12 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
         export_csv(results, name, folder);
     else
         write_files(results.concluded().files(format, name), folder);
+    if (const std::optional<LawBand> laws = law_band_beside(file, results.study(), results.header()); laws) {
+        if (format == "csv")
+            write_whole(folder / "contact_laws.csv", csv_text(law_band_rows(*laws)));
+        else if (format == "json")
+            write_whole(folder / "contact_laws.json", law_band_json(*laws).text() + "\n");
+    }
     return folder;
 }
 

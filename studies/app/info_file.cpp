@@ -14,6 +14,7 @@
 #include "studies/calibration/calibration_file.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/laws/law_runs.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 namespace stylobate {
@@ -146,6 +148,13 @@ void tell_result(const std::string& file, Told& told)
     if (told.unfinished)
         told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",
                                  header.shard.whole() ? "" : "--shard " + header.shard.text() + " ", file);
+    if (!told.unfinished) {
+        const Study study = parse_study(header.study_toml, file + " (its study)");
+        const std::optional<LawBand> band = law_band_beside(file, study, header);
+        told.text += band ? law_band_text(*band) : law_advice(study) + "\n";
+        if (band)
+            told.json.member("contact_laws", law_band_json(*band));
+    }
     add_warnings(header.warnings, told);
 }
 

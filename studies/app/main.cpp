@@ -182,7 +182,7 @@ private:
     {
         auto* check = app_.add_subcommand(
             "check", "before a run: what will be run, its time, memory and file; where the study is weak; what its "
-                     "numerics change in its collapse probability; a drawing of the structure");
+                     "numerics and its contact law change in its collapse probability; a drawing of the structure");
         check->add_option("STUDY", file_, "study file (TOML)")->required();
         check
             ->add_option("--trial-seconds", check_.trial_seconds,
@@ -193,6 +193,12 @@ private:
         check->add_option("--pilot", check_.pilot,
                           "realizations that are run twice, the second time with finer numerics (default: 1024; 0: "
                           "none)");
+        check
+            ->add_option("--law-seconds", check_.law_seconds,
+                         "most seconds to spend on the pilot under other contact laws, for the band of the collapse "
+                         "probability over them (0: none)")
+            ->check(CLI::Range(0.0, 86400.0))
+            ->capture_default_str();
         check
             ->add_option("--to", check_.format,
                          "draw the structure to scale with its dimensions: png, svg or pdf (default: by the file "
@@ -215,10 +221,14 @@ private:
                         "K/N: only this part of the realizations, from 1/N to N/N, into its own file; `merge` joins "
                         "the files")
             ->type_name("K/N");
+        run->add_flag("--laws", laws_,
+                      "also under other contact laws, on the same draws: softer, stiffer and rigid contacts, dashpots "
+                      "at the ends; the band of the probabilities goes into RESULTS_laws.h5")
+            ->excludes("--shard");
         add_set(*run, options_);
         add_common(*run, options_, {"cpu", "cuda"});
-        add_mpi(*run)->excludes("--shard");
-        run->callback([this] { on_ranks([this] { return run_command(options_, file_, output_, shard_); }); });
+        add_mpi(*run)->excludes("--shard")->excludes("--laws");
+        run->callback([this] { on_ranks([this] { return run_command(options_, file_, output_, shard_, laws_); }); });
     }
 
     CLI::Option* add_mpi(CLI::App& verb)
@@ -522,7 +532,7 @@ private:
     RealizationChoice choice_;
     std::vector<std::string> files_;
     std::string shard_;
-    bool partial_ = false, mpi_ = false;
+    bool partial_ = false, mpi_ = false, laws_ = false;
     std::string unit_, component_, block_;
     CalibrateOptions calibration_;
     bool keep_all_ = false;

@@ -9,6 +9,7 @@
 #include "studies/calibration/calibration_page.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"
+#include "studies/decisions/laws/law_runs.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
@@ -101,7 +102,9 @@ int report_command(const CommonOptions& options, const std::string& file, const 
         if (!animations.warning.empty())
             warnings.push_back(animations.warning);
         if (!console.stop_requested())
-            page = result_page(results, options.isa(), wanted.title, animations, warnings).text();
+            page = result_page(results, options.isa(), wanted.title, animations,
+                               law_band_beside(file, results.study(), results.header()), warnings)
+                       .text();
     }
     if (console.stop_requested()) {
         console.warn("interrupted: no page was written");

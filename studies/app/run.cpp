@@ -12,6 +12,7 @@
 #include "studies/app/run_report.hpp"
 #include "studies/cluster/shard_files.hpp"
 #include "studies/cluster/together.hpp"
+#include "studies/decisions/laws/law_runs.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
@@ -49,9 +50,43 @@ Shard shard_of(const std::string& text)
     return *shard;
 }
 
+/// The study under other contact laws, where that is asked for.
+struct Laws {
+    std::unique_ptr<LawRuns> runs; ///< null: not asked for
+    std::optional<LawBand> band;   ///< over the laws
+    bool interrupted = false;
+
+    const LawBand* band_or_null() const { return band ? &*band : nullptr; }
+
+    /// @pre the study is complete, and its file closed
+    void run(const CommonOptions& options, const RunOptions& how)
+    {
+        Console console(options.quiet);
+        interrupted = !runs->run(how, console, [&](const std::string& line) {
+            if (!options.quiet)
+                say(line + "\n");
+        });
+        if (!interrupted)
+            band = runs->conclude();
+    }
+
+    /// Of a law with too many invalid realizations; 0: there is none.
+    int status(const Study& study) const
+    {
+        if (runs)
+            for (const LawRuns::Invalid& law : runs->invalid())
+                if (const std::string message = too_many_invalid(study, law.invalid, law.total, law.results);
+                    law.total > 0 && !message.empty()) {
+                    say(fmt::format("stylobate: {}\n", message));
+                    return exit_invalid;
+                }
+        return exit_done;
+    }
+};
+
 /// Nothing is left to run: reports what the run would have, as far as the file has it.
 int report_finished(const CommonOptions& options, const std::string& results, const Study& study, const RunOptions& run,
-                    Kind& kind)
+                    Kind& kind, const Laws& laws)
 {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     Progress progress{.seconds = unknown, .rate = unknown, .occupancy = unknown};
@@ -71,7 +106,26 @@ int report_finished(const CommonOptions& options, const std::string& results, co
     kind.share(progress);
     if (!options.json && !options.quiet)
         fmt::print("{}: already complete. (Remove the file to run the study again.)\n", results);
-    return report_run(options, {results, study, kind, progress, run, true});
+    return report_run(options, {.results = results,
+                                .study = study,
+                                .kind = kind,
+                                .progress = progress,
+                                .run = run,
+                                .complete = true,
+                                .laws = laws.band_or_null(),
+                                .laws_interrupted = laws.interrupted});
+}
+
+/// @throws InputError if the study cannot be run under other laws
+void prepare_laws(Laws& laws, const CommonOptions& options, const LoadedStudy& study, const std::string& file,
+                  const std::string& results)
+{
+    laws.runs = std::make_unique<LawRuns>(study, file, results);
+    if (const std::string why = laws.runs->needs_processor(); options.backend == "cuda" && !why.empty())
+        throw InputError(fmt::format("--backend cuda: {}. Leave --backend out.", why));
+    laws.runs->check_drawn();
+    if (!laws.runs->finished() && !options.quiet)
+        say(laws.runs->costs() + "\n");
 }
 
 /// What is known of a run before anything is written.
@@ -122,7 +176,7 @@ std::unique_ptr<Prepared> prepare(const CommonOptions& options, const std::strin
 } // namespace
 
 int run_command(const CommonOptions& options, const std::string& study, std::string results,
-                const std::string& shard_text)
+                const std::string& shard_text, bool with_laws)
 {
     if (results.empty())
         results = default_results(study, shard_of(shard_text));
@@ -133,8 +187,19 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const RunOptions& run = prepared->run;
     const Shard shard = prepared->header.shard;
     const std::string file = run.ranks ? run.ranks->of_first(prepared->file) : prepared->file;
-    if (file == "finished")
-        return run.leads() ? report_finished(options, results, loaded.study(), run, kind) : exit_done;
+    Laws laws;
+    if (with_laws)
+        prepare_laws(laws, options, loaded, study, results);
+    if (file == "finished") {
+        if (!run.leads())
+            return exit_done;
+        if (with_laws)
+            laws.run(options, run);
+        else
+            laws.band = law_band_beside(results, loaded.study(), prepared->header);
+        const int status = report_finished(options, results, loaded.study(), run, kind, laws);
+        return status == exit_done ? laws.status(loaded.study()) : status;
+    }
     if (file.empty()) // else it has been done before the file was made; each rank looks at a part
         together(run.ranks,
                  [&] { check_realizations(loaded.sampler(), kind, run.ranks ? part_of(*run.ranks) : shard); });
@@ -162,7 +227,18 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         store->flush();
     }
     store.reset();
-    return report_run(options, {results, loaded.study(), kind, ran.progress, run, ran.complete, shard});
+    if (with_laws && ran.complete)
+        laws.run(options, run);
+    const int status = report_run(options, {.results = results,
+                                            .study = loaded.study(),
+                                            .kind = kind,
+                                            .progress = ran.progress,
+                                            .run = run,
+                                            .complete = ran.complete,
+                                            .shard = shard,
+                                            .laws = laws.band_or_null(),
+                                            .laws_interrupted = laws.interrupted});
+    return status == exit_done ? laws.status(loaded.study()) : status;
 }
 
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,

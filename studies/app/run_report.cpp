@@ -42,6 +42,10 @@ void print_json(const CommonOptions& options, const RunReport& r)
         json.member("limit_states", r.kind.limits_json());
     if (r.complete && r.shard.whole())
         r.kind.add_to(json);
+    if (r.laws)
+        json.member("contact_laws", law_band_json(*r.laws));
+    else if (r.laws_interrupted)
+        json.member("contact_laws", Json::object().member("complete", false));
     fmt::print("{}\n", json.text());
 }
 
@@ -59,6 +63,12 @@ void print_text(const RunReport& r)
     fmt::print("\n");
     if (r.complete && r.shard.whole()) {
         fmt::print("{}", r.kind.text());
+        if (r.laws_interrupted)
+            fmt::print(
+                "Interrupted; the study is complete, its runs under other contact laws are not. The same command "
+                "continues them.\n");
+        else
+            fmt::print("{}", r.laws ? law_band_text(*r.laws) : law_advice(r.study) + "\n");
         return;
     }
     if (!std::isnan(p.share)) // without those that have not ended because they take long
@@ -92,7 +102,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
         print_text(r);
     if (r.merged && !r.complete)
         return exit_done; // it was asked for
-    if (!r.complete)
+    if (!r.complete || r.laws_interrupted)
         return exit_interrupted;
     const Progress& p = r.progress;
     const std::string message = too_many_invalid(r.study, p.invalid, p.total, r.results);

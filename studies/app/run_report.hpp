@@ -4,6 +4,7 @@
 #include "ensemble/engine/executor.hpp"
 #include "studies/app/command.hpp"
 #include "studies/kinds/kind.hpp"
+#include "studies/kinds/law_band.hpp"
 
 #include <cstdint>
 #include <string>
@@ -19,7 +20,9 @@ struct RunReport {
     const RunOptions& run;
     bool complete = false; ///< of a shard: it is
     Shard shard = {};
-    bool merged = false; ///< from shards, and not run here
+    bool merged = false;           ///< from shards, and not run here
+    const LawBand* laws = nullptr; ///< over contact laws; null: not measured
+    bool laws_interrupted = false; ///< the study is complete, and its runs under other laws are not
 };
 
 /// The message where more realizations are invalid than the study allows; else empty. @param results the file

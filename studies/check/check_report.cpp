@@ -91,9 +91,8 @@ std::string trial_text(const CheckReport& r)
                             seconds_text(range.low), seconds_text(range.high), time.block_steps);
     constexpr double busy = 0.85;
     if (const double share = trial.share_of_processor(); share < busy && trial.seconds > 0.5)
-        text += fmt::format(
-            "      for threads that have the machine for themselves; in the trial they had {:.0f} % of it\n",
-            100 * share);
+        text += fmt::format("      on an idle machine; the threads of the trial had {:.0f} % of the processor\n",
+                            100 * share);
     return text;
 }
 
@@ -142,8 +141,7 @@ std::string check_text(const CheckReport& r)
                         r.size.realizations, r.size.realizations == 1 ? "" : "s", cells_text(study), r.size.blocks,
                         r.size.free_blocks);
     text += fmt::format(
-        "steps: of {} s; about {} in a realization that neither falls nor comes to rest before its time is over; at "
-        "most {:.2g} block-steps\n",
+        "steps: of {} s; about {} in a realization that runs to the time limit; at most {:.2g} block-steps\n",
         between_text(r.size.step_s, "{:.3g}"), between_text(r.size.longest_steps, "{:.0f}"), r.size.most_block_steps);
     for (const NumericsChoice& choice : study.chosen)
         text += fmt::format("chosen: {} = {}: {}\n", choice.key, choice.value, choice.reason);
@@ -155,8 +153,8 @@ std::string check_text(const CheckReport& r)
     if (!r.notice.empty())
         text += r.notice + "\n";
     if (const std::optional<std::uint64_t> n = counted_trials(study))
-        text += fmt::format("interval: a probability near 1/2 that is counted of {} is open by ±{:.2g} (95 %)\n", *n,
-                            worst_half_width(*n));
+        text += fmt::format("interval: {} {} fix a probability near 0.5 to ±{:.2g} (95 %)\n", *n,
+                            study.fragility ? "motions" : "runs", worst_half_width(*n));
     if (const std::optional<FirstMode>& mode = r.free.mode)
         text += fmt::format("first mode: {:.3g} Hz, damping ratio {:.2g} % (contacts closed, nothing drawn)\n",
                             mode->frequency_hz, 100 * mode->damping_ratio);
@@ -172,7 +170,7 @@ std::string check_text(const CheckReport& r)
         text += pilot_text(r);
     else
         text += fmt::format("pilot: none; {}\n", r.why_no_pilot);
-    return text;
+    return text + law_share_text(r.laws, r.pilot ? &*r.pilot : nullptr, r.file);
 }
 
 Json check_json(const CheckReport& r)
@@ -252,6 +250,7 @@ Json check_json(const CheckReport& r)
     } else {
         json.member("why_no_pilot", r.why_no_pilot);
     }
+    json.member("contact_law", law_share_json(r.laws));
     return json;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What `stylobate check` reports.
 
+#include "studies/check/law_share.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "studies/experiment/numerics.hpp"
@@ -28,6 +29,7 @@ struct CheckReport {
     std::vector<std::string> not_looked_for{}; ///< sentences
     std::string why_no_pilot{};
     std::optional<NumericsCheck> pilot{};
+    LawShare laws{};
 
     /// The error of the numerics is shown to be larger than `run.accuracy`.
     bool missed() const;

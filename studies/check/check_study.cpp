@@ -15,7 +15,7 @@ namespace stylobate {
 namespace {
 
 constexpr std::uint64_t usual_pilot = 1024, least_pilot = 16, most_pilot = 10'000'000;
-constexpr double most_trial_seconds = 3600;
+constexpr double most_trial_seconds = 3600, most_law_seconds = 86400;
 
 /// Why a part of the study cannot be run twice; empty: it can.
 std::string no_pilot(const Study& study)
@@ -49,6 +49,9 @@ StudyCheck::StudyCheck(LoadedStudy loaded, std::string file, CheckPlan plan, con
     if (!(plan_.trial_seconds >= 0 && plan_.trial_seconds <= most_trial_seconds))
         throw InputError(fmt::format("--trial-seconds {}: a trial takes 0 to {} s; 0: none", plan_.trial_seconds,
                                      most_trial_seconds));
+    if (!(plan_.law_seconds >= 0 && plan_.law_seconds <= most_law_seconds))
+        throw InputError(fmt::format("--law-seconds {}: other contact laws take 0 to {} s; 0: none", plan_.law_seconds,
+                                     most_law_seconds));
     report_.warnings = loaded_.warnings(report_.file);
     pilot_ = pilot_of(plan_, report_.study, report_.file);
     report_.why_no_pilot = pilot_ == 0 ? "--pilot 0." : no_pilot(report_.study);
@@ -92,7 +95,18 @@ std::optional<CheckReport> StudyCheck::run(Observer& observer)
     report.not_looked_for = not_looked_for(loaded_, trial, report.free);
     if (report.why_no_pilot.empty()) {
         tell(fmt::format("pilot of {} realizations, run twice", pilot_));
-        report.pilot = check_numerics(loaded_.experiment(), report.run, pilot_, observer);
+        const Experiment& experiment = loaded_.experiment();
+        const PartRun plain =
+            run_part(experiment, report.run, spread_evenly(pilot_, experiment.study().total()), observer);
+        if (!observer.stop_requested())
+            report.pilot = check_numerics(experiment, report.run, plain, observer);
+        if (!observer.stop_requested() && plan_.law_seconds > 0)
+            report.laws = measure_law_share(experiment, report.run, plain, plan_.law_seconds,
+                                            plan_.costs ? plan_.costs : plan_.stage, observer);
+        else
+            report.laws.why_none = "--law-seconds 0.";
+    } else {
+        report.laws.why_none = pilot_ == 0 ? "--pilot 0." : "There is no pilot.";
     }
     if (observer.stop_requested())
         return std::nullopt;

@@ -21,8 +21,11 @@ struct CheckPlan {
     /// allows it.
     std::optional<std::uint64_t> pilot;
     double trial_seconds = 2; ///< of the trial, up to 3600; 0: none
+    double law_seconds = 20;  ///< of the pilot under other contact laws, up to 86400; 0: none
     /// Called with each stage that takes time; may be empty.
-    std::function<void(const std::string&)> stage;
+    std::function<void(const std::string&)> stage{};
+    /// Called with the cost of the contact laws before they are run; empty: `stage` is.
+    std::function<void(const std::string&)> costs{};
 };
 
 class StudyCheck {

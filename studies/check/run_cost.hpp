@@ -21,7 +21,7 @@ struct RunSize {
     std::uint64_t cells = 0;
     int blocks = 0, free_blocks = 0; ///< of one structure, without the ground
     Between step_s;                  ///< over a sample of the realizations
-    Between longest_steps;           ///< of a realization that neither falls nor comes to rest
+    Between longest_steps;           ///< of a realization that runs to the time limit
     double most_block_steps = 0;     ///< of all, if none falls or comes to rest: the mean of the sample
     double file_bytes = 0;           ///< of the complete file; while the run is finished it is there twice
     std::uint64_t trajectories = 0;
@@ -45,7 +45,7 @@ struct RunTime {
     /// are as long as those of the trial in the mean.
     double processor_s = 0;
     Between processor_range_s; ///< in which the time lies (docs/check.md)
-    /// Elapsed [s], if the threads have the machine for themselves.
+    /// Elapsed [s], on an idle machine.
     double seconds() const { return processor_s / threads; }
     Between range_s() const { return {processor_range_s.low / threads, processor_range_s.high / threads}; }
     int threads = 1;

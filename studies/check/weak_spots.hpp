@@ -43,7 +43,7 @@ double capacity_lost(const Study& study);
 /// of a fragility study the motions. Nothing where it does not count so.
 std::optional<std::uint64_t> counted_trials(const Study& study);
 
-/// Half the width of the 95 % interval (Jeffreys) of a probability near 1/2 that is counted of so many.
+/// Half the width of the 95 % interval (Jeffreys) to which so many runs fix a probability near 0.5.
 double worst_half_width(std::uint64_t realizations);
 
 /// Rows of a surface in which the probability rises from nearly none to nearly all between two neighbours.

@@ -6,8 +6,38 @@
 #include "ensemble/model/observer.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace stylobate {
+
+/// A part of a study that is run to its end, for what became of each realization.
+struct PartRun {
+    std::vector<std::uint64_t> indices;         ///< ascending
+    std::vector<std::optional<bool>> collapsed; ///< (indices) none: invalid
+    double step_s = 0;                          ///< sum over the realizations
+    double seconds = 0;                         ///< that it took
+};
+
+/// So many realizations, spread evenly over all of the study.
+std::vector<std::uint64_t> spread_evenly(std::uint64_t count, std::uint64_t total);
+
+/// @pre its kind draws realizations by their index alone: single, surface without adaptive, fragility, survival
+/// @return incomplete if the observer asks to stop
+PartRun run_part(const Experiment& experiment, const RunOptions& options, std::vector<std::uint64_t> indices,
+                 Observer& observer);
+
+/// Collapses of the same realizations in two runs.
+struct PairedCollapses {
+    std::uint64_t realizations = 0; ///< valid in both
+    std::uint64_t first = 0, second = 0;
+    std::uint64_t differ = 0; ///< collapsed in one of the two alone
+    double difference = 0; ///< of the collapse probability: first less second
+    double sd = 0;         ///< its standard error, by the pairs of which one collapsed alone
+};
+
+/// Of the realizations that both have run. @pre the indices of `second` are among those of `first`
+PairedCollapses paired_collapses(const PartRun& first, const PartRun& second);
 
 struct NumericsCheck {
     std::uint64_t realizations = 0;        ///< valid in both
@@ -25,8 +55,10 @@ struct NumericsCheck {
 Study finer(Study study);
 
 /// All is 0 if the observer asks to stop.
-/// @param pilot number of realizations, spread evenly over the study's
-/// @pre its kind draws realizations by their index alone: single, surface without adaptive, fragility
+/// @param plain part of the study, which is run again
+NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& options, const PartRun& plain,
+                             Observer& observer);
+/// @param pilot number of realizations, spread evenly over the study's   @pre as `run_part`
 NumericsCheck check_numerics(const Experiment& experiment, const RunOptions& options, std::uint64_t pilot,
                              Observer& observer);
 

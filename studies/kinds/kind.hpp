@@ -24,6 +24,8 @@
 
 namespace stylobate {
 
+struct LawBand;
+
 /// A picture of a kind, and its options on the command line.
 struct PictureKind {
     std::string_view name; ///< "surface": the word of the command line
@@ -35,6 +37,7 @@ struct PictureRequest {
     std::string_view name;              ///< of a picture of the kind
     std::string limit;                  ///< empty: the usual one
     std::vector<double> frequencies_hz; ///< empty: some
+    const LawBand* laws = nullptr;      ///< over contact laws; null: not measured
 };
 struct Picture {
     std::string name;    ///< of its file, without an ending: "slice_2Hz_slid"

@@ -79,10 +79,11 @@ HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector
 class ResultPage {
 public:
     ResultPage(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-               std::vector<std::string>& warnings)
-        : results_(results), isa_(isa), animations_(animations), reader_(results.reader()), header_(results.header()),
-          warnings_(warnings), study_(results.study()), kind_(results.concluded()), rows_(results.trials()),
-          counts_(kind_.counts()), page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
+               const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
+        : results_(results), isa_(isa), animations_(animations), laws_(laws), reader_(results.reader()),
+          header_(results.header()), warnings_(warnings), study_(results.study()), kind_(results.concluded()),
+          rows_(results.trials()), counts_(kind_.counts()),
+          page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
           writer_{page_, [this](const std::string& caption, const auto& draw) { picture(caption, draw); }},
           surface_(!header_.frequency_hz.empty())
     {
@@ -106,10 +107,13 @@ public:
         page_.section("Summary");
         if (!kind_.summary(writer_))
             summary();
+        page_.paragraph(laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_));
         studied();
         if (kind_.draws_plainly()) {
             outcomes();
             kind_.sections(writer_);
+            if (laws_)
+                law_band_section(writer_, *laws_);
             answers();
             pictures();
             order();
@@ -425,6 +429,7 @@ private:
     const Results& results_;
     const Isa isa_;
     const KeptAnimations& animations_;
+    const std::optional<LawBand>& laws_;
     const ResultReader& reader_;
     const ResultHeader& header_;
     std::vector<std::string>& warnings_;
@@ -444,9 +449,9 @@ private:
 } // namespace
 
 HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-                     std::vector<std::string>& warnings)
+                     const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
 {
-    return ResultPage(results, isa, title, animations, warnings).page();
+    return ResultPage(results, isa, title, animations, laws, warnings).page();
 }
 
 } // namespace stylobate

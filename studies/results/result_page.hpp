@@ -2,10 +2,12 @@
 /// The page of a result.
 
 #include "kernels/isa.hpp"
+#include "studies/kinds/law_band.hpp"
 #include "studies/report/html.hpp"
 #include "studies/results/kept_animations.hpp"
 #include "studies/results/results.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,10 @@ namespace stylobate {
 /// @param isa for realizations whose trajectories the file does not hold
 /// @param title of the page; empty: by the study or the file
 /// @param animations of `keep_animations`
+/// @param laws over contact laws; none: the page states which command measures it
 /// @param warnings receives a line for each picture that could not be drawn
 /// @throws InputError if the run is not complete
 HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-                     std::vector<std::string>& warnings);
+                     const std::optional<LawBand>& laws, std::vector<std::string>& warnings);
 
 } // namespace stylobate

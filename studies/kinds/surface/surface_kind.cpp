@@ -5,6 +5,7 @@
 #include "io/plots/plot_axis.hpp"
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "studies/kinds/law_band.hpp"
 #include "studies/kinds/nearest_on_axis.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace stylobate {
 
@@ -116,6 +118,21 @@ Figure slice_figure(const SurfaceTable& table)
     return figure;
 }
 
+/// What the picture shows of the band over contact laws.
+std::optional<SurfaceRange> range_of(const LawBand* laws, LimitState limit)
+{
+    const LawBand::Limit* found = laws ? laws->limit(limit_state_names()[static_cast<std::size_t>(limit)]) : nullptr;
+    if (!found)
+        return std::nullopt;
+    SurfaceRange range;
+    range.words = law_band_words(*found, *laws);
+    for (const LawBand::Place& cell : found->cells) {
+        range.low.push_back(cell.low());
+        range.high.push_back(cell.high());
+    }
+    return range;
+}
+
 } // namespace
 
 SurfaceKind::SurfaceKind(const Study& study, const ResultHeader& header)
@@ -178,8 +195,9 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
             plot_slice(surface, frequencies, describe(limit), title, file);
         };
     else
-        picture.draw = [surface, limit](const std::string& title, const std::filesystem::path& file) {
-            plot_surface(surface, describe(limit), title, file);
+        picture.draw = [surface, limit, range = range_of(request.laws, limit)](const std::string& title,
+                                                                               const std::filesystem::path& file) {
+            plot_surface(surface, describe(limit), title, file, range);
         };
     return picture;
 }

@@ -1,0 +1,70 @@
+#pragma once
+/// A study under all its contact laws: a comparison whose variants are the laws (`contact_laws`), made without being
+/// asked for by name, and the band of its probabilities.
+///
+/// Files beside RESULTS.h5, the results of the study, which stay as they are: RESULTS_law_NAME.h5, the results of each
+/// law, and RESULTS_laws.h5, the comparison. Pages, pictures and tables of RESULTS.h5 find the band by that name.
+
+#include "io/store/result_store.hpp"
+#include "studies/experiment/contact_laws.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/kinds/law_band.hpp"
+#include "studies/results/whole_run.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// The file of the band beside the results: "column.h5" -> "column_laws.h5".
+std::string law_file(const std::string& results);
+
+/// The band beside the results, if there is one and it is of the same study under the same laws.
+/// A file of that name that is no comparison, or that is damaged, is left out. @param study, header of the results
+std::optional<LawBand> law_band_beside(const std::string& results, const Study& study, const ResultHeader& header);
+
+class LawRuns {
+public:
+    /// Looks at the study, its laws and the files that are there, and changes nothing.
+    /// @param file of the study, for messages   @param results of the study; need not be there
+    /// @throws InputError if the study has no pairs or no law that applies, or if a file is another study's
+    LawRuns(const LoadedStudy& base, const std::string& file, std::string results);
+
+    /// Draws the realizations of each law once where its file is not there. Not needed where nothing is left to run.
+    /// @throws InputError if one cannot be run
+    void check_drawn() const;
+    /// "laws: softer (0.58 times the study), ...": what is left to run, and at what cost.
+    std::string costs() const;
+    /// Whether nothing is left to run: the band is there.
+    bool finished() const { return band_.has_value(); }
+    /// What keeps a law from being stepped on a device; empty: nothing.
+    std::string needs_processor() const;
+
+    /// Runs what is left. @param tell receives a line for each law   @returns false if the observer has asked to stop
+    bool run(const RunOptions& options, Observer& observer, const std::function<void(const std::string&)>& tell);
+    /// Writes the comparison where it is not there. @pre the study and all laws are complete
+    const LawBand& conclude();
+
+    /// Results of a law with more invalid realizations than the study allows: (realizations, invalid, file).
+    struct Invalid {
+        std::uint64_t invalid = 0, total = 0;
+        std::string results;
+    };
+    std::vector<Invalid> invalid() const;
+
+private:
+    struct Run {
+        std::string name;
+        double cost = 0;
+        std::unique_ptr<WholeRun> run;
+    };
+    std::string results_;
+    std::vector<ContactLaw> laws_;
+    std::vector<Run> runs_;
+    std::optional<LawBand> band_;
+};
+
+} // namespace stylobate

@@ -1,0 +1,291 @@
+#include "studies/kinds/law_band.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+/// The law for which `better(p, best so far)` holds last; values that are not finite are passed over.
+template <class Better>
+std::size_t best_of(const std::vector<double>& probability, const Better& better)
+{
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < probability.size(); ++i)
+        if (std::isfinite(probability[i]) &&
+            (!std::isfinite(probability[best]) || better(probability[i], probability[best])))
+            best = i;
+    return best;
+}
+
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "none";
+}
+
+std::string percent(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.1f} %", 100 * value) : "–";
+}
+
+Json place_json(const LawBand::Place& place, const LawBand& band)
+{
+    Json by_law = Json::object();
+    for (std::size_t i = 0; i < band.laws.size(); ++i)
+        by_law.member(band.laws[i], place.probability[i]);
+    return Json::object()
+        .member("lowest", place.low())
+        .member("lowest_law", band.laws[place.lowest()])
+        .member("highest", place.high())
+        .member("highest_law", band.laws[place.highest()])
+        .member("probability", by_law);
+}
+
+/// Probability under each law over all, with the paired difference.
+HtmlTable laws_table(const LawBand& band)
+{
+    const LawBand::Limit& limit = band.limits.front();
+    HtmlTable table{"llrrr",
+                    {"law", "", "probability", "difference", fmt::format("{:g} % interval, paired", 100 * band.level)},
+                    {},
+                    ""};
+    for (std::size_t i = 0; i < band.laws.size(); ++i) {
+        std::vector<Html> row = {code(band.laws[i]), band.words[i], percent(limit.overall.probability[i])};
+        if (i == 0)
+            row.insert(row.end(), {"", ""});
+        else
+            row.insert(row.end(), {fmt::format("{:+.1f}", 100 * limit.difference[i]),
+                                   fmt::format("{:+.1f} – {:+.1f}", 100 * limit.lower[i], 100 * limit.upper[i])});
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string range_words(const LawBand::Place& place)
+{
+    return std::isfinite(place.low()) ? fmt::format("{:.0f}–{:.0f}", 100 * place.low(), 100 * place.high()) : "–";
+}
+
+HtmlTable cells_table(const LawBand& band)
+{
+    const LawBand::Limit& limit = band.limits.front();
+    HtmlTable table;
+    if (band.frequency_hz.empty()) {
+        table = {"rrlrl", {band.measure, "lowest", "law", "highest", "law"}, {}, ""};
+        for (std::size_t cell = 0; cell < limit.cells.size(); ++cell) {
+            const LawBand::Place& place = limit.cells[cell];
+            table.rows.push_back({fmt::format("{:.4g}", band.intensity[cell]), percent(place.low()),
+                                  code(band.laws[place.lowest()]), percent(place.high()),
+                                  code(band.laws[place.highest()])});
+        }
+        return table;
+    }
+    const std::size_t nf = band.frequency_hz.size(), np = band.pga_m_s2.size();
+    table.caption = "Lowest to highest probability of collapse over the laws [%]; columns: frequency [Hz], rows: PGA "
+                    "[m/s²]";
+    table.align = "r" + std::string(nf, 'c');
+    table.head = {"PGA"};
+    for (const double frequency : band.frequency_hz)
+        table.head.emplace_back(fmt::format("{:.3g}", frequency));
+    for (std::size_t p = np; p-- > 0;) {
+        std::vector<Html> row = {fmt::format("{:.3g}", band.pga_m_s2[p])};
+        for (std::size_t f = 0; f < nf; ++f)
+            row.emplace_back(range_words(limit.cells[f * np + p]));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+} // namespace
+
+std::size_t LawBand::Place::lowest() const
+{
+    return best_of(probability, [](double p, double least) { return p < least; });
+}
+
+std::size_t LawBand::Place::highest() const
+{
+    return best_of(probability, [](double p, double most) { return p > most; });
+}
+
+std::size_t LawBand::Limit::widest() const
+{
+    std::size_t widest = 0;
+    double width = -1;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        if (const double here = cells[cell].high() - cells[cell].low(); here > width) {
+            width = here;
+            widest = cell;
+        }
+    return widest;
+}
+
+const LawBand::Limit* LawBand::limit(const std::string& name) const
+{
+    const auto found = std::ranges::find(limits, name, &Limit::name);
+    return found == limits.end() ? nullptr : &*found;
+}
+
+std::string LawBand::place(std::size_t cell) const
+{
+    if (!frequency_hz.empty())
+        return fmt::format("{:.3g} Hz, {:.3g} m/s2", frequency_hz[cell / pga_m_s2.size()],
+                           pga_m_s2[cell % pga_m_s2.size()]);
+    return intensity.empty() ? "all" : fmt::format("{} = {:.4g}", measure, intensity[cell]);
+}
+
+std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
+{
+    const LawBand::Place& all = limit.overall;
+    const std::string text = fmt::format("contact law: {} to {} ({} to {})", number(all.low()), number(all.high()),
+                                         band.laws[all.lowest()], band.laws[all.highest()]);
+    if (limit.cells.size() < 2)
+        return text;
+    const LawBand::Place& widest = limit.cells[limit.widest()]; // laws may move cells with both signs
+    return fmt::format("{} in all, {} to {} at {}", text, number(widest.low()), number(widest.high()),
+                       band.place(limit.widest()));
+}
+
+std::string law_band_text(const LawBand& band)
+{
+    const LawBand::Limit& limit = band.limits.front();
+    std::string text =
+        fmt::format("{}; probability of {}{}, {} as given\n", law_band_words(limit, band), limit.name,
+                    limit.cells.size() > 1 ? " over all cells" : "", number(limit.overall.probability.front()));
+    for (std::size_t i = 1; i < band.laws.size(); ++i)
+        text += fmt::format("  {:<8} {:<50} {}, difference {:+.4f} ({:+.4f} to {:+.4f})\n", band.laws[i], band.words[i],
+                            number(limit.overall.probability[i]), limit.difference[i], limit.lower[i], limit.upper[i]);
+    if (limit.cells.size() > 1) {
+        const std::size_t cell = limit.widest();
+        const LawBand::Place& widest = limit.cells[cell];
+        text += fmt::format("  widest band at {}: {} to {} ({} to {}), {} as given\n", band.place(cell),
+                            number(widest.low()), number(widest.high()), band.laws[widest.lowest()],
+                            band.laws[widest.highest()], number(widest.probability.front()));
+    }
+    for (const std::string& note : band.notes)
+        text += "  " + note + "\n";
+    for (const std::string& law : band.left_out)
+        text += "  left out: " + law + "\n";
+    return text + fmt::format("  band of each cell and limit state: {}\n", band.file);
+}
+
+Json law_band_json(const LawBand& band)
+{
+    Json laws = Json::list(), limits = Json::object();
+    for (std::size_t i = 0; i < band.laws.size(); ++i)
+        laws.item(Json::object().member("name", band.laws[i]).member("words", band.words[i]));
+    for (const LawBand::Limit& limit : band.limits) {
+        Json differences = Json::object(), cells = Json::list();
+        for (std::size_t i = 1; i < band.laws.size(); ++i)
+            differences.member(band.laws[i], Json::object()
+                                                 .member("difference", limit.difference[i])
+                                                 .member("lower", limit.lower[i])
+                                                 .member("upper", limit.upper[i]));
+        for (const LawBand::Place& place : limit.cells)
+            cells.item(place_json(place, band));
+        limits.member(limit.name,
+                      Json::object()
+                          .member("overall", place_json(limit.overall, band).member("differences", differences))
+                          .member("cells", cells));
+    }
+    return Json::object()
+        .member("file", band.file)
+        .member("complete", true)
+        .member("pairs", band.pairs)
+        .member("level", band.level)
+        .member("laws", laws)
+        .member("left_out", Json::list(band.left_out))
+        .member("notes", Json::list(band.notes))
+        .member("limit_states", limits);
+}
+
+Table law_band_rows(const LawBand& band)
+{
+    std::vector<std::string> limits, cells, lowest_law, highest_law;
+    std::vector<double> frequency, pga, intensity, lowest, highest;
+    std::vector<std::vector<double>> probability(band.laws.size());
+    const auto add = [&](const LawBand::Limit& limit, const LawBand::Place& place, std::size_t cell, bool all) {
+        const std::size_t np = std::max<std::size_t>(1, band.pga_m_s2.size());
+        limits.push_back(limit.name);
+        cells.push_back(all ? "all" : fmt::format("{}", cell));
+        frequency.push_back(all || band.frequency_hz.empty() ? std::nan("") : band.frequency_hz[cell / np]);
+        pga.push_back(all || band.pga_m_s2.empty() ? std::nan("") : band.pga_m_s2[cell % np]);
+        intensity.push_back(all || band.intensity.empty() ? std::nan("") : band.intensity[cell]);
+        lowest.push_back(place.low());
+        lowest_law.push_back(band.laws[place.lowest()]);
+        highest.push_back(place.high());
+        highest_law.push_back(band.laws[place.highest()]);
+        for (std::size_t i = 0; i < band.laws.size(); ++i)
+            probability[i].push_back(place.probability[i]);
+    };
+    for (const LawBand::Limit& limit : band.limits) {
+        for (std::size_t cell = 0; cell < limit.cells.size(); ++cell)
+            add(limit, limit.cells[cell], cell, false);
+        add(limit, limit.overall, 0, true);
+    }
+    const std::size_t n = limits.size();
+    Table table("contact_laws");
+    table.add("limit_state", std::move(limits));
+    table.add("cell", std::move(cells));
+    if (!band.frequency_hz.empty()) {
+        table.add("frequency_hz", std::move(frequency), {n});
+        table.add("pga_m_s2", std::move(pga), {n});
+    }
+    if (!band.intensity.empty())
+        table.add(band.measure, std::move(intensity), {n});
+    table.add("lowest", std::move(lowest), {n});
+    table.add("lowest_law", std::move(lowest_law));
+    table.add("highest", std::move(highest), {n});
+    table.add("highest_law", std::move(highest_law));
+    for (std::size_t i = 0; i < band.laws.size(); ++i)
+        table.add(i == 0 ? "probability_as_given" : "probability_" + band.laws[i], std::move(probability[i]), {n});
+    return table;
+}
+
+void law_band_section(PageWriter& writer, const LawBand& band)
+{
+    const LawBand::Limit& limit = band.limits.front();
+    writer.page.section("Contact law");
+    writer.page.paragraph(fmt::format(
+        "The contact law of a monument is not known. Over {} laws the probability of collapse{} is {} ({}) to {} ({}); "
+        "with the law of the study it is {}. All laws have the same structures and the same shaking.",
+        band.laws.size(), limit.cells.size() > 1 ? " in all cells together" : "", percent(limit.overall.low()),
+        band.laws[limit.overall.lowest()], percent(limit.overall.high()), band.laws[limit.overall.highest()],
+        percent(limit.overall.probability.front())));
+    writer.page.table(laws_table(band));
+    if (limit.cells.size() > 1) {
+        const std::size_t cell = limit.widest();
+        writer.page.paragraph(fmt::format("The band is widest at {}: {} to {}.", band.place(cell),
+                                          percent(limit.cells[cell].low()), percent(limit.cells[cell].high())));
+        writer.page.table(cells_table(band));
+    }
+    for (const std::string& note : band.notes)
+        writer.page.note(note);
+    for (const std::string& law : band.left_out)
+        writer.page.note("Left out: " + law);
+    writer.page.note(
+        "The ends of a band are estimates: the lowest and the highest of several are spread by chance too, "
+        "by about the interval of a difference. All limit states: " +
+        band.file + " and stylobate export --to csv.");
+}
+
+std::string law_advice(const Study& study)
+{
+    const bool pairs = study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
+                       (study.kind == StudyKind::surface && !study.surface->adaptive);
+    const std::string command = "stylobate run STUDY.toml --laws";
+    std::string how = command + " measures by how much.";
+    if (study.contact.form == ContactForm::rigid)
+        how = "give contact.form = \"two_corner\" and a stiffness, and " + command +
+              " measures by how much, rigid contacts among the laws.";
+    else if (!pairs)
+        how = command + " measures by how much, of the same structure and shaking as a surface.";
+    else if (study.kept == KeptRealizations::none)
+        how = command + " measures by how much, with output.realizations = \"all\".";
+    return "The answer depends on the contact law: " + how;
+}
+
+} // namespace stylobate

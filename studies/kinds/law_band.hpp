@@ -1,0 +1,65 @@
+#pragma once
+/// The band of the probabilities of a study over contact laws, as plain data, and how it is reported.
+
+#include "ensemble/model/study.hpp"
+#include "io/tables/table.hpp"
+#include "studies/kinds/page_writer.hpp"
+#include "studies/report/json.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct LawBand {
+    std::string file;                  ///< that it is from
+    std::vector<std::string> laws;     ///< "as given" (the study), "softer", ...
+    std::vector<std::string> words;    ///< (laws) what each is
+    std::vector<std::string> left_out; ///< sentences: laws that do not apply
+    std::vector<std::string> notes;    ///< sentences: what else a law changes
+    std::vector<double> frequency_hz, pga_m_s2;
+    std::string measure;           ///< of stripes
+    std::vector<double> intensity; ///< of stripes
+    double level = 0.95;           ///< of the intervals of differences
+    std::uint64_t pairs = 0;       ///< of realizations, of each law at least
+
+    /// Probabilities of one limit state in one cell or stripe, or in all.
+    struct Place {
+        std::vector<double> probability; ///< (laws) NaN where no pair is valid
+        std::size_t lowest() const;      ///< the law of the least probability; of equal ones the first
+        std::size_t highest() const;
+        double low() const { return probability[lowest()]; }
+        double high() const { return probability[highest()]; }
+    };
+    struct Limit {
+        std::string name, describe;
+        std::vector<Place> cells;
+        Place overall;
+        /// (laws) over all: paired difference from the study with its interval; 0 of the study itself.
+        std::vector<double> difference, lower, upper;
+        std::size_t widest() const; ///< the cell with the widest band
+    };
+    std::vector<Limit> limits; ///< the first one is what `check` and `run` report: collapse
+
+    /// Null where there is no such limit state.
+    const Limit* limit(const std::string& name) const;
+    /// "2.5 Hz, 4 m/s2"; "all" where there is one cell.
+    std::string place(std::size_t cell) const;
+};
+
+/// "contact law: 0.61 (rigid) to 0.88 (stiffer); ..." Lines for a terminal.
+std::string law_band_text(const LawBand& band);
+/// For pages and pictures: "contact law: 0.61 to 0.88 (rigid to stiffer) in all, 0 to 0.97 at 0.61 Hz, 2 m/s2", the
+/// second of the cell or stripe with the widest band.
+std::string law_band_words(const LawBand::Limit& limit, const LawBand& band);
+Json law_band_json(const LawBand& band);
+/// A row for each limit state and cell, and for all cells together.
+Table law_band_rows(const LawBand& band);
+/// A section of a page.
+void law_band_section(PageWriter& writer, const LawBand& band);
+
+/// What is reported where there is no band: that the answer depends on the contact law, and which command measures it.
+std::string law_advice(const Study& study);
+
+} // namespace stylobate
