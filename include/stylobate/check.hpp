@@ -87,7 +87,7 @@ public:
     int blocks() const;      ///< of one structure, without the ground
     int free_blocks() const; ///< of these, those that can move
     Range step_s() const;
-    Range longest_steps() const;         ///< of a realization that neither falls nor comes to rest
+    Range longest_steps() const;         ///< of a realization that runs to the time limit
     std::optional<Trial> trial() const;  ///< none: not asked for
     std::optional<RunTime> time() const; ///< none: no trial, or its first realizations did not end in time
     double memory_bytes() const; ///< resident, of this process if it ran the study: what it has held so far and more

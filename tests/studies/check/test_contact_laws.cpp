@@ -7,6 +7,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/check/law_share.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
