@@ -107,7 +107,7 @@ LawShare measure_law_share(const Experiment& study, const RunOptions& options, c
             return share;
         PairedCollapses pairs = paired_collapses(plain, run); // the study first
         std::swap(pairs.first, pairs.second);
-        pairs.difference = -pairs.difference;
+        pairs.difference = 0 - pairs.difference; // without -0
         share.laws.push_back({law.name, law.words, law.note, pairs, run.seconds});
     }
     return share;
