@@ -97,7 +97,8 @@ int main(int argc, char** argv)
             statistics += found.by_statistics.p_value <= 0.1 ? 1 : 0;
             outside += found.by_statistics.contrasts ? 1 : 0;
             for (const JudgedCause& j : decided.named)
-                fmt::print(stderr, "{}: {}, probability {:.2f}\n", part.name, j.fit.cause.label(), j.probability);
+                fmt::print(stderr, "{}: {}, probability {:.2f}\n", part.name, j.fit.cause.label(),
+                           j.probability.value_or(0));
         }
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", part.name, campaigns, named, unexplained, forces,

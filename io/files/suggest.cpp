@@ -84,4 +84,9 @@ std::string meant_key(std::string_view key, const std::vector<std::string>& know
     return best.empty() ? nearest_word(without_unit(key), known) : best;
 }
 
+std::string counted(std::uint64_t n, std::string_view noun)
+{
+    return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : "s");
+}
+
 } // namespace stylobate

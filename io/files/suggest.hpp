@@ -1,7 +1,8 @@
 #pragma once
-/// "Did you mean": the nearest of the words that are allowed.
+/// Words of messages: the nearest of the words that are allowed ("did you mean"), and numbers with their nouns.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,5 +23,8 @@ std::string_view without_unit(std::string_view key);
 /// The known key that was meant by an unknown one: the same name with another unit or with none, else the nearest;
 /// empty if there is none.
 std::string meant_key(std::string_view key, const std::vector<std::string>& known);
+
+/// A number with its noun: "1 run", "3 runs".
+std::string counted(std::uint64_t n, std::string_view noun);
 
 } // namespace stylobate

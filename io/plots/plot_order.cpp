@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "io/files/suggest.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_order_parts.hpp"
 #include "io/plots/plot_surface.hpp"
@@ -68,7 +69,7 @@ std::string table(const FallOrder& order, const std::vector<std::size_t>& shown,
         script += fmt::format("set arrow from screen {}, screen {} to screen {}, screen {} nohead linewidth 1.2 "
                               "linecolor rgb '#b0b0b0'\n",
                               at.line, y, at.line + 0.024, y);
-        script += cell(fmt::format("{} others, less frequent", others), at.name, y, "left", font);
+        script += cell(fmt::format("{}, less frequent", counted(others, "other")), at.name, y, "left", font);
     }
     return script;
 }

@@ -1,4 +1,5 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "io/files/suggest.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_order_parts.hpp"
 
@@ -94,7 +95,7 @@ std::string first_words(const FallOrder& order)
                                 100 * fallen_share(order, first[k].first));
     }
     if (others > 0)
-        text += fmt::format(", {} others {:.1f} %", first.size() - most, 100 * fallen_share(order, others));
+        text += fmt::format(", {} {:.1f} %", counted(first.size() - most, "other"), 100 * fallen_share(order, others));
     return text;
 }
 

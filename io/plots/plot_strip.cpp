@@ -1,6 +1,7 @@
 #include "io/plots/plot_strip.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
 #include "io/plots/gnuplot.hpp"
 
 #include <algorithm>
@@ -508,14 +509,11 @@ std::string falls_script(const Panel& panel, const Page& page, const Trajectory&
 std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls)
 {
     const auto fixed = std::count(drawn.fixed.begin(), drawn.fixed.end(), true);
-    const auto many = [](std::size_t n, const char* what) {
-        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
-    std::string text = many(drawn.blocks.size() - drawn.epistyles - drawn.capitals, "drum");
+    std::string text = counted(drawn.blocks.size() - drawn.epistyles - drawn.capitals, "drum");
     if (drawn.capitals > 0)
-        text += (drawn.epistyles > 0 ? ", " : " and ") + many(drawn.capitals, "capital");
+        text += (drawn.epistyles > 0 ? ", " : " and ") + counted(drawn.capitals, "capital");
     if (drawn.epistyles > 0)
-        text += " and " + many(drawn.epistyles, "epistyle");
+        text += " and " + counted(drawn.epistyles, "epistyle");
     if (fixed > 0)
         text += fmt::format(", {} fixed (darker)", fixed);
     text += " · drawn to scale in the frame of the base";

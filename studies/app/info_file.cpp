@@ -1,5 +1,6 @@
 /// `stylobate info FILE`, kind by kind.
 
+#include "io/files/suggest.hpp"
 #include "studies/app/command.hpp"
 
 #include "ensemble/model/input_error.hpp"
@@ -172,7 +173,7 @@ void tell_diagnosis(const std::string& file, Told& told)
         .member("verdict", to_string(d.verdict))
         .member("causes", causes);
     told.text = fmt::format("a diagnosis of {} ({}), by stylobate {}\n{}. {}\n", d.measured_file,
-                            count_words(d.runs, "run", "runs"), d.code_version, verdict_heading(d), verdict_words(d));
+                            counted(d.runs, "run"), d.code_version, verdict_heading(d), verdict_words(d));
 }
 
 void tell_comparison(const std::string& file, Told& told)
@@ -228,9 +229,8 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         .member("seed", study.seed)
         .member("realizations", most_realizations(study));
     const bool at_most = study.rare || (study.surface && study.surface->adaptive);
-    told.text = fmt::format("a study of kind {}, {}{} realization{}, seed {}\n", word_for(study_kind_names, study.kind),
-                            at_most ? "at most " : "", most_realizations(study),
-                            most_realizations(study) == 1 ? "" : "s", study.seed);
+    told.text = fmt::format("a study of kind {}, {}{}, seed {}\n", word_for(study_kind_names, study.kind),
+                            at_most ? "at most " : "", counted(most_realizations(study), "realization"), study.seed);
     for (const auto& [what, is] : study_facts(study)) {
         std::string key = what;
         std::transform(key.begin(), key.end(), key.begin(), [](char c) {

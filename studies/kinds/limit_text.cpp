@@ -1,5 +1,6 @@
 #include "studies/kinds/limit_text.hpp"
 
+#include "io/files/suggest.hpp"
 #include "io/plots/plot_surface.hpp"
 
 #include <fmt/format.h>
@@ -89,7 +90,7 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
     for (std::size_t k = 0; k < std::min(most, first.size()); ++k)
         list += fmt::format("{}{}: {}", k > 0 ? "; " : "", names[first[k]], share_text(counts.share_first(first[k])));
     if (first.size() > most)
-        list += fmt::format("; and {} other{}", first.size() - most, first.size() == most + 1 ? "" : "s");
+        list += fmt::format("; and {}", counted(first.size() - most, "other"));
     if (counts.first_together() > 0)
         list += fmt::format("{}several in the same step: {}", list.empty() ? "" : "; ",
                             share_text(counts.share_first_together()));

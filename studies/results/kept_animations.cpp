@@ -4,6 +4,7 @@
 #include "ensemble/model/structure.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/run_order.hpp"
+#include "io/files/suggest.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
@@ -196,7 +197,7 @@ private:
                                       "did not (at most {} of each in a cell)",
                                       kept, cells.size(), choice.cells, options_.each);
         else
-            kept_.words = fmt::format("Animations: {} of {} chosen realization{}", kept, all, all == 1 ? "" : "s");
+            kept_.words = fmt::format("Animations: {} of {}", kept, counted(all, "chosen realization"));
         if (all == 0)
             return;
         kept_.words +=

@@ -4,6 +4,7 @@
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/structure.hpp"
+#include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
 
 #include <fmt/format.h>
@@ -21,11 +22,6 @@ std::string span_text(const std::vector<double>& values, const char* unit)
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     return *least == *most ? fmt::format("{:.4g} {}", *least, unit)
                            : fmt::format("{:.4g} {} to {:.4g} {}", *least, unit, *most, unit);
-}
-
-std::string counted(std::size_t n, const char* noun)
-{
-    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
 /// Number and sizes of the blocks of a kind; empty without any.

@@ -1,5 +1,6 @@
 #include "studies/verify/verification.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -67,7 +68,7 @@ std::string text_of(const FileVerification& v)
                                 d.realization ? fmt::format("realization {}, ", *d.realization) : "", d.where, d.stored,
                                 d.expected.empty() ? "" : fmt::format(" in the file, {} expected", d.expected));
         if (check.more > 0)
-            text += fmt::format("    and {} other{}\n", check.more, check.more == 1 ? "" : "s");
+            text += fmt::format("    and {}\n", counted(check.more, "other"));
     }
     return text;
 }

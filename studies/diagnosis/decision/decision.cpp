@@ -197,7 +197,8 @@ bool contains(const std::vector<JudgedCause>& list, const std::string& mechanism
 bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict, JudgedCause& best)
 {
     const bool probable = verdict.named && verdict.set_probability >= least_probability;
-    best.probability = verdict.named ? verdict.probability : 0;
+    if (verdict.named)
+        best.probability = verdict.probability;
     if (verdict.no_nearer)
         best.why_not = "campaigns with it are no nearer to the measured one than healthy ones";
     else if (!verdict.named)
@@ -322,9 +323,9 @@ void add_rivals(std::vector<JudgedCause> rivals, double named, std::vector<Judge
 {
     double sum = 0;
     for (const JudgedCause& j : rivals)
-        sum += j.probability;
+        sum += j.probability.value_or(0);
     for (JudgedCause& j : rivals) {
-        j.probability *= std::min(1.0, (1 - named) / sum);
+        j.probability = j.probability.value_or(0) * std::min(1.0, (1 - named) / sum);
         if (!contains(in_set, j.fit.cause.mechanism))
             in_set.push_back(std::move(j));
     }
@@ -344,7 +345,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
         out.by_tie = false;
         out.in_set.clear();
         out.named.push_back(by_forces.front());
-        most = by_forces.front().probability;
+        most = by_forces.front().probability.value_or(0);
         by_forces.erase(by_forces.begin());
     }
     for (JudgedCause& named : out.named) {
@@ -360,7 +361,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
             by_forces.erase(same);
             out.in_set.clear(); // of the statistics: forces tell more apart
         }
-        most = std::max(most, named.probability);
+        most = std::max(most, named.probability.value_or(0));
     }
     add_rivals(std::move(by_forces), most, out.in_set);
 }

@@ -52,9 +52,9 @@ struct JudgedCause {
     CauseFit fit;
     Channel channel = Channel::statistics;
     double chance95 = 0;
-    double chance = 1; ///< probability of such a gain where nothing is hidden
-    double probability = 0;
-    bool considered = false; ///< named, or in a set with what is named
+    double chance = 1;                 ///< probability of such a gain where nothing is hidden
+    std::optional<double> probability; ///< nothing: not computed
+    bool considered = false;           ///< named, or in a set with what is named
     /// Named by nearness: how far its campaigns are from the measured one, over healthy ones; `chance` is then that of
     /// these being so far. 0: not by it.
     double nearer = 0;

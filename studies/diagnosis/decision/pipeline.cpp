@@ -293,22 +293,22 @@ void Pipeline::state_verdict()
 }
 
 /// One for each mechanism and place: as it was named first, else as it is in the set, else as it was judged. Of those
-/// that are rejected the likeliest.
+/// that are not shown the likeliest.
 void Pipeline::list_candidates()
 {
     std::set<std::pair<std::string, std::string>> told;
     const auto add = [&](const JudgedCause& j, Decision decision) {
-        const bool listed = decision != Decision::rejected || d_.candidates.size() < most_candidates;
+        const bool listed = decision != Decision::not_shown || d_.candidates.size() < most_candidates;
         if (listed && told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
             d_.candidates.push_back(
-                candidate_of(j, measured_, decision, ensemble_.has_value(), decided_.unexplained.has_value()));
+                candidate_of(j, measured_, decision, ensemble_.has_value(), better_than_candidates(decided_)));
     };
     for (const JudgedCause& j : decided_.named)
         add(j, Decision::named);
     for (const JudgedCause& j : decided_.in_set)
         add(j, Decision::in_set);
     for (const JudgedCause& j : decided_.judged)
-        add(j, Decision::rejected);
+        add(j, Decision::not_shown);
 }
 
 void Pipeline::list_indistinguishable()

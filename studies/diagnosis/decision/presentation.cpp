@@ -47,8 +47,17 @@ std::vector<std::string> names_words(std::vector<std::string> mechanisms)
 
 } // namespace
 
+Better better_than_candidates(const Decided& decided)
+{
+    if (decided.unexplained)
+        return Better::unknown_force;
+    const bool named = std::any_of(decided.named.begin(), decided.named.end(),
+                                   [](const JudgedCause& j) { return j.channel != Channel::direct; });
+    return named ? Better::named_cause : Better::nothing;
+}
+
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
-                       bool unexplained)
+                       Better better)
 {
     Candidate c;
     const Cause& cause = j.fit.cause;
@@ -81,21 +90,23 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
     c.decision = decision;
-    const std::string found = j.channel == Channel::direct ? "found by a direct test"
-                              : j.channel == Channel::forces
-                                  ? fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores "
-                                                "is {:.2g}",
-                                                j.fit.gain, j.chance)
-                              : j.nearer > 0
-                                  ? fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one "
-                                                "as healthy ones, none of which is like it (p = {:.2g})",
-                                                j.nearer, j.chance)
-                              : decision != Decision::rejected
-                                  ? fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
-                                                "{:.1f} (95 %)",
-                                                j.fit.gain, j.chance95)
-                              : unexplained ? "a force of unknown kind has a significantly larger gain"
-                                            : "another cause explains the same data better";
+    const std::string found =
+        j.channel == Channel::direct ? "found by a direct test"
+        : j.channel == Channel::forces
+            ? fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores "
+                          "is {:.2g}",
+                          j.fit.gain, j.chance)
+        : j.nearer > 0 ? fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one "
+                                     "as healthy ones, none of which is like it (p = {:.2g})",
+                                     j.nearer, j.chance)
+        : decision != Decision::not_shown
+            ? fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
+                          "{:.1f} (95 %)",
+                          j.fit.gain, j.chance95)
+        : better == Better::unknown_force ? "a force of unknown kind has a significantly larger gain"
+        : better == Better::named_cause   ? "another cause explains the same data better"
+        : j.chance > EnsembleRule{}.named ? fmt::format("the p-value of the gain is {:.2g}", j.chance)
+                                          : "the candidate of the largest gain is not named, and this one gains less";
     c.why += (c.why.empty() ? "" : "; ") + (j.why_not.empty() ? found : j.why_not);
     if (j.forces_too)
         c.why +=
@@ -107,12 +118,16 @@ DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates)
 {
     DiagnosisFigure figure;
     figure.place = FigurePlace::candidates;
-    figure.title = "Gain of each cause, and its null distribution";
-    figure.caption =
-        "Gain in log likelihood over the baseline. The dot is the 95 % quantile of the null distribution from "
-        "simulated campaigns without a hidden effect. A "
-        "cause without a dot was found by a direct test of base, sensors or rest with a separate threshold, or by "
-        "the balance of forces alone.";
+    const bool compared =
+        std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.null95.has_value(); });
+    figure.title = compared ? "Gain of each cause, and its null distribution" : "Gain of each cause";
+    figure.caption = "Gain in log likelihood over the baseline.";
+    figure.caption += compared
+                          ? " The dot is the 95 % quantile of the null distribution from simulated campaigns without a "
+                            "hidden effect. A cause without a dot was found by a direct test of base, sensors or rest "
+                            "with a separate threshold, or by the balance of forces alone."
+                          : " The causes were found by direct tests of base, sensors or rest, each with a threshold of "
+                            "its own.";
     figure.x_label = "cause";
     figure.y_label = "gain [nats]";
     FigureSeries named{"named as the cause", SeriesKind::bars, {}, {}, {}, {}},
@@ -329,10 +344,10 @@ std::vector<std::string> finding_texts(const std::vector<Finding>& findings)
 std::string verdict_text(const Diagnosis& d)
 {
     if (d.verdict == Verdict::none)
-        return "No mechanism explains the errors of the simulation better than noise, scatter and its contact law" +
-               (d.missing.empty()
-                    ? std::string(".")
-                    : fmt::format(", among the tests that were possible. Not tested: {}.", missing_words(d)));
+        return (d.nulls.empty() ? "The direct tests of base and sensors name no cause"
+                                : "No mechanism explains the errors of the simulation better than noise, scatter and "
+                                  "its contact law") +
+               (d.missing.empty() ? std::string(".") : fmt::format(". Not tested: {}.", missing_words(d)));
     std::vector<std::string> names;
     for (const Candidate* c : named_causes(d))
         names.push_back(fmt::format("{} {}, {}{}", c->mechanism, place_words(c->place), mechanism_words(c->mechanism),

@@ -13,11 +13,19 @@
 /// What the stages of a diagnosis found, as its tables, figures and sentences tell it.
 namespace stylobate {
 
+/// What explains the campaign's statistics in the place of a candidate that is not named.
+enum class Better {
+    nothing,      ///< no cause of joints or blocks is named
+    named_cause,  ///< a cause of joints or blocks is
+    unknown_force ///< a force of unknown kind
+};
+
+Better better_than_candidates(const Decided& decided);
+
 /// A cause as a row of the table of candidates.
 /// @param chance_known whether campaigns with nothing hidden were simulated
-/// @param unexplained whether that is the verdict
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
-                       bool unexplained);
+                       Better better);
 
 /// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
 DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);

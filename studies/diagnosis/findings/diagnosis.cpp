@@ -35,8 +35,8 @@ const char* to_string(Decision decision)
         return "named";
     case Decision::in_set:
         return "in the set";
-    case Decision::rejected:
-        return "rejected";
+    case Decision::not_shown:
+        return "not shown by these data";
     default:
         return "could not be judged";
     }
@@ -53,6 +53,17 @@ std::vector<const Candidate*> named_causes(const Diagnosis& diagnosis)
         return a->probability.value_or(-1) > b->probability.value_or(-1);
     });
     return causes;
+}
+
+const Candidate* best_candidate(const Diagnosis& diagnosis)
+{
+    const Candidate* best = nullptr;
+    if (diagnosis.verdict == Verdict::none)
+        for (const Candidate& candidate : diagnosis.candidates)
+            if (candidate.p && candidate.gain_nats && *candidate.gain_nats > 0 &&
+                (!best || *candidate.gain_nats > *best->gain_nats))
+                best = &candidate;
+    return best;
 }
 
 } // namespace stylobate

@@ -76,7 +76,7 @@ struct Evidence {
 enum class Decision {
     named,     ///< a cause of the verdict
     in_set,    ///< not distinguished from a named one by these data
-    rejected,  ///< judged, and not needed
+    not_shown, ///< judged, and neither named nor in the set
     not_judged ///< the data do not allow it; `why` gives what is missing
 };
 
@@ -89,11 +89,13 @@ struct Candidate {
     MaybeReal size;        ///< best fit
     MaybeReal low;         ///< 95 % interval
     MaybeReal high;
-    MaybeReal neutral;              ///< value at which the baseline is recovered
-    MaybeReal gain_nats;            ///< log likelihood gained over the calibrated baseline
-    MaybeReal null95;               ///< 95 % quantile of that gain where the mechanism is absent [nats]
-    MaybeReal p;                    ///< probability of such a gain where it is absent
-    MaybeReal probability;          ///< of being the cause, among the candidates judged, given that one of them is
+    MaybeReal neutral;   ///< value at which the baseline is recovered
+    MaybeReal gain_nats; ///< log likelihood gained over the calibrated baseline
+    MaybeReal null95;    ///< 95 % quantile of that gain where the mechanism is absent [nats]
+    MaybeReal p;         ///< probability of such a gain where it is absent
+    /// Of being the cause, among the candidates judged, given that one of them is. Nothing where none was computed: it
+    /// is computed for causes that are named or in the set, and for a best one that is too improbable to be named.
+    MaybeReal probability;
     std::vector<Evidence> evidence; ///< by run
     Decision decision = Decision::not_judged;
     std::string why; ///< of the decision
@@ -235,9 +237,12 @@ struct Diagnosis {
 /// Words of the file, the JSON object and the pages.
 const char* to_string(Verdict verdict);     ///< "none", "named", "unexplained"
 const char* to_string(TestOutcome outcome); ///< "passed", "failed", "not judged"
-const char* to_string(Decision decision);   ///< "named", "in the set", "rejected", "could not be judged"
+const char* to_string(Decision decision);   ///< "named", "in the set", "not shown by these data", "could not be judged"
 
 /// Those that the verdict names, most probable first; none where the verdict is `none`.
 std::vector<const Candidate*> named_causes(const Diagnosis& diagnosis);
+
+/// The candidate of the largest gain with a p-value, where the verdict is `none`; else null.
+const Candidate* best_candidate(const Diagnosis& diagnosis);
 
 } // namespace stylobate

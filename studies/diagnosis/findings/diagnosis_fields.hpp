@@ -21,7 +21,7 @@ struct FieldWords<TestOutcome> {
 };
 template <>
 struct FieldWords<Decision> {
-    static constexpr const char* words[] = {"named", "in_set", "rejected", "not_judged"};
+    static constexpr const char* words[] = {"named", "in_set", "rejected", "not_judged"}; // rejected: not_shown
 };
 template <>
 struct FieldWords<SeriesKind> {

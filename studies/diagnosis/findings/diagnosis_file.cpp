@@ -28,6 +28,9 @@ Diagnosis read_diagnosis(const std::filesystem::path& file)
             if (const std::string fault = diagnosis.motion->fault(); !fault.empty())
                 throw hdf5::Error(fault);
     });
+    for (Candidate& candidate : diagnosis.candidates) // 0.2.0 stored 0 where none was computed
+        if (candidate.decision == Decision::not_shown && candidate.probability == 0.0)
+            candidate.probability.reset();
     return diagnosis;
 }
 

@@ -172,7 +172,8 @@ Json diagnosis_json(const Diagnosis& d)
         [](const std::string& file) { return std::string_view(file); });
     json.member("simulations", d.cost.simulations).member("seconds", d.cost.seconds);
 
-    json.member("text", verdict_words(d))
+    json.member("heading", verdict_heading(d))
+        .member("text", verdict_words(d))
         .member("specimen", d.specimen)
         .member("measured", d.measured_file)
         .member("measured_fingerprint", d.measured_fingerprint)

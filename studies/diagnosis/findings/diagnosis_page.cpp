@@ -1,5 +1,6 @@
 #include "studies/diagnosis/findings/diagnosis_page.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/windows/motion_page.hpp"
@@ -46,7 +47,7 @@ public:
                     ? title
                     : "Diagnosis: " + (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen),
                 fmt::format("{}, {} of {} used. Made by stylobate {}.", diagnosis.measured_file, diagnosis.runs_used,
-                            count_words(diagnosis.runs, "run", "runs"), diagnosis.code_version))
+                            counted(diagnosis.runs, "run"), diagnosis.code_version))
     {
     }
 
@@ -81,16 +82,19 @@ private:
     void verdict()
     {
         page_.section("Verdict");
-        const char* tone = d_.verdict == Verdict::none ? "good" : d_.verdict == Verdict::named ? "warn" : "bad";
+        // `none` is no acquittal: it has no colour
+        const char* tone = d_.verdict == Verdict::none ? "" : d_.verdict == Verdict::named ? "warn" : "bad";
         const std::string said = verdict_words(d_);
         page_.box(tone, verdict_heading(d_), said);
         if (said.find("nats") != std::string::npos)
             page_.note(nats_words());
         std::vector<std::pair<std::string, Html>> facts;
         for (const Candidate* cause : named_causes(d_))
-            facts.emplace_back("Cause", fmt::format("{} ({}), {}: {}; probability {}", cause->mechanism,
-                                                    mechanism_words(cause->mechanism), cause->place, size_cell(*cause),
-                                                    probability_words(cause->probability)));
+            facts.emplace_back(
+                "Cause",
+                fmt::format("{} ({}), {}: {}{}", cause->mechanism, mechanism_words(cause->mechanism), cause->place,
+                            size_cell(*cause),
+                            cause->probability ? "; probability " + probability_words(cause->probability) : ""));
         if (d_.indistinguishable.size() > 1)
             facts.emplace_back("Not distinguished by these data", list_words(d_.indistinguishable));
         if (!d_.wrong.empty() && d_.verdict != Verdict::none) {
@@ -160,7 +164,8 @@ private:
             return;
         page_.section("Candidates");
         if (!d_.candidates.empty()) {
-            page_.paragraph(nats_words() + " " + chance_words());
+            const bool compared = compared_with_nulls(d_);
+            page_.paragraph(nats_words() + (compared ? " " + chance_words(d_) : ""));
             double most = 0;
             for (const Candidate& c : d_.candidates)
                 most = std::max({most, c.gain_nats.value_or(0), 1.3 * c.null95.value_or(0)});
@@ -182,10 +187,12 @@ private:
             }
             page_.table(table);
             page_.note(
-                "Gain: log likelihood over the calibrated baseline. Null (the mark on the bar): the 95 % quantile of "
-                "the null distribution, from simulated campaigns without the mechanism. A gain slightly above it is "
-                "not sufficient (see Method). Causes without these values were found by a test of base, sensors or "
-                "rest with a separate threshold (see The data). Probabilities are among the tested candidates.");
+                std::string("Gain: log likelihood over the calibrated baseline. ") +
+                (compared ? "Null (the mark on the bar): the 95 % quantile of the null distribution, from simulated "
+                            "campaigns without the mechanism. A gain slightly above it is not sufficient (see Method). "
+                          : "") +
+                "Causes without a p-value were found by a test of base, sensors or rest with a separate threshold (see "
+                "The data). Probabilities are among the tested candidates.");
             reasons();
             evidence();
         }

@@ -1,5 +1,6 @@
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
 
+#include "io/files/suggest.hpp"
 #include "io/files/utf8.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 
@@ -97,7 +98,7 @@ std::string data_part(const Diagnosis& d)
             tests.begin(), tests.end(), [](const DataTest& test) { return test.outcome == TestOutcome::passed; }));
     };
     if (const std::uint64_t n = passed(d.base_tests) + passed(d.sensor_tests); n > 0)
-        out += wrapped(fmt::format("- {} of base and sensors passed", count_words(n, "test", "tests")), 2);
+        out += wrapped(fmt::format("- {} of base and sensors passed", counted(n, "test")), 2);
     return out.empty() ? out : heading("The data") + out;
 }
 
@@ -129,12 +130,18 @@ std::string candidates_part(const Diagnosis& d)
 {
     if (d.candidates.empty())
         return "";
-    return heading(
-               "Candidates (gain in nats over the calibrated baseline; null: 95 % quantile of the null distribution)") +
-           wrapped(nats_words() + " " + chance_words() +
-                       " prob. is the probability of being the cause, given that one of the tested candidates is.",
-                   2) +
-           table_of(d.candidates, {"mechanism", "place", "size", "gain", "by chance", "p", "prob.", "decision"},
+    const bool compared = compared_with_nulls(d);
+    const bool probable = std::any_of(d.candidates.begin(), d.candidates.end(),
+                                      [](const Candidate& c) { return c.probability.has_value(); });
+    std::string words = nats_words();
+    if (compared)
+        words += " " + chance_words(d);
+    if (probable)
+        words += " prob. is the probability of being the cause, given that one of the tested candidates is.";
+    return heading(fmt::format("Candidates (gain in nats over the calibrated baseline{})",
+                               compared ? "; null: 95 % quantile of the null distribution" : "")) +
+           wrapped(words, 2) +
+           table_of(d.candidates, {"mechanism", "place", "size", "gain", "null", "p", "prob.", "decision"},
                     [](const Candidate& c) {
                         const auto blank = [](const std::string& words) { return words == "not known" ? "" : words; };
                         return Row{c.mechanism,

@@ -1,6 +1,7 @@
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include "ensemble/model/mechanism_spec.hpp"
+#include "io/files/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -70,11 +71,6 @@ std::string list_words(const std::vector<std::string>& list)
     return text;
 }
 
-std::string count_words(std::uint64_t n, const std::string& one, const std::string& many)
-{
-    return n == 1 ? "one " + one : fmt::format("{} {}", n, many);
-}
-
 std::string mechanism_words(const std::string& mechanism)
 {
     for (const MechanismRule& rule : mechanism_rules())
@@ -101,31 +97,63 @@ std::string wrong_words(const Diagnosis& diagnosis)
                        "in units of the error caused by noise and a lag of some milliseconds (root mean square of the "
                        "worst window; values of 2 and above are listed).";
     if (diagnosis.verdict == Verdict::none)
-        text += " Part of it is due to the contacts and the scatter of specimens. No tested cause explains the rest "
-                "significantly better than the null distribution.";
+        text += " Part of it is due to the contacts and the scatter of specimens.";
+    if (best_candidate(diagnosis))
+        text += " No tested cause explains the rest significantly better than the null distribution.";
     return text;
 }
 
 std::string nats_words()
 {
     return "A gain is given in nats, the unit of log likelihood: with 1 nat the cause makes the measured data 2.7 "
-           "times "
-           "as "
-           "probable as the baseline does, with 3 nats 20 times, with 10 nats 22,000 times.";
+           "times as probable as the baseline does, with 3 nats 20 times, with 10 nats 22,000 times.";
 }
 
-std::string chance_words()
+std::string chance_words(const Diagnosis& diagnosis)
 {
-    return "p is the p-value of the gain: the share of simulated null campaigns (without a hidden effect) that reach "
-           "it. A significant candidate may still be rejected if the named cause "
-           "explains the same data better.";
+    std::string text = "p is the p-value of the gain: the share of simulated null campaigns (without a hidden effect) "
+                       "that reach it.";
+    if (!named_causes(diagnosis).empty())
+        text += " A candidate with a small p is not named if the named cause explains the same data better.";
+    return text;
 }
+
+bool compared_with_nulls(const Diagnosis& diagnosis)
+{
+    return std::any_of(diagnosis.candidates.begin(), diagnosis.candidates.end(),
+                       [](const Candidate& c) { return c.p || c.null95; });
+}
+
+namespace {
+
+/// "friction of joint 0 x 0.63", "corner loss at joint 2, 0.2 m"
+std::string candidate_words(const Candidate& c)
+{
+    std::string kind = c.mechanism;
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    const std::string_view of_joint = "joint ";
+    std::string text = c.mechanism == "tie"         ? fmt::format("a force of unknown kind {}", place_words(c.place))
+                       : kind.starts_with(of_joint) ? fmt::format("{} of {}", kind.substr(of_joint.size()), c.place)
+                                                    : kind + " " + place_words(c.place);
+    if (!c.size)
+        return text;
+    const std::string size = fmt::format("{:.3g}", *c.size);
+    return text + (!c.unit.empty()          ? ", " + size + " " + c.unit
+                   : c.parameter == "ratio" ? " x " + size
+                                            : ", " + c.parameter + " " + size);
+}
+
+} // namespace
 
 std::string verdict_heading(const Diagnosis& diagnosis)
 {
     switch (diagnosis.verdict) {
-    case Verdict::none:
-        return "No cause is significant against the null distribution";
+    case Verdict::none: {
+        const Candidate* best = best_candidate(diagnosis);
+        return best ? fmt::format("No cause identified; best candidate: {} (p = {:.2g})", candidate_words(*best),
+                                  *best->p)
+                    : "No cause identified";
+    }
     case Verdict::named: {
         std::vector<std::string> names;
         for (const Candidate* cause : named_causes(diagnosis))
@@ -144,8 +172,7 @@ std::string verdict_words(const Diagnosis& diagnosis)
     if (!diagnosis.verdict_text.empty())
         return diagnosis.verdict_text;
     if (diagnosis.verdict == Verdict::none)
-        return "Simulation and measurement agree within noise, repeats and tolerances; no additional mechanism is "
-               "needed.";
+        return "No tested mechanism explains the errors of the simulation.";
     std::string text;
     for (const Candidate* cause : named_causes(diagnosis)) {
         text += fmt::format("{}{} {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, place_words(cause->place),
@@ -170,10 +197,9 @@ std::string gain_words(const ModelGain& gain)
     if (!gain.error_before || !gain.error_after)
         return "";
     const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
-    std::string text =
-        fmt::format("On {} held out from the search, the error changes from {:.3g}{} to {:.3g}{}",
-                    gain.runs_left_out.empty() ? "runs" : count_words(gain.runs_left_out.size(), "run", "runs"),
-                    *gain.error_before, unit, *gain.error_after, unit);
+    std::string text = fmt::format("On {} held out from the search, the error changes from {:.3g}{} to {:.3g}{}",
+                                   gain.runs_left_out.empty() ? "runs" : counted(gain.runs_left_out.size(), "run"),
+                                   *gain.error_before, unit, *gain.error_after, unit);
     if (gain.low || gain.high)
         text += fmt::format(" (95 % interval {})", interval_words(gain.low, gain.high));
     if (gain.low && gain.high)
@@ -192,7 +218,7 @@ std::string collapse_words(const ModelGain& gain)
     const CollapsePrediction& c = *gain.collapse;
     std::string text =
         fmt::format("Of {} with a known outcome, the baseline predicts {} correctly and the extended model {}",
-                    count_words(c.runs, "run", "runs"), c.right_before, c.right_after);
+                    counted(c.runs, "run"), c.right_before, c.right_after);
     if (c.score_before && c.score_after)
         text += fmt::format("; the Brier score changes from {:.3g} to {:.3g}", *c.score_before, *c.score_after);
     return text + "." + (c.text.empty() ? "" : " " + c.text);
@@ -204,7 +230,7 @@ std::string cost_words(const DiagnosisCost& cost)
         fmt::format("{} simulations of whole runs and {} of windows, {:.3g} block steps, in {:.3g} s", cost.simulations,
                     cost.window_simulations, static_cast<double>(cost.block_steps), cost.seconds);
     if (cost.threads > 0)
-        text += " with " + count_words(static_cast<std::uint64_t>(cost.threads), "thread", "threads");
+        text += " with " + counted(static_cast<std::uint64_t>(cost.threads), "thread");
     if (cost.lockstep_speedup)
         text += fmt::format("; lockstep is {:.3g} times as fast as sequential realizations", *cost.lockstep_speedup);
     return text + ".";

@@ -19,25 +19,25 @@ std::string probability_words(MaybeReal p);
 std::string block_words(int block);
 /// "a", "a and b", "a, b and c".
 std::string list_words(const std::vector<std::string>& list);
-/// "one run", "3 runs".
-std::string count_words(std::uint64_t n, const std::string& one, const std::string& many);
 
-/// What a mechanism is, for who does not know its name; the name itself if it is none that studies can name.
+/// The meaning of a mechanism; its name if no study can have it.
 std::string mechanism_words(const std::string& mechanism);
 
 /// "at joint 0", "everywhere".
 std::string place_words(const std::string& place);
 /// What was found of a parameter of the baseline, beside its number: "not determined by these data: no joint slides".
 std::string parameter_words(const CalibratedParameter& parameter);
-/// What the stretches in which the baseline is off are worth as evidence, and in what their excess is counted.
+/// The unit of the excess of wrong stretches, and whether these are evidence.
 std::string wrong_words(const Diagnosis& diagnosis);
 
-/// "The simulation agrees with ...": a line.
+/// "The cause: joint_friction", "No cause identified; best candidate: friction of joint 0 x 0.63 (p = 0.056)".
 std::string verdict_heading(const Diagnosis& diagnosis);
-/// What a nat is, for who has not met one.
+/// The meaning of a nat.
 std::string nats_words();
-/// The meaning of p for a candidate, and why a candidate with a small p may still be rejected.
-std::string chance_words();
+/// The meaning of p for a candidate; where a cause is named also why one with a small p may not be.
+std::string chance_words(const Diagnosis& diagnosis);
+/// Whether a candidate was compared with the null distribution: then gains, p-values and probabilities have a meaning.
+bool compared_with_nulls(const Diagnosis& diagnosis);
 /// The verdict in one to three sentences: the pipeline's own, or else composed of what was found.
 std::string verdict_words(const Diagnosis& diagnosis);
 /// The gain on runs left out, in a sentence; empty where there is none.

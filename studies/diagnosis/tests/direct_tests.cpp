@@ -299,7 +299,8 @@ void judge_offset(const BaseFit& base, const std::string& what, double threshold
     const bool late = beyond(base.offset_s, base.offset_sd, threshold_s, sds);
     out.base_tests.push_back(
         told("time_offset", base_place, base.offset_s, base.offset_sd, threshold_s, "s", late,
-             fmt::format("{} is {:.2f} ms ahead of the base motion of the file.", what, 1e3 * base.offset_s)));
+             fmt::format("{} is {:.2f} ms {} the base motion of the file.", what, 1e3 * std::fabs(base.offset_s),
+                         base.offset_s < 0 ? "behind" : "ahead of")));
     if (!late)
         return;
     out.found.push_back(cause_of("time_offset", base_place, "offset_s", "s", 0, base.offset_s, base.offset_sd,

@@ -1,6 +1,7 @@
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 
@@ -65,8 +66,8 @@ std::vector<int> slides_of(const std::vector<LawSample>& samples, double apart_s
 /// The rule: from an estimate and its errors to an interval, or to none.
 void decide(FrictionJudgement& j)
 {
-    const std::string seen = fmt::format("{} window{} of {} slide{} in {} run{}", j.windows, j.windows == 1 ? "" : "s",
-                                         j.slides, j.slides == 1 ? "" : "s", j.runs, j.runs == 1 ? "" : "s");
+    const std::string seen =
+        fmt::format("{} of {} in {}", counted(j.windows, "window"), counted(j.slides, "slide"), counted(j.runs, "run"));
     if (j.windows < least_windows || j.slides < least_slides) {
         j.note = fmt::format("joints slide in no more than {}, too few to estimate their error", seen);
         return;

@@ -83,10 +83,11 @@ void test_places(const Specimen& s, bool table, const TrackScales& scales, const
             if (off[b])
                 continue;
             const Placed p = placed(b);
-            tests[b] = told(
-                "drum_offset", fmt::format("block {}", b), p.mean, p.sd, most * p.sd, "m", false,
-                fmt::format("On average block {} lies {:.2e} m to the right of its nominal position relative to {}.", b,
-                            p.mean, table ? "the table" : "the others"));
+            tests[b] =
+                told("drum_offset", fmt::format("block {}", b), p.mean, p.sd, most * p.sd, "m", false,
+                     fmt::format("On average block {} lies {:.2g} mm to the {} of its nominal position relative to {}.",
+                                 b, 1e3 * std::fabs(p.mean), p.mean < 0 ? "left" : "right",
+                                 table ? "the table" : "the others"));
             if (farthest == n || p.in_sds() > its.in_sds()) {
                 farthest = b;
                 its = p;

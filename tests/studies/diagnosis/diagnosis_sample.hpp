@@ -129,8 +129,8 @@ inline Diagnosis filled_diagnosis()
                        {{"004", 28.1, ""}},
                        Decision::in_set,
                        "It slips as fast in these runs."};
-    Candidate drag{"drag", "block 6", "drag", "N s2/m2",          0.002, {}, 0.02, 0.0, 0.3, 4.1,
-                   0.44,   0.0,       {},     Decision::rejected, ""};
+    Candidate drag{"drag", "block 6", "drag", "N s2/m2",           0.002, {}, 0.02, 0.0, 0.3, 4.1,
+                   0.44,   {},        {},     Decision::not_shown, ""};
     Candidate vertical{"vertical_motion",
                        "base",
                        "ratio",
@@ -192,6 +192,33 @@ inline Diagnosis filled_diagnosis()
     marks.series = {{"", SeriesKind::points, {1, 3, 10}, {0.2, 5, 40}, {0.1, 3, 30}, {0.4, 8, 55}}};
     d.figures = {sample_figure(), bars, marks};
     d.motion = sample_motion();
+    return d;
+}
+
+/// One that names no cause: candidates were compared with simulated campaigns, and none is significant.
+inline Diagnosis diagnosis_without_cause()
+{
+    Diagnosis d;
+    d.measured_file = "column.h5";
+    d.runs = d.runs_used = 6;
+    d.code_version = "0.3.0";
+    Candidate friction;
+    friction.mechanism = "joint_friction";
+    friction.place = "joint 0";
+    friction.parameter = "ratio";
+    friction.size = 0.63;
+    friction.gain_nats = 6.1;
+    friction.null95 = 7.4;
+    friction.p = 0.056;
+    friction.decision = Decision::not_shown;
+    friction.why = "the p-value of the gain is 0.056";
+    Candidate wear = friction;
+    wear.mechanism = "corner_wear";
+    wear.gain_nats = 1.2;
+    wear.p = 0.7;
+    wear.why = "the p-value of the gain is 0.7";
+    d.candidates = {friction, wear};
+    d.nulls = {{"area", 192, "friction of the joints"}};
     return d;
 }
 

@@ -470,7 +470,7 @@ TEST(EnsembleDiagnosis, APlantedCauseIsNamed)
     ASSERT_EQ(decided.verdict, Verdict::named);
     EXPECT_EQ(decided.named.front().fit.cause.label(), "joint_friction at joint 1");
     EXPECT_NEAR(decided.named.front().fit.size, 0.4, 0.15);
-    EXPECT_GE(decided.named.front().probability, 0.5);
+    EXPECT_GE(decided.named.front().probability.value(), 0.5);
     EXPECT_EQ(tests_in_words(found).size(), 4U)
         << "causes and unknown forces in the balance of forces, statistics, nearness";
 

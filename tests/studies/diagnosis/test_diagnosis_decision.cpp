@@ -86,7 +86,40 @@ TEST(Decision, NothingBeyondHealthyCampaignsIsNone)
     ASSERT_EQ(decided.judged.size(), 3U);
     EXPECT_NEAR(decided.judged.front().chance, 12.0 / 101, 1e-12);
     EXPECT_EQ(decided.judged.front().why_not, "the p-value of the gain is 0.12");
-    EXPECT_EQ(decided.judged.front().probability, 0);
+    for (const JudgedCause& j : decided.judged)
+        EXPECT_FALSE(j.probability) << "none was computed";
+}
+
+TEST(Decision, AnotherCauseIsSaidToBeBetterOnlyWhereOneIsNamed)
+{
+    const auto why = [](const Decided& decided, std::size_t judged) {
+        return candidate_of(decided.judged[judged], Campaign{}, Decision::not_shown, true,
+                            better_than_candidates(decided))
+            .why;
+    };
+    const EnsembleDiagnosis none = ensemble_of(9, 8, 1);
+    const Decided without = decide({}, {}, &none, {});
+    ASSERT_EQ(without.verdict, Verdict::none);
+    EXPECT_EQ(better_than_candidates(without), Better::nothing);
+    EXPECT_EQ(why(without, 1), "the p-value of the gain is 0.22"); // 22 of 101
+
+    DirectResult direct; // a sensor explains other data
+    direct.found = {fit_of("sensor_gain", 30)};
+    const Decided sensor = decide(direct, {}, &none, {});
+    ASSERT_EQ(sensor.verdict, Verdict::named);
+    EXPECT_EQ(why(sensor, 1), "the p-value of the gain is 0.22");
+
+    const EnsembleDiagnosis one = ensemble_of(20, 5, 1);
+    const Decided named = decide({}, {}, &one, {});
+    ASSERT_EQ(named.verdict, Verdict::named);
+    EXPECT_EQ(why(named, 1), "another cause explains the same data better");
+
+    EnsembleDiagnosis improbable = ensemble_of(20, 15, 1); // both beyond all nulls, and neither is named
+    improbable.by_statistics.probability = improbable.by_statistics.set_probability = 0.3;
+    const Decided possible = decide({}, {}, &improbable, {});
+    ASSERT_EQ(possible.verdict, Verdict::none);
+    EXPECT_EQ(why(possible, 0), "possible, with a probability of 0.30");
+    EXPECT_EQ(why(possible, 1), "the candidate of the largest gain is not named, and this one gains less");
 }
 
 TEST(Decision, WhatComesNoNearerThanHealthyCampaignsIsNotNamed)
@@ -229,8 +262,8 @@ TEST(Decision, WhatExplainsAlikeIsInTheSetWithWhatRemains)
     const Decided decided = decide({}, {}, &e, {});
     EXPECT_EQ(names(decided.named), Names{"joint_friction"});
     ASSERT_EQ(names(decided.in_set), (Names{"drag", "dowel"}));
-    EXPECT_NEAR(decided.in_set[0].probability + decided.in_set[1].probability, 0.2, 1e-12);
-    EXPECT_NEAR(decided.in_set[0].probability / decided.in_set[1].probability, std::exp(1), 1e-9);
+    EXPECT_NEAR(decided.in_set[0].probability.value() + decided.in_set[1].probability.value(), 0.2, 1e-12);
+    EXPECT_NEAR(decided.in_set[0].probability.value() / decided.in_set[1].probability.value(), std::exp(1), 1e-9);
 }
 
 TEST(Decision, ASecondCauseStandsBehindTheFirst)
@@ -243,7 +276,7 @@ TEST(Decision, ASecondCauseStandsBehindTheFirst)
     const Decided decided = decide({}, {}, &e, {});
     EXPECT_EQ(names(decided.named), (Names{"joint_friction", "drag"}));
     EXPECT_TRUE(decided.in_set.empty()) << "what stands by itself is no rival";
-    EXPECT_LE(decided.named[1].probability, decided.named[0].probability);
+    EXPECT_LE(decided.named[1].probability.value(), decided.named[0].probability.value());
     EXPECT_EQ(decided.named[1].chance, 0.01);
     // a second cause that is less sure leaves nothing more to the first one's rivals
     e.by_statistics.set = {2};
@@ -251,9 +284,9 @@ TEST(Decision, ASecondCauseStandsBehindTheFirst)
     e.by_statistics.set_probability = 0.7;
     e.by_statistics.second_p_value = 0.6;
     const Decided unsure = decide({}, {}, &e, {});
-    EXPECT_NEAR(unsure.named[1].probability, 0.4, 1e-12);
+    EXPECT_NEAR(unsure.named[1].probability.value(), 0.4, 1e-12);
     ASSERT_EQ(names(unsure.in_set), Names{"dowel"});
-    EXPECT_NEAR(unsure.in_set.front().probability, 0.1, 1e-12);
+    EXPECT_NEAR(unsure.in_set.front().probability.value(), 0.1, 1e-12);
 }
 
 TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
@@ -340,7 +373,7 @@ TEST(Decision, ForcesNameWhatTheStatisticsDoNot)
     EXPECT_EQ(decided.named.front().channel, Channel::forces);
     EXPECT_EQ(decided.named.front().fit.size, 0.3);
     EXPECT_EQ(decided.named.front().chance, 0.004);
-    EXPECT_NEAR(decided.named.front().probability, 0.8, 1e-12);
+    EXPECT_NEAR(decided.named.front().probability.value(), 0.8, 1e-12);
 }
 
 TEST(Decision, TheStatisticsChooseBetweenWhatForcesDoNotTellApart)
@@ -349,8 +382,8 @@ TEST(Decision, TheStatisticsChooseBetweenWhatForcesDoNotTellApart)
     const Decided decided = decide({}, balance, &e, {}); // 20 + 1 nats against 18 + 4
     ASSERT_EQ(names(decided.named), Names{"dowel"});
     ASSERT_EQ(names(decided.in_set), Names{"drag"});
-    EXPECT_NEAR(decided.named.front().probability, 0.8 / (1 + std::exp(-1)), 1e-12);
-    EXPECT_NEAR(decided.in_set.front().probability, 0.8 / (1 + std::exp(1)), 1e-12);
+    EXPECT_NEAR(decided.named.front().probability.value(), 0.8 / (1 + std::exp(-1)), 1e-12);
+    EXPECT_NEAR(decided.in_set.front().probability.value(), 0.8 / (1 + std::exp(1)), 1e-12);
 }
 
 TEST(Decision, ForcesOfAKnownCauseAreNoTie)
@@ -371,7 +404,7 @@ TEST(Decision, WhereForcesAndStatisticsAgreePlaceAndSizeAreThoseOfTheForces)
     EXPECT_EQ(decided.named.front().fit.size, 0.7);
     EXPECT_EQ(decided.named.front().fit.gain, 30) << "of the statistics, as those beside it in the table";
     EXPECT_EQ(decided.named.front().forces_too, 0.004);
-    EXPECT_NEAR(decided.named.front().probability, 0.8, 1e-12);
+    EXPECT_NEAR(decided.named.front().probability.value(), 0.8, 1e-12);
 }
 
 TEST(Decision, WhereForcesAndStatisticsDisagreeBothAreInTheSet)
@@ -381,7 +414,7 @@ TEST(Decision, WhereForcesAndStatisticsDisagreeBothAreInTheSet)
     ASSERT_EQ(names(decided.named), Names{"joint_friction"});
     EXPECT_EQ(decided.named.front().channel, Channel::statistics);
     ASSERT_EQ(names(decided.in_set), Names{"drag"});
-    EXPECT_NEAR(decided.in_set.front().probability, 0.2, 1e-12) << "what 0.8 of the named one leaves";
+    EXPECT_NEAR(decided.in_set.front().probability.value(), 0.2, 1e-12) << "what 0.8 of the named one leaves";
 }
 
 TEST(CarryingScore, IsThatOfTheCauseInHealthyAndLabelledCampaigns)
@@ -444,7 +477,7 @@ TEST(Decision, DirectFindingsAreAsProbableAsTheyAreFar)
     };
     // 3.83 standard deviations have a two-sided probability of 1.2814e-4, at one of six blocks of 7.6886e-4
     EXPECT_NEAR(at(3.83).chance, 7.6886e-4, 1e-8);
-    EXPECT_NEAR(at(3.83).probability, 0.6971, 1e-4); // odds 1/29 over e p ln(1/p)
+    EXPECT_NEAR(at(3.83).probability.value(), 0.6971, 1e-4); // odds 1/29 over e p ln(1/p)
     EXPECT_EQ(at(8).probability, 0.97);
     direct.sensor_tests.clear();
     EXPECT_NEAR(at(3.83).chance, 1.2814e-4, 1e-8);

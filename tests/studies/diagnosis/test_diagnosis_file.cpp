@@ -219,5 +219,16 @@ TEST_F(DiagnosisFile, AResultIsNoDiagnosisAndADiagnosisNoResult)
     EXPECT_NE(refusal([&] { read_diagnosis(folder / "none.h5"); }), "");
 }
 
+TEST_F(DiagnosisFile, AProbabilityThatOldFilesStoreAsZeroIsNone)
+{
+    Diagnosis d = diagnosis_without_cause();
+    d.candidates.front().probability = 0.0;
+    write_diagnosis(d, folder / "old.h5");
+    EXPECT_FALSE(read_diagnosis(folder / "old.h5").candidates.front().probability);
+    d.candidates.front().probability = 0.4; // of a best cause that is too improbable
+    write_diagnosis(d, folder / "new.h5");
+    EXPECT_EQ(read_diagnosis(folder / "new.h5").candidates.front().probability, 0.4);
+}
+
 } // namespace
 } // namespace stylobate

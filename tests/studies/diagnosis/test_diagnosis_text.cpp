@@ -125,10 +125,58 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndKeepsItsLinesShort)
     EXPECT_TRUE(text.ends_with('\n'));
 }
 
+TEST(DiagnosisText, OfNoneNamesTheBestCandidateAndShowsNoProbability)
+{
+    const Diagnosis d = diagnosis_without_cause();
+    const std::string text = diagnosis_text(d);
+    EXPECT_NE(text.find("Verdict: No cause identified; best candidate: friction of joint 0 x 0.63 (p = 0.056)\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("not shown by these data"), std::string::npos) << text;
+    for (const char* wrong : {"rejected", "prob.  <", "< 0.001", "is not named if the named cause"})
+        EXPECT_EQ(text.find(wrong), std::string::npos) << wrong << "\n" << text;
+    const JsonValue json = JsonParser::parse(diagnosis_json(d).text());
+    EXPECT_EQ(json["heading"].text, verdict_heading(d));
+    for (const JsonValue& c : json["candidates"].items) {
+        EXPECT_EQ(c["probability"].kind, JsonValue::Kind::null) << c["name"].text;
+        EXPECT_EQ(c["decision"].text, "not shown by these data");
+    }
+}
+
+TEST(DiagnosisWords, NameTheBestCandidateByPlaceAndSize)
+{
+    const auto heading = [](const char* mechanism, const char* place, const char* parameter, const char* unit) {
+        Diagnosis d = diagnosis_without_cause();
+        Candidate& c = d.candidates.front();
+        c.mechanism = mechanism, c.place = place, c.parameter = parameter, c.unit = unit;
+        const std::string text = verdict_heading(d), before = "No cause identified; best candidate: ";
+        EXPECT_TRUE(text.starts_with(before)) << text;
+        return text.substr(before.size());
+    };
+    EXPECT_EQ(heading("corner_loss", "joint 2", "loss_m", "m"), "corner loss at joint 2, 0.63 m (p = 0.056)");
+    EXPECT_EQ(heading("stribeck", "all", "dynamic_ratio", ""), "stribeck everywhere, dynamic_ratio 0.63 (p = 0.056)");
+    EXPECT_EQ(heading("tie", "block 2", "dashpot_n_s_m", "N s/m"),
+              "a force of unknown kind at block 2, 0.63 N s/m (p = 0.056)");
+}
+
+TEST(DiagnosisText, OfDirectFindingsAloneDoesNotMentionTheNullDistribution)
+{
+    Diagnosis d = filled_diagnosis();
+    d.nulls.clear();
+    d.candidates.resize(1);
+    d.candidates.front().p.reset();
+    d.candidates.front().null95.reset();
+    const std::string text = diagnosis_text(d);
+    EXPECT_NE(text.find("Candidates (gain in nats over the calibrated baseline)\n"), std::string::npos) << text;
+    EXPECT_EQ(text.find("null campaigns"), std::string::npos) << text;
+    EXPECT_EQ(text.find("null distribution"), std::string::npos) << text;
+}
+
 TEST(DiagnosisText, OfAnEmptyOneSaysThatNothingIsWrong)
 {
     const std::string text = diagnosis_text(Diagnosis{});
-    EXPECT_NE(text.find("No cause is significant against the null distribution"), std::string::npos);
+    EXPECT_NE(text.find("Verdict: No cause identified\n"), std::string::npos);
+    EXPECT_EQ(text.find("null"), std::string::npos) << "no campaign was simulated";
     EXPECT_EQ(text.find("not known"), std::string::npos) << text;
     EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }

@@ -346,7 +346,7 @@ TEST(DiagnosisPage, SaysWhatNatsAndSmallProbabilitiesMean)
     const std::size_t table = page.find("gain [nats]");
     EXPECT_LT(nats, table);
     EXPECT_LT(p, table);
-    EXPECT_NE(page.find("still be rejected"), std::string::npos);
+    EXPECT_NE(page.find("is not named if the named cause"), std::string::npos);
 }
 
 TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
@@ -376,8 +376,19 @@ TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
     const std::string page = diagnosis_page(Diagnosis{}, "d.h5").text();
     expect_self_contained(page);
     expect_balanced(page);
-    EXPECT_NE(page.find("No cause is significant against the null distribution"), std::string::npos);
+    EXPECT_NE(page.find("No cause identified"), std::string::npos);
+    EXPECT_EQ(page.find("null distribution"), std::string::npos);
     EXPECT_EQ(page.find("not known"), std::string::npos);
+}
+
+TEST(DiagnosisPage, OfNoneIsNotGreenAndShowsNoProbability)
+{
+    const std::string page = diagnosis_page(diagnosis_without_cause(), "d.h5").text();
+    EXPECT_NE(page.find("<div class=\"box \"><strong>No cause identified; best candidate: friction of joint 0 x 0.63 "
+                        "(p = 0.056)</strong>"),
+              std::string::npos);
+    for (const char* wrong : {"box good", "rejected", "<small>probability", "&lt; 0.001"})
+        EXPECT_EQ(page.find(wrong), std::string::npos) << wrong;
 }
 
 std::string fact_of(const Study& study, const std::string& name)
