@@ -1,6 +1,7 @@
 #include "io/hazard/hazard_parts.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/csv_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -190,9 +191,7 @@ std::optional<double> hazard_number(std::string_view text)
     while (!text.empty() && text.back() == ' ')
         text.remove_suffix(1);
     double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || rest != end || !std::isfinite(value))
+    if (decimal_number(text, value).ec != std::errc() || !std::isfinite(value))
         return std::nullopt;
     return value;
 }

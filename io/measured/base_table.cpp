@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -25,27 +26,74 @@ constexpr const char* time_name = "time_s";
 constexpr const char* acceleration_name = "acceleration_m_s2";
 constexpr const char* displacement_name = "displacement_m";
 
-/// The column of a name; null if there is none.
-const std::vector<double>* column(const ColumnTable& table, const std::string& name)
+/// Whether the first column is "time_s" or in another unit of time, which the reader of columns converts.
+bool is_time(const ColumnTable& table)
 {
-    const auto at = std::find(table.names.begin(), table.names.end(), name);
-    return at == table.names.end() ? nullptr : &table.columns[static_cast<std::size_t>(at - table.names.begin())];
+    const std::string name = lower_case(table.names.front());
+    return name == time_name || name == "time_ms" || name == "time_us";
+}
+
+/// A quantity that is read, and how its column begins.
+struct Quantity {
+    const char* stem;
+    Dimension dimension;
+};
+constexpr Quantity acceleration_of_base = {"acceleration", Dimension::acceleration};
+constexpr Quantity displacement_of_base = {"displacement", Dimension::length};
+
+/// SI in the unit of a column "displacement_mm"; none if it is not of this quantity, or its unit is not known.
+std::optional<double> unit_of(std::string_view name, const Quantity& quantity)
+{
+    const std::string lower = lower_case(name);
+    const std::string stem = std::string(quantity.stem) + "_";
+    return lower.starts_with(stem) ? unit_in_si(std::string_view(lower).substr(stem.size()), quantity.dimension)
+                                   : std::nullopt;
+}
+
+/// The column of a quantity, in SI; empty if there is none.
+std::vector<double> column(const RecordText& text, const ColumnTable& table, const Quantity& quantity)
+{
+    std::vector<double> values;
+    for (std::size_t c = 1; c < table.columns.size(); ++c) {
+        const std::optional<double> unit = unit_of(table.names[c], quantity);
+        if (!unit)
+            continue;
+        if (!values.empty())
+            text.refuse(fmt::format("has two columns of the {}.", quantity.stem));
+        values = table.columns[c];
+        for (double& value : values)
+            value *= *unit;
+    }
+    return values;
 }
 
 /// A name that is nearly one of those that are read is a slip.
 void check_names(const RecordText& text, const ColumnTable& table)
 {
     const std::vector<std::string> known = {time_name, acceleration_name, displacement_name};
+    const auto is_read = [](const std::string& name) {
+        return unit_of(name, acceleration_of_base) || unit_of(name, displacement_of_base);
+    };
     for (const std::string& name : table.names) {
-        const std::string meant = meant_key(name, known);
-        if (!meant.empty() && meant != name && column(table, meant) == nullptr)
-            text.refuse(
-                fmt::format("has a column \"{}\". Did you mean {}? The unit is part of the name.", name, meant));
+        const std::string meant = meant_key(lower_case(name), known);
+        const bool there = std::any_of(table.names.begin(), table.names.end(),
+                                       [&](const std::string& other) { return lower_case(other) == meant; });
+        if (meant.empty() || is_read(name) || there || (meant == time_name && is_time(table)))
+            continue;
+        // with the unit of the file: with another one its values would be others by a factor
+        for (std::size_t line = name.find('_'); line != std::string::npos; line = name.find('_', line + 1))
+            if (const std::string same_unit = std::string(without_unit(meant)) + name.substr(line); is_read(same_unit))
+                text.refuse(fmt::format("has a column \"{}\". Did you mean {}? The unit is part of the name.", name,
+                                        same_unit));
+        text.refuse(fmt::format("has a column \"{}\". Did you mean {}? The unit is part of the name: times are in {}, "
+                                "accelerations in {}, displacements in {}.",
+                                name, meant, known_units(Dimension::time), known_units(Dimension::acceleration),
+                                known_units(Dimension::length)));
     }
     const char* todo = "Give a line of names above the rows: time_s first, then acceleration_m_s2 or displacement_m.";
-    if (table.names.front() != time_name)
+    if (!is_time(table))
         text.refuse(fmt::format("begins with the column \"{}\", not with time_s. {}", table.names.front(), todo));
-    if (column(table, acceleration_name) == nullptr && column(table, displacement_name) == nullptr)
+    if (std::none_of(table.names.begin(), table.names.end(), is_read))
         text.refuse(fmt::format("has no motion: its columns are {}. {}", fmt::join(table.names, ", "), todo));
 }
 
@@ -77,8 +125,10 @@ Motion of_columns(const std::filesystem::path& file, bool any_pga)
     const RecordText text = lines_of(file.string(), content);
     const ColumnTable table = read_columns(text);
     check_names(text, table);
-    const std::vector<double>* acceleration = column(table, acceleration_name);
-    const std::vector<double>* displacement = column(table, displacement_name);
+    const std::vector<double> accelerations = column(text, table, acceleration_of_base);
+    const std::vector<double> displacements = column(text, table, displacement_of_base);
+    const std::vector<double>* acceleration = accelerations.empty() ? nullptr : &accelerations;
+    const std::vector<double>* displacement = displacements.empty() ? nullptr : &displacements;
     for (const auto& [values, name, dimension] : {std::tuple{acceleration, acceleration_name, Dimension::acceleration},
                                                   {displacement, displacement_name, Dimension::length}}) {
         if (values == nullptr)

@@ -4,8 +4,10 @@
 #include "io/files/key_reader.hpp"
 #include "io/files/suggest.hpp"
 #include "io/measured/measured_layout.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -96,9 +98,11 @@ struct Target {
     std::string unit;  ///< from the name
 };
 
-/// @param name "x3_mm", "base_acceleration_g", "time_s"
-std::optional<Target> target_of(std::string_view name)
+/// @param spelled "x3_mm", "base_acceleration_g", "time_s", in capitals or not
+std::optional<Target> target_of(std::string_view spelled)
 {
+    const std::string lower = lower_case(spelled);
+    const std::string_view name = lower;
     const auto with_unit = [&](std::string_view unit, Dimension dimension,
                                const SeriesName* series) -> std::optional<Target> {
         const auto si = unit_in_si(unit, dimension);
@@ -129,6 +133,27 @@ std::optional<Target> target_of(std::string_view name)
     return std::nullopt;
 }
 
+/// What to do about a column that is not known. The unit of the file is kept: with another one its values would be
+/// others by a factor.
+std::string column_remedy(std::string_view name)
+{
+    std::vector<std::string> known = {"time_s"};
+    for (const SeriesName& series : series_names())
+        known.push_back(fmt::format("{}{}{}", series.column, series.per_block ? "0" : "", series.suffix));
+    const std::string meant = meant_key(lower_case(name), known);
+    if (meant.empty())
+        return fmt::format("Columns are {}. The unit is part of the name.", fmt::join(known, ", "));
+    const std::string stem(without_unit(meant));
+    for (std::size_t line = name.find('_'); line != std::string_view::npos; line = name.find('_', line + 1))
+        if (const std::string same_unit = stem + lower_case(name.substr(line)); target_of(same_unit))
+            return fmt::format("Did you mean {}? The unit is part of the name.", same_unit);
+    const std::optional<Target> target = target_of(meant);
+    const Dimension dimension = target && target->series ? target->series->dimension : Dimension::time;
+    return fmt::format(
+        "Did you mean {}? The unit is part of the name, and the values must be in it: known units are {}.", meant,
+        known_units(dimension));
+}
+
 class RunTable {
 public:
     RunTable(const fs::path& path, Campaign& campaign, MeasuredRun& run)
@@ -151,20 +176,12 @@ public:
 private:
     void read_header(const CsvLine& line)
     {
-        std::vector<std::string> known = {"time_s"};
-        for (const SeriesName& series : series_names())
-            known.push_back(fmt::format("{}{}{}", series.column, series.per_block ? "0" : "", series.suffix));
         for (const std::string_view name : line.fields) {
             const auto target = target_of(name);
-            if (!target) {
-                const std::string meant = meant_key(name, known);
-                throw InputError(
-                    file_, line.number,
-                    fmt::format("the column \"{}\" is not known, or its unit is not.\n  {} The unit is "
-                                "part of the name.",
-                                name.substr(0, 60),
-                                meant.empty() ? "Columns are " + joined(known) + "." : "Did you mean " + meant + "?"));
-            }
+            if (!target)
+                throw InputError(file_, line.number,
+                                 fmt::format("the column \"{}\" is not known, or its unit is not.\n  {}",
+                                             name.substr(0, 60), column_remedy(name)));
             for (const Target& other : targets_)
                 if (other.series == target->series && other.block == target->block)
                     throw InputError(file_, line.number, fmt::format("the column \"{}\" occurs twice.", name));
@@ -215,14 +232,6 @@ private:
             }
             series.values[row->second + target.block] = value;
         }
-    }
-
-    static std::string joined(const std::vector<std::string>& words)
-    {
-        std::string text;
-        for (const std::string& word : words)
-            text += (text.empty() ? "" : ", ") + word;
-        return text;
     }
 
     std::string text_, file_;

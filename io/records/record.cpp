@@ -1,6 +1,7 @@
 #include "io/records/record.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/csv_fields.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
@@ -17,13 +18,47 @@ namespace stylobate {
 
 namespace {
 
-/// Asked in this order; the columns, which any table of numbers is, come last.
-constexpr const RecordParser* parsers[] = {&at2_parser,  &csmip_parser, &cosmos_parser, &bhrc_parser,
-                                           &usc_parser,  &smc_parser,   &geonet_parser, &esm_parser,
-                                           &knet_parser, &unam_parser,  &columns_parser};
+/// Asked in this order; headers of any agency, and the columns, which any table of numbers is, come last.
+constexpr const RecordParser* parsers[] = {
+    &csmip_parser, &cosmos_parser, &bhrc_parser,   &usc_parser, &smc_parser,     &geonet_parser, &esm_parser,
+    &knet_parser,  &unam_parser,   &headed_parser, &at2_parser, &npts_dt_parser, &columns_parser};
 
 constexpr const char* unit_choices = "\"m/s2\", \"cm/s2\" (or \"gal\"), \"mm/s2\", \"g\" or \"g/10\"";
+constexpr const char* comma_remedy =
+    "Replace the commas in the numbers by points, or export the file with decimal points.";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
+
+/// Refuses a file most of whose rows of numbers have decimal commas: where the comma may also stand between columns,
+/// "0,25" would be read as 0 and 25.
+void refuse_decimal_commas(const RecordText& text)
+{
+    std::size_t with_commas = 0, with_points = 0, first = 0;
+    std::string_view example;
+    for (std::size_t i = 0; i < text.lines.size(); ++i) {
+        const std::string_view line = trimmed(text.lines[i]);
+        if (line.find_first_of(",.") == std::string_view::npos ||
+            line.find_first_not_of("0123456789+-.,;eEdD \t") != std::string_view::npos)
+            continue;
+        std::size_t tokens = 0;
+        std::string_view comma;
+        for (std::size_t at = 0; at < line.size();) {
+            const std::size_t begin = std::min(line.find_first_not_of(" \t;", at), line.size());
+            at = std::min(line.find_first_of(" \t;", begin), line.size());
+            const std::string_view token = line.substr(begin, at - begin);
+            tokens += token.empty() ? 0 : 1;
+            if (comma.empty() && has_decimal_comma(token))
+                comma = token;
+        }
+        const bool decimal = !comma.empty() && (tokens > 1 || line.find('.') == std::string_view::npos);
+        if (decimal && with_commas++ == 0) {
+            first = i;
+            example = comma;
+        }
+        with_points += decimal ? 0 : 1;
+    }
+    if (with_commas > 1 && with_commas > with_points)
+        text.refuse(first, fmt::format("\"{}\": the numbers have decimal commas. {}", example, comma_remedy));
+}
 
 std::vector<Record> parse(std::string_view content, const std::string& file, const std::string& unit)
 {
@@ -31,6 +66,7 @@ std::vector<Record> parse(std::string_view content, const std::string& file, con
     if (!unit.empty() && given.empty())
         throw InputError(file, 0, fmt::format("unit = \"{}\" is not known. It may be {}.", unit, unit_choices));
     const RecordText text = lines_of(file, content);
+    refuse_decimal_commas(text);
     std::string formats;
     for (const RecordParser* parser : parsers) {
         if (parser->recognise(text)) {
@@ -107,14 +143,14 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
     const auto so_oriented = [&](const Record& record) { return lower_case(record.orientation) == wanted; };
     if (std::count_if(records.begin(), records.end(), so_oriented) == 1)
         return static_cast<std::size_t>(std::find_if(records.begin(), records.end(), so_oriented) - records.begin());
-    // the first column of a table is the time, unless it is the only one
-    if (const std::optional<int> column = column_number(wanted); column && records.front().format == "columns") {
-        const int first = records.front().component == "column 1" ? 1 : 2;
-        if (*column >= first && static_cast<std::size_t>(*column - first) < records.size())
-            return static_cast<std::size_t>(*column - first);
-    }
-    throw InputError(records.front().file, 0,
-                     fmt::format("component = \"{}\" is not in it. Available: {}.", component, names));
+    if (const std::optional<int> column = column_number(wanted); column && *column > 0)
+        for (std::size_t i = 0; i < records.size(); ++i)
+            if (records[i].column == static_cast<std::size_t>(*column))
+                return i;
+    throw InputError(
+        records.front().file, 0,
+        fmt::format("component = \"{}\" is not in it. Available: {}{}.", component, names,
+                    records.front().column > 0 && !records.front().note.empty() ? ", " + records.front().note : ""));
 }
 
 } // namespace
@@ -143,6 +179,8 @@ std::string content_of(const std::filesystem::path& path, const std::string& wha
 RecordText lines_of(const std::string& file, std::string_view content)
 {
     RecordText text{file, {}, true};
+    if (const std::string reason = unreadable_encoding(content); !reason.empty())
+        text.refuse(reason);
     if (content.starts_with("\xEF\xBB\xBF")) // UTF-8 mark
         content.remove_prefix(3);
     while (content.ends_with('\x1a')) // end of file of old systems
@@ -198,18 +236,35 @@ double unit_m_s2(std::string_view unit)
     return 0.001;
 }
 
+std::string plain_unit(std::string_view spelling)
+{
+    std::string unit = lower_case(trimmed(spelling));
+    const auto replace = [&](std::string_view what, std::string_view by) {
+        for (std::size_t at = unit.find(what); at != std::string::npos; at = unit.find(what, at + by.size()))
+            unit.replace(at, what.size(), by);
+    };
+    replace("\xc2\xb2", "2"); // superscript
+    replace("\xe2\x81\xbb\xc2\xb2", "-2");
+    replace("sec", "s");
+    for (const std::string_view mark : {" ", "^", "*", "\xc2\xb7", "{", "}"})
+        replace(mark, "");
+    while (unit.ends_with('.'))
+        unit.pop_back();
+    return unit;
+}
+
 std::string canonical_unit(std::string_view spelling)
 {
-    std::string word = lower_case(trimmed(spelling));
-    if (word == "g" || word == "g's")
+    const std::string unit = plain_unit(spelling);
+    if (unit == "g" || unit == "g's")
         return "g";
-    if (word == "g/10")
+    if (unit == "g/10")
         return "g/10";
-    if (word == "gal" || word == "gals")
+    if (unit == "gal" || unit == "gals")
         return "cm/s2";
     for (const char* length : {"m", "cm", "mm"})
-        for (const char* per : {"/s2", "/s^2", "/s**2", "/s/s", "/sec2", "/sec^2", "/sec**2", "/sec/sec"})
-            if (word == std::string(length) + per)
+        for (const char* per : {"/s2", "/s/s", "/(s2)", "s-2", ".s-2", "/ss"})
+            if (unit == std::string(length) + per)
                 return std::string(length) + "/s2";
     return {};
 }
@@ -225,6 +280,20 @@ std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view
                     fmt::format("the unit in the file is {}, but the unit given is {}. Omit the unit, or correct it.",
                                 unit, given));
     return unit;
+}
+
+bool is_end_mark(std::string_view line)
+{
+    const std::string lower = lower_case(squeezed(line));
+    if (lower.find_first_not_of("*-=/&#+. ") == std::string::npos)
+        return lower.size() > 1;
+    const auto parts = parts_of(lower, false);
+    if (std::any_of(parts.begin(), parts.end(), is_number))
+        return lower.starts_with("/&") || lower.starts_with("end of ");
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz";
+    const std::size_t word = std::min(lower.find_first_of(letters), lower.size());
+    const std::string first = lower.substr(word, std::min(lower.find_first_not_of(letters, word), lower.size()) - word);
+    return first == "end" || first == "eof" || first == "fin" || first == "endofdata";
 }
 
 std::string_view trimmed(std::string_view text)
@@ -275,34 +344,22 @@ std::vector<std::string_view> parts_of(std::string_view line, bool commas)
     return parts;
 }
 
-namespace {
-
-std::from_chars_result convert(std::string_view token, double& value)
-{
-    if (token.size() > 1 && token.front() == '+' && token[1] != '-')
-        token.remove_prefix(1);
-    const auto result = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (result.ec == std::errc() && result.ptr != token.data() + token.size())
-        return {result.ptr, std::errc::invalid_argument};
-    return result;
-}
-
-} // namespace
-
 bool is_number(std::string_view token)
 {
     double value = 0;
-    return convert(token, value).ec == std::errc();
+    return decimal_number(token, value).ec == std::errc();
 }
 
 double number(const RecordText& text, std::size_t i, std::string_view token)
 {
     double value = 0;
-    const std::errc error = convert(token, value).ec;
+    const std::errc error = decimal_number(token, value).ec;
     if (token.empty())
         text.refuse(i, "a number is missing between two separators.");
     if (error == std::errc::result_out_of_range)
         text.refuse(i, fmt::format("\"{}\" is out of the range of numbers.", token.substr(0, 40)));
+    if (error != std::errc() && has_decimal_comma(token))
+        text.refuse(i, fmt::format("\"{}\" has a decimal comma. {}", token.substr(0, 40), comma_remedy));
     if (error != std::errc())
         text.refuse(i, fmt::format("\"{}\" is not a number: the file is damaged, or has text where its values should "
                                    "be.",
@@ -323,7 +380,7 @@ struct Spelling {
 
 Spelling spelling_of(std::string_view line, std::string_view token)
 {
-    const std::size_t e = std::min(token.find_first_of("eE"), token.size());
+    const std::size_t e = std::min(token.find_first_of("eEdD"), token.size());
     const std::size_t point = std::min(token.find('.'), e);
     return {e - point, token.size() - e, static_cast<std::size_t>(token.data() + token.size() - line.data())};
 }

@@ -32,7 +32,8 @@ struct Record {
     Direction direction = Direction::unknown;
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;
-    std::string note; ///< what the reader had to do to the samples, for people; empty if nothing
+    std::size_t column = 0; ///< of a table, counted from 1; 0 in other formats
+    std::string note;       ///< what the reader had to do to the samples, for people; empty if nothing
     double dt_s = 0;
     std::vector<double> acceleration_m_s2;
 };

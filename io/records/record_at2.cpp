@@ -7,9 +7,11 @@
 ///   NPTS=   5590  DT=   .0100 SEC,  -5 POLE @      .05000 HZ,   0 POLE @      .00000
 ///   4000    .0050    NPTS, DT              first NGA set
 ///   NPTS = 5372 , DT = .0100SEC            rewritten by programs; also with DT first, or ":" for "="
-/// A header line says "IN UNITS OF G", or in words of its own "The units are (g)". The sister files of velocity and
+/// A header line says "IN UNITS OF G", or in words of its own "The units are (g)". Below the values there
+/// may be a line that ends them, "*** End Data ***". The sister files of velocity and
 /// displacement, .VT2 and .DT2, have the same header but for the words of that line, and are refused.
 
+#include "io/files/csv_fields.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
@@ -80,7 +82,10 @@ std::string_view value_after(std::string_view line, std::string_view key)
         i = line.find_first_not_of(" \t", i + 1);
     if (i == std::string_view::npos || line[i] == ',')
         return {};
-    std::string_view value = line.substr(i, line.find_first_of(" \t,;", i) - i);
+    std::size_t end = line.find_first_of(" \t,;", i);
+    if (end != std::string_view::npos && line[end] == ',' && has_decimal_comma(line.substr(i, end + 2 - i)))
+        end = line.find_first_of(" \t,;", end + 1); // "0,0100": the number is refused where it is read
+    std::string_view value = line.substr(i, end - i);
     for (const std::string_view unit : {"sec", "s"}) // ".0100SEC"
         if (value.size() > unit.size() && value.ends_with(unit) &&
             is_number(value.substr(0, value.size() - unit.size())))
@@ -93,7 +98,8 @@ struct Size {
     double dt_s = 0;
 };
 
-Size read_size(const RecordText& text, std::size_t i)
+/// @param and_no_unit whether the unit is missing too: then one message names both
+Size read_size(const RecordText& text, std::size_t i, bool and_no_unit)
 {
     const std::string line = lower_case(text.lines[i]);
     std::string_view samples = value_after(line, "npts"), dt = value_after(line, "dt");
@@ -112,7 +118,9 @@ Size read_size(const RecordText& text, std::size_t i)
                                    "\"NPTS=  5372, DT=   .0100 SEC\".",
                                    samples.empty() ? "nothing" : samples));
     if (dt.empty())
-        text.refuse(i, "DT is missing. The line should read like \"NPTS=  5372, DT=   .0100 SEC\".");
+        text.refuse(i, fmt::format("DT is missing{}. The line should read like \"NPTS=  5372, DT=   .0100 SEC\".{}",
+                                   and_no_unit ? ", and so is the unit of the acceleration" : "",
+                                   and_no_unit ? fmt::format(" {}", unit_remedy) : ""));
     size.dt_s = number(text, i, dt);
     check_dt(text, i, size.dt_s);
     return size;
@@ -158,8 +166,7 @@ std::string read_unit(const RecordText& text, std::size_t header_lines, const st
         if (const std::string spelling = stated_unit(text.lines[i]); !spelling.empty())
             return unit_of_file(text, i, spelling, given);
     if (given.empty())
-        text.refuse("does not contain the unit of its acceleration. Give it (excitation.unit, or --unit): \"m/s2\", "
-                    "\"cm/s2\", \"gal\", \"mm/s2\" or \"g\".");
+        text.refuse(fmt::format("does not contain the unit of its acceleration. {}", unit_remedy));
     return given;
 }
 
@@ -188,7 +195,10 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     if (header >= std::min(text.lines.size(), longest_header))
         text.refuse("looks like a PEER .AT2 file, but has no line like \"NPTS=  5372, DT=   .0100 SEC\" above its "
                     "values.");
-    const Size size = read_size(text, header);
+    const auto first = text.lines.begin();
+    const bool no_unit = given.empty() && std::all_of(first, first + static_cast<std::ptrdiff_t>(header),
+                                                      [](std::string_view line) { return stated_unit(line).empty(); });
+    const Size size = read_size(text, header, no_unit);
     Record record;
     record.file = text.file;
     record.format = at2_parser.format;
@@ -204,7 +214,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const double factor = unit_m_s2(record.unit);
     std::size_t last = header;
     for (std::size_t i = header + 1; i < text.lines.size(); ++i) {
-        if (trimmed(text.lines[i]).empty())
+        if (trimmed(text.lines[i]).empty() || is_end_mark(text.lines[i]))
             continue;
         for (const std::string_view token : parts_of(text.lines[i], false))
             record.acceleration_m_s2.push_back(factor * number(text, i, token));

@@ -9,9 +9,9 @@
 ///   reals      100 Real-header values follow on  20 lines, Format= (5F15.6)
 ///              62 is the sampling interval of the values [ms] (34 is that of the recorder [s], which may be another),
 ///              63 their duration [s], 64 their peak
-///   comments   6 Comment line(s) follow, each starting with a "|":
+///   comments   6 Comment line(s) follow, each starting with a "|":     a blank before the bar occurs
 ///   values     42000 acceleration pts, approx  210 secs, units=cm/sec2(04),Format=(1E15.6)
-///   End-of-data for ChanBNZ acceleration
+///   End-of-data for ChanBNZ acceleration             or, as in the format's own sample, "/& ... End of data ..."
 ///
 /// Units of acceleration (table 2): 2 g, 4 cm/s2, 10 gal; others are refused by name, among them 50, the counts of
 /// volume 0. Channels of velocity and displacement, and such blocks below an acceleration, are read for their shape
@@ -100,7 +100,7 @@ Header read_header(const RecordText& text, std::size_t& line)
         text.refuse(line, "a line like \"1 Comment line(s) follow, each starting with a |\" should stand here.");
     const double stated = number(text, line, parts_of(comments, false).front());
     const std::size_t first = line + 1;
-    for (++line; line_at(text, line).starts_with('|'); ++line)
+    for (++line; trimmed(line_at(text, line)).starts_with('|'); ++line)
         if (const std::string scnl = word_after(text.lines[line], "<scnl>"); !scnl.empty()) {
             const std::size_t dot = std::min(scnl.find('.'), scnl.size());
             header.code = scnl.substr(std::min(dot + 1, scnl.size()));
@@ -206,7 +206,10 @@ std::string orientation_of(const Header& header)
 /// "chan 1" of "Sta Chan   1: 90 deg (Rcrdr Chan  1)"; the channel's code where it has no number.
 std::string component_of(const RecordText& text, const Header& header)
 {
-    std::string channel = word_after(text.lines[header.top + channel_line], "sta chan");
+    const std::string_view line = text.lines[header.top + channel_line];
+    std::string channel = word_after(line, "sta chan");
+    if (channel.empty())
+        channel = word_after(line, "sta cha"); // in the format's own sample
     channel.resize(std::min(channel.find(':'), channel.size()));
     if (is_number(channel))
         return "chan " + channel;
@@ -257,7 +260,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     std::vector<Record> records;
     std::string others;
     for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty()) {
+        if (trimmed(text.lines[line]).empty() || (!records.empty() && is_end_mark(text.lines[line]))) {
             ++line;
             continue;
         }
@@ -276,7 +279,8 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
                 others += (others.empty() ? "" : ", ") + block.quantity;
             line += 1 + lines_of_values(block.count, per_line);
         } while (is_block(line_at(text, line)));
-        if (!lower_case(squeezed(text.lines[line])).starts_with("end-of-data"))
+        if (const std::string end = lower_case(squeezed(text.lines[line]));
+            !end.starts_with("end-of-data") && !end.starts_with("/&"))
             text.refuse(line, "a line that begins with \"End-of-data\" should end the channel: the file is damaged, or "
                               "a count in its headers is wrong.");
         ++line;

@@ -6,6 +6,10 @@
 ///                     3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)
 ///                     and the same for VELOC and DISPL, which are checked and left out
 ///
+/// Where no format is stated, it is that of the first line of values. Digitised records of other agencies in this
+/// layout (Chile's RENADIC) have pairs of time and value instead, with "UNITS OF UNCOR ACCEL ARE SEC AND G/10" in the
+/// text and no line above the values.
+///
 /// Each channel ends with a line that begins with "/&", and has a count of its own. The text of a channel holds, in
 /// either case of letters, "STATION NO." above the station's name, and "CHAN 1: 90 DEG" above the event's name.
 /// Volume 3 (spectra) is refused.
@@ -15,13 +19,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace stylobate {
 
 namespace {
 
-constexpr std::size_t longest_header = 80;     // lines above a channel's first values
+constexpr std::size_t longest_header = 80; // lines above a channel's first values
+constexpr std::size_t longest_text = 20;   // of them, words
+constexpr const char* block_phrases[] = {"points of accel data", "accelerogram points at"};
 constexpr std::size_t real_header_lines = 7;   // of V1: 50 numbers, 8F10
 constexpr std::size_t peak_in_real_header = 6; // its column there, counted from 0
 
@@ -54,7 +62,7 @@ struct Block {
     std::size_t count = 0;
     double dt_s = 0;
     std::string unit; ///< as it is spelled
-    FortranFormat format = {8, 10};
+    FortranFormat format;
 };
 
 Block read_block(const RecordText& text, std::size_t i)
@@ -74,8 +82,8 @@ Block read_block(const RecordText& text, std::size_t i)
     const bool says_format = lower_case(squeezed(line)).find("format:") != std::string::npos;
     if (says_format)
         block.format = fortran_format(text, i, word_after(line, "format"));
-    else if (lower_case(line).find("accelerogram points") != std::string::npos)
-        text.refuse(i, "the format of the values is missing; it should read like \"Format: (8f9.6)\".");
+    else
+        block.format = layout_of(i + 1 < text.lines.size() ? text.lines[i + 1] : "").value_or(FortranFormat{8, 10});
     return block;
 }
 
@@ -87,11 +95,25 @@ std::vector<double> read_values(const RecordText& text, std::size_t& line, const
     return values;
 }
 
+/// The line of the text that says that the values are pairs of time and acceleration; `last` if there is none.
+std::size_t pairs_line(const RecordText& text, std::size_t top, std::size_t last)
+{
+    return find_line(text, top, last, " are sec and ");
+}
+
+/// Whether no line like "3251 POINTS OF ACCEL DATA" stands where a channel's first values begin.
+bool is_without_blocks(const RecordText& text, std::size_t top)
+{
+    const std::size_t end = std::min(text.lines.size(), top + longest_header);
+    return std::all_of(std::begin(block_phrases), std::end(block_phrases),
+                       [&](const char* phrase) { return find_line(text, top, end, phrase) == end; });
+}
+
 /// The line above the accelerations of the channel that begins at `top`.
 std::size_t acceleration_line(const RecordText& text, std::size_t top)
 {
     const std::size_t end = std::min(text.lines.size(), top + longest_header);
-    for (const char* phrase : {"points of accel data", "accelerogram points at"})
+    for (const char* phrase : block_phrases)
         if (const std::size_t i = find_line(text, top, end, phrase); i < end)
             return i;
     for (const char* other : {"points of veloc", "points of displ"})
@@ -121,6 +143,99 @@ std::optional<double> header_peak(const RecordText& text, std::size_t top, std::
     return stated_peak_m_s2(number(text, line < data ? line : data - real_header_lines, peak), canonical);
 }
 
+/// Below the text of a channel of pairs: 100 integers, 50 reals, the pairs.
+/// @param units the line that says so
+/// @param[in,out] line the channel's first line; afterwards the one below its values
+void read_pairs(const RecordText& text, std::size_t units, std::size_t& line, const std::string& given, Record& record)
+{
+    constexpr std::size_t integer_lines = 7;
+    const std::size_t points = header_line(text, line, units - line, "no. of points");
+    const std::size_t count = sample_count(text, points, word_after(text.lines[points], "no. of points"));
+    record.unit = unit_of_file(text, units, word_after(text.lines[units], " sec and "), given);
+    std::size_t numbers = units + 1;
+    const auto all_numbers = [&](std::size_t i) {
+        const auto parts = parts_of(text.lines[i], false);
+        return std::all_of(parts.begin(), parts.end(), is_number);
+    };
+    while (numbers < text.lines.size() && !all_numbers(numbers))
+        ++numbers;
+    std::size_t first_value = numbers + integer_lines + real_header_lines;
+    if (first_value >= text.lines.size())
+        text.refuse(line, "the file ends inside its header: it is truncated.");
+    const std::size_t end = find_line(text, first_value, text.lines.size(), "/&");
+    std::optional<FortranFormat> layout; // of a full line
+    for (std::size_t i = first_value; i < end; ++i)
+        if (const auto of_line = layout_of(text.lines[i]); of_line && (!layout || of_line->per_line > layout->per_line))
+            layout = of_line;
+    if (!layout || layout->per_line % 2 != 0 || count > text.lines.size() * static_cast<std::size_t>(layout->per_line))
+        text.refuse(first_value,
+                    fmt::format("{} pairs of time and value should begin here, in columns of one width.", count));
+    // some files have lines of pairs of another record above their own: the time begins again below them
+    const std::size_t lines = lines_of_values(2 * count, layout->per_line);
+    if (end > first_value + lines) {
+        const auto time = [&](std::size_t i) { return number(text, i, parts_of(text.lines[i], false).front()); };
+        if (time(end - lines) > time(first_value))
+            text.refuse(points,
+                        fmt::format("the header counts {} pairs, and more lines than these follow: the count is "
+                                    "wrong, or the file is damaged.",
+                                    count));
+        record.note = fmt::format("without {} lines of other values above the {} pairs that the header counts",
+                                  end - lines - first_value, count);
+        first_value = end - lines;
+    }
+    const auto pairs = fixed_width_numbers(text, first_value, 2 * count, layout->width, layout->per_line);
+    const double last_s = fill_from_pairs(text, first_value, layout->per_line, pairs, record);
+    const std::string length = word_after(text.lines[points], "record length");
+    if (is_number(length) && std::fabs(last_s - number(text, points, length)) > 2 * record.dt_s + 0.02)
+        text.refuse(points,
+                    fmt::format("the stated record length is {} s, but the last time is {} s.", length, last_s));
+    if (const std::string peak = word_after(text.lines[units], "max"); is_number(peak))
+        if (const std::string unit = canonical_unit(word_after(text.lines[units], lower_case(peak) + " "));
+            !unit.empty())
+            record.header_pga_m_s2 = stated_peak_m_s2(number(text, units, peak), unit);
+    line = first_value + lines;
+}
+
+/// What the text of a channel says of its place.
+/// @param end line below the text
+void read_names(const RecordText& text, std::size_t top, std::size_t end, Record& record)
+{
+    const std::size_t chan = chan_line(text, top, end);
+    if (chan == end)
+        text.refuse(top, "the channel has no line like \"CHAN 1: 90 DEG\".");
+    const std::string channel = squeezed(text.lines[chan]);
+    record.component = lower_case(channel.substr(0, channel.find(':')));
+    record.orientation = word_after(channel, ":");
+    record.title = squeezed(text.lines[chan + 1]);
+    if (const std::size_t station = find_line(text, top, end, "station no."); station + 1 < end)
+        record.station = trimmed(text.lines[station + 1].substr(0, text.lines[station + 1].find("  ")));
+}
+
+/// The values of a channel that stand in evenly spaced blocks, acceleration first.
+/// @param[in,out] line the channel's first line; afterwards the one below its values
+void read_blocks(const RecordText& text, std::size_t data, std::size_t& line, const std::string& given, Record& record)
+{
+    const Block block = read_block(text, data);
+    const std::size_t stated = find_line(text, line, data, "no. of points");
+    if (stated < data && sample_count(text, stated, word_after(text.lines[stated], "no. of points")) != block.count)
+        text.refuse(data, fmt::format("{} values follow, but line {} states: {}. One of them is wrong.", block.count,
+                                      stated + 1, squeezed(text.lines[stated])));
+    record.unit = unit_of_file(text, data, block.unit, given);
+    record.dt_s = block.dt_s;
+    record.header_pga_m_s2 = header_peak(text, line, data, block);
+    line = data;
+    record.acceleration_m_s2 = read_values(text, line, block);
+    for (double& a : record.acceleration_m_s2)
+        a *= unit_m_s2(record.unit);
+    // velocity and displacement are read for their shape only
+    while (line < text.lines.size()) {
+        const std::string above = lower_case(squeezed(text.lines[line]));
+        if (above.find("points of veloc") == std::string::npos && above.find("points of displ") == std::string::npos)
+            break;
+        read_values(text, line, read_block(text, line));
+    }
+}
+
 /// One channel.
 /// @param[in,out] line its first line; afterwards the one below its end
 Record read_channel(const RecordText& text, std::size_t& line, const std::string& given)
@@ -130,41 +245,19 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
         text.refuse(top, fmt::format("\"{}\" stands where the next channel should begin: the count above is wrong, or "
                                      "the file is damaged.",
                                      trimmed(text.lines[top]).substr(0, 40)));
-    const std::size_t data = acceleration_line(text, top);
-    const Block block = read_block(text, data);
-    const std::size_t stated = find_line(text, top, data, "no. of points");
-    if (stated < data && sample_count(text, stated, word_after(text.lines[stated], "no. of points")) != block.count)
-        text.refuse(data, fmt::format("{} values follow, but line {} states: {}. One of them is wrong.", block.count,
-                                      stated + 1, squeezed(text.lines[stated])));
     Record record;
     record.file = text.file;
     record.format = csmip_parser.format;
-    record.unit = unit_of_file(text, data, block.unit, given);
-    record.dt_s = block.dt_s;
-    record.header_pga_m_s2 = header_peak(text, top, data, block);
-    const std::size_t chan = chan_line(text, top, data);
-    if (chan == data)
-        text.refuse(top, "the channel has no line like \"CHAN 1: 90 DEG\".");
-    const std::string channel = squeezed(text.lines[chan]);
-    record.component = lower_case(channel.substr(0, channel.find(':')));
-    record.orientation = word_after(channel, ":");
-    record.title = squeezed(text.lines[chan + 1]);
-    if (const std::size_t station = find_line(text, top, data, "station no."); station + 1 < data)
-        record.station = trimmed(text.lines[station + 1].substr(0, text.lines[station + 1].find("  ")));
-
-    line = data;
-    record.acceleration_m_s2 = read_values(text, line, block);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
-    // velocity and displacement are read for their shape only
-    const auto follows = [&](std::string_view phrase) {
-        return line < text.lines.size() && lower_case(squeezed(text.lines[line])).find(phrase) != std::string::npos;
-    };
-    while (follows("points of veloc") || follows("points of displ")) {
-        Block other = read_block(text, line);
-        read_values(text, line, other);
+    const std::size_t end = std::min(text.lines.size(), top + longest_text);
+    if (const std::size_t pairs = pairs_line(text, top, end); pairs < end && is_without_blocks(text, top)) {
+        read_names(text, top, pairs, record);
+        read_pairs(text, pairs, line, given, record);
+    } else {
+        const std::size_t data = acceleration_line(text, top);
+        read_names(text, top, data, record);
+        read_blocks(text, data, line, given, record);
     }
-    if (!follows("/&"))
+    if (line >= text.lines.size() || !trimmed(text.lines[line]).starts_with("/&"))
         text.refuse(std::min(line, text.lines.size() - 1),
                     "a line that begins with \"/&\" should end the channel: the file is truncated, or a count in its "
                     "headers is wrong. Obtain the complete file.");

@@ -33,21 +33,6 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Its runs of letters and digits, in lower case; what stands between them is left out.
-std::vector<std::string> words_of(std::string_view name)
-{
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(name)) {
-        if (is_lower_letter(c) || is_digit(c))
-            words.back() += c;
-        else if (!words.back().empty())
-            words.emplace_back();
-    }
-    if (words.back().empty())
-        words.pop_back();
-    return words;
-}
-
 /// Words that mean the vertical wherever they stand: in a title, at the end of a file's name.
 bool is_plainly_vertical(std::string_view word)
 {
@@ -137,6 +122,20 @@ bool has_vertical_name(const Record& record)
 }
 
 } // namespace
+
+std::vector<std::string> words_of(std::string_view name)
+{
+    std::vector<std::string> words(1);
+    for (const char c : lower_case(name)) {
+        if (is_lower_letter(c) || is_digit(c))
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    if (words.back().empty())
+        words.pop_back();
+    return words;
+}
 
 const char* to_string(Direction direction)
 {

@@ -65,7 +65,7 @@ std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view
 void refuse_more(const RecordText& text, std::size_t i)
 {
     for (; i < text.lines.size(); ++i)
-        if (!trimmed(text.lines[i]).empty())
+        if (!trimmed(text.lines[i]).empty() && !is_end_mark(text.lines[i]))
             text.refuse(i, fmt::format("\"{}\" follows after all values that the header counts: the count is wrong, or "
                                        "the file is damaged.",
                                        trimmed(text.lines[i]).substr(0, 40)));
@@ -93,6 +93,27 @@ FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_
     if (layout.per_line == 0 || layout.width == 0)
         text.refuse(i, fmt::format("the format of the values, \"{}\", should read like \"(8f9.6)\".", spelling));
     return layout;
+}
+
+std::optional<FortranFormat> layout_of(std::string_view line)
+{
+    line = line.substr(0, line.find_last_not_of(" \t") + 1);
+    const std::size_t first = line.find('.');
+    if (first == std::string_view::npos)
+        return {};
+    FortranFormat layout{1, static_cast<int>(line.size())};
+    std::size_t last = first;
+    for (std::size_t point = line.find('.', first + 1); point != std::string_view::npos;
+         point = line.find('.', point + 1)) {
+        const int step = static_cast<int>(point - last);
+        if (layout.per_line > 1 && step != layout.width)
+            return {};
+        layout.width = step;
+        last = point;
+        ++layout.per_line;
+    }
+    const bool whole = static_cast<std::size_t>(layout.per_line * layout.width) == line.size();
+    return whole ? std::optional(layout) : std::nullopt;
 }
 
 std::size_t lines_of_values(std::size_t count, int per_line)
@@ -165,7 +186,7 @@ std::vector<Record> one_after_another(const RecordText& text, const std::string&
 {
     std::vector<Record> records;
     for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty())
+        if (trimmed(text.lines[line]).empty() || (!records.empty() && is_end_mark(text.lines[line])))
             ++line;
         else
             records.push_back(read(text, line, given));

@@ -114,7 +114,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
     std::vector<Record> records;
     for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty()) {
+        if (trimmed(text.lines[line]).empty() || (!records.empty() && is_end_mark(text.lines[line]))) {
             ++line;
             continue;
         }

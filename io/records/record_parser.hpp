@@ -33,9 +33,28 @@ std::string content_of(const std::filesystem::path& path, const std::string& wha
 /// @throws InputError if it is empty or has bytes that no text has
 RecordText lines_of(const std::string& file, std::string_view content);
 
+/// What the name of a column says.
+struct ColumnMeaning {
+    enum class Quantity { unnamed, acceleration, velocity, displacement, time, other };
+    Quantity of_words = Quantity::unnamed; ///< of its words, or of its letter
+    Quantity of_unit = Quantity::unnamed;
+    std::string unit;   ///< as it is spelled; empty if it has none
+    bool plain = false; ///< its quantity is a word, "velocity", and not a letter, which may be a direction
+};
+ColumnMeaning meaning_of_column(std::string_view name);
+
+/// "an acceleration", "a velocity" and so on.
+const char* to_string(ColumnMeaning::Quantity quantity);
+
+/// The unit of acceleration that a line of text above the rows spells, as in "# unit: cm/s2" or "% Acceleration (g)";
+/// empty if there is none.
+std::string unit_in_line(std::string_view line);
+
 /// Plain columns of numbers, as record_columns.cpp describes them.
 struct ColumnTable {
-    std::vector<std::string> names;           ///< "column 2" where the file names none
+    std::vector<std::string> names;           ///< "column 2" where the file names none, or two alike
+    std::vector<std::string> headings;        ///< as the file names them; empty where they do not fit the columns
+    std::optional<std::size_t> heading_line;  ///< the line of names, if there is one
     std::vector<std::vector<double>> columns; ///< as they stand; the first one is the time unless it is alone
     std::vector<std::size_t> line;            ///< of each row
     std::optional<double> stated_dt_s;        ///< in a comment
@@ -63,7 +82,9 @@ extern const RecordParser cosmos_parser;
 extern const RecordParser csmip_parser;
 extern const RecordParser esm_parser;
 extern const RecordParser geonet_parser;
+extern const RecordParser headed_parser;
 extern const RecordParser knet_parser;
+extern const RecordParser npts_dt_parser;
 extern const RecordParser smc_parser;
 extern const RecordParser unam_parser;
 extern const RecordParser usc_parser;
@@ -76,8 +97,15 @@ inline constexpr double longest_dt_s = 0.5;
 /// @pre canonical name
 double unit_m_s2(std::string_view unit);
 
+/// A unit in lower case without blanks and marks of powers, "sec" as "s": "CM/SEC^2" is "cm/s2".
+std::string plain_unit(std::string_view spelling);
+
 /// "g", "g/10", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); empty if it is none.
 std::string canonical_unit(std::string_view spelling);
+
+/// What to do about a missing unit, for messages.
+inline constexpr const char* unit_remedy = "Give it (unit = \"...\" beside the file in the study, or --unit): "
+                                           "\"m/s2\", \"cm/s2\", \"gal\", \"mm/s2\" or \"g\".";
 
 /// The unit that line `i` spells, where none was given or the given one is the same.
 /// @throws InputError if it is no unit of acceleration, or another than the one given
@@ -97,6 +125,9 @@ std::string lower_case(std::string_view text);
 
 /// The words of a line with one blank between them.
 std::string squeezed(std::string_view line);
+
+/// The runs of letters and digits of a name, in lower case: "a (N-S)" is a, n, s.
+std::vector<std::string> words_of(std::string_view name);
 
 /// The parts of a line between blanks, tabs, commas and semicolons; two separators with nothing between them other
 /// than blanks leave an empty part. `commas` false: blanks and tabs only.
@@ -131,7 +162,10 @@ std::string word_after(std::string_view line, std::string_view key);
 /// @throws InputError, naming line `i`, if it is none or below two
 std::size_t sample_count(const RecordText& text, std::size_t i, std::string_view token);
 
-/// @throws InputError, naming the line, if anything but blank lines follows from line `i` on
+/// Whether a line below all values says that they end: "*** End Data ***", "EOF", "/&", "-----".
+bool is_end_mark(std::string_view line);
+
+/// @throws InputError, naming the line, if anything but blank lines and end marks follows from line `i` on
 void refuse_more(const RecordText& text, std::size_t i);
 
 /// How Fortran lays out numbers: so many to a line, in columns of one width.
@@ -142,6 +176,10 @@ struct FortranFormat {
 /// "(8f9.6)", "3F10.3", "(1E15.6)" or "(10I8)".
 /// @throws InputError, naming line `i`
 FortranFormat fortran_format(const RecordText& text, std::size_t i, std::string_view spelling);
+
+/// The layout of a line of numbers that may touch, by their decimal points, which are one width apart.
+/// @return none if they are not, or the line does not end with a column
+std::optional<FortranFormat> layout_of(std::string_view line);
 
 /// The lines that so many values take.
 std::size_t lines_of_values(std::size_t count, int per_line);
@@ -154,6 +192,18 @@ std::size_t lines_of_values(std::size_t count, int per_line);
 /// @pre width, per_line > 0
 std::vector<double> fixed_width_numbers(const RecordText& text, std::size_t first_line, std::size_t count, int width,
                                         int per_line, int indent = 0);
+
+/// Fills in a record from pairs of time and value in lines of fixed width. The grid: the times are printed in whole
+/// milliseconds, and the record is given on the widest even grid that has every one of them on it (their greatest
+/// common divisor, 1 ms where they are as uneven as film). Values between are linear. So each sample stays at its time
+/// with its value, the PGA is that of the file to the last bit, and nothing is smoothed, which a grid as wide as the
+/// mean spacing would do to a peak between two of its points.
+/// @param first_value line of the first pair
+/// @param pairs time [s] and value [record.unit] in turn, `per_line` numbers to a line
+/// @return the last time [s]
+/// @throws InputError, naming the line, if the times do not increase, or leave a gap
+double fill_from_pairs(const RecordText& text, std::size_t first_value, int per_line, const std::vector<double>& pairs,
+                       Record& record);
 
 /// `count` numbers between blanks, any number of them to a line, empty lines skipped; the last of them ends its line.
 /// @param[out] next_line (may be null) the line below the last of them

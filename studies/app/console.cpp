@@ -1,5 +1,7 @@
 #include "studies/app/console.hpp"
 
+#include "io/files/utf8.hpp"
+
 #include "studies/report/words.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +31,17 @@ void say(const std::string& text)
 {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
+}
+
+void say_error(std::string message)
+{
+    std::ranges::replace_if(
+        message,
+        [](char c) {
+            return c != '\n' && c != '\t' && begins_with_control({&c, 1});
+        },
+        '?');
+    say(fmt::format("stylobate: {}\n", message));
 }
 
 Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1)

@@ -11,6 +11,10 @@ namespace stylobate {
 /// Writes to standard error. Where that is closed or full the text is lost, and the work goes on.
 void say(const std::string& text);
 
+/// Prints an error message. Control characters are replaced: names in it come from files, and a terminal would execute
+/// them.
+void say_error(std::string message);
+
 /// Progress on standard error: one line that is rewritten on a terminal, a plain line every ten seconds otherwise.
 class Console : public Observer {
 public:

@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "io/files/utf8.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
@@ -67,18 +66,6 @@ void add_force(CLI::App& verb, CommonOptions& options)
 using namespace stylobate;
 
 namespace {
-
-/// Prints an error. Control characters are replaced: names in it come from files, and a terminal would execute them.
-void say_error(std::string message)
-{
-    std::ranges::replace_if(
-        message,
-        [](char c) {
-            return c != '\n' && c != '\t' && begins_with_control({&c, 1});
-        },
-        '?');
-    say(fmt::format("stylobate: {}\n", message));
-}
 
 /// Ends all ranks after an error of this one; the others would wait for it. An error that all ranks find is printed by
 /// rank 0: the others wait 2 s before they print theirs.

@@ -4,6 +4,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/report/json.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace stylobate {
@@ -164,36 +166,42 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::string& component, const std::string& block)
 {
     const std::optional<BlockSize> size = block_size(block);
-    for (const std::string& file : files)
-        check_kind(file, "record");
-    // all are read before any is printed: one bad file, one message and nothing else
-    std::vector<Record> records;
-    for (const std::string& file : files) {
-        if (component.empty()) {
-            for (Record& record : read_records(file, unit))
-                records.push_back(std::move(record));
-        } else {
-            records.push_back(read_record(file, component, unit));
-        }
-    }
     const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
     Json list = Json::list();
-    for (const Record& record : records) {
-        Described described{record,
-                            intensity_measures(record),
-                            make_motion(record, true).baseline,
-                            spectral_acceleration(record, periods),
-                            {}};
-        if (size)
-            described.rocking = rocking_measures(described.measures, size->width / 2, size->height / 2);
-        if (options.json)
-            list.item(describe(described));
-        else
-            print(described);
+    int status = exit_done;
+    std::size_t described = 0;
+    for (const std::string& file : files) {
+        try {
+            check_kind(file, "record");
+            const std::vector<Record> records =
+                component.empty() ? read_records(file, unit) : std::vector<Record>{read_record(file, component, unit)};
+            // all of a file is computed before any of it is printed
+            std::vector<Described> all;
+            for (const Record& record : records) {
+                all.push_back({record,
+                               intensity_measures(record),
+                               make_motion(record, true).baseline,
+                               spectral_acceleration(record, periods),
+                               {}});
+                if (size)
+                    all.back().rocking = rocking_measures(all.back().measures, size->width / 2, size->height / 2);
+            }
+            for (const Described& each : all) {
+                if (options.json)
+                    list.item(describe(each));
+                else
+                    print(each);
+            }
+            described += all.size();
+        } catch (const InputError& error) { // the other files are reported all the same
+            std::fflush(stdout);
+            say_error(error.what());
+            status = exit_bad_input;
+        }
     }
-    if (options.json)
+    if (options.json && described > 0)
         fmt::print("{}\n", list.text());
-    return exit_done;
+    return status;
 }
 
 } // namespace stylobate

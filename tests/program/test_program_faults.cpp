@@ -233,9 +233,17 @@ TEST_F(Faults, RecordsThatCannotBeRead)
     expect_refused({"record", "folder"}, {"folder"});
     expect_refused(under("nowhere.at2"), {"nowhere.at2", "no such file", "--set excitation.file=PATH"});
     expect_refused(under("folder"), {"folder"});
-    // one bad file among good ones: its message and nothing else
+    // one bad file among good ones: its message, and the answers of the others
     write_bytes(folder / "good.at2", good);
-    expect_refused({"record", "good.at2", "cut.at2"}, {"cut.at2"});
+    for (const Words& files : {Words{"record", "good.at2", "cut.at2"}, {"record", "cut.at2", "good.at2"}}) {
+        const Ended mixed = run(files);
+        EXPECT_EQ(mixed.status, 2);
+        EXPECT_NE(mixed.err.find("cut.at2"), std::string::npos) << mixed.err;
+        EXPECT_EQ(mixed.err.find("good.at2"), std::string::npos) << mixed.err;
+        EXPECT_NE(mixed.out.find("good.at2\n"), std::string::npos) << mixed.out;
+        EXPECT_NE(mixed.out.find("PGA "), std::string::npos) << mixed.out;
+    }
+    expect_refused({"record", "cut.at2", "cut.at2"}, {"cut.at2"});
     expect_refused({"record", "good.at2", "--component", "360"}, {"good.at2", "360", "090"});
     expect_refused({"record", "good.at2", "--unit", "cm/s2"}, {"good.at2", "cm/s2", "g"});
     expect_refused({"record", "good.at2", "--unit", "furlong"}, {"furlong", "m/s2"});

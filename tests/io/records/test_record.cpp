@@ -88,7 +88,7 @@ TEST_F(RecordFiles, At2BadNumbersAreNamedWithTheirLine)
     for (const std::string bad : {"            nan", "            inf", "      -Infinity"})
         expect_says(refusal(replaced(at2(), line_7, bad)), {"record.txt:7:", "not finite"});
     expect_says(refusal(replaced(at2(), line_7, "          1E999")), {"record.txt:7:", "range"});
-    expect_says(refusal(at2() + "end of data\n"), {"record.txt:10:", "\"end\" is not a number"});
+    expect_says(refusal(at2() + "see the report\n"), {"record.txt:10:", "\"see\" is not a number"});
 }
 
 TEST_F(RecordFiles, At2SamplingIntervalIsChecked)

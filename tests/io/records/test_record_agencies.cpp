@@ -257,7 +257,10 @@ TEST(Csmip, FormatAndIntervalOfTheDataLineAreChecked)
     const std::string text = csmip_v1_channel(1, "360 Deg", 23);
     for (const char* format : {"(8x9.6)", "(8f.6)", "(8f999.6)", "(0f9.6)", "()", ""})
         expect_says(message_for(replaced(text, "(8f9.6)", format)), {"record.txt:28:", "(8f9.6)"});
-    expect_says(message_for(replaced(text, "Format: (8f9.6)", "")), {"record.txt:28:", "format", "missing"});
+    // without a format it is that of the first line, if that line has one
+    const std::string silent = replaced(text, "Format: (8f9.6)", "");
+    expect_samples(read_records(silent, "record.txt", "")[0], 23, g);
+    expect_says(message_for(replaced(silent, "-0.050000", "-0.05 000")), {"record.txt:29:"});
     EXPECT_NE(message_for(replaced(text, "(8f9.6)", "(9f8.6)")), "");
     for (const char* rate : {"0", "-200", "1", "1e9", "x", "nan"})
         expect_says(message_for(replaced(text, "at 200 pts", fmt::format("at {} pts", rate))), {"record.txt:28:"});

@@ -1,7 +1,7 @@
 /// The seeds of the fuzzer, and some thousands of their mutations, the same ones each time. For millions, see
 /// scripts/fuzz.sh.
 
-#include "tests/io/records/record_network_files.hpp"
+#include "tests/io/records/record_maker_files.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -23,14 +23,19 @@ std::map<std::string, std::string> seeds_made_here()
             {"at2-names-behind", "0" + at2("    23    .0100    NPTS, DT", 23)},
             {"bhrc", "0" + with_ends(bhrc_component("L1", 12) + bhrc_component("V2", 11, 1), "\r\n")},
             {"columns", "1# title\n% dt = 0.005\ntime, a, b\n" + columns(12, 2, ",")},
+            {"columns-names", "0" + named_columns("Time [s],Acceleration [g],Velocity [m/s],Displacement [m]", 3)},
             {"columns-one", "1# dt = 0.01\n0.1\n0.2\n-0.3\n"},
             {"cosmos", "0" + cosmos()},
+            {"csmip-pairs", "0" + renadic(12, "  0.000  0.013\n")},
             {"csmip-v1", "0" + csmip_v1_channel(1, "360 Deg", 12)},
             {"csmip-v2", "0" + csmip_v2_channel(1, " 90 DEG", 10)},
             {"esm", "0" + esm()},
             {"geonet-v1", "0" + geonet_component(1, "S62W", 20) + geonet_component(1, "Up", 20)},
             {"geonet-v2", "0" + geonet_component(2, "N28W", 23)},
+            {"headed-columns", "0" + nsmn()},
+            {"headed-lines", "0" + european()},
             {"knet", "0" + knet("5")},
+            {"npts-dt", "1" + named_size()},
             {"smc", "0" + smc()},
             {"unam", "0" + unam()},
             {"usc", "0" + usc()}};
@@ -89,7 +94,7 @@ TEST(RecordCorpus, HoldsEveryFormatWholeAndSmall)
         }
     }
     for (const char* format : {"peer-at2", "csmip", "cosmos", "bhrc", "usc-volume-1", "usgs-smc", "geonet", "esm",
-                               "knet", "unam", "columns"})
+                               "knet", "unam", "headed", "npts-dt", "columns"})
         EXPECT_TRUE(formats.contains(format)) << format;
 }
 
