@@ -25,7 +25,7 @@ constexpr const char* toml_name = "campaign.toml";
 constexpr const char* format_name = "stylobate-measured";
 constexpr int most = std::numeric_limits<int>::max();
 /// Any number: whether it makes sense is asked where all layouts are checked.
-const Range any = {-1e300, 1e300, false, {}, 0};
+const Range any = {-1e300, 1e300, false};
 
 /// The key of the noise of a series: "noise_base_acceleration_m_s2".
 std::string noise_key(const SeriesName& name)
@@ -37,7 +37,7 @@ std::string noise_key(const SeriesName& name)
 
 int whole(const KeyReader& table, const char* key, int absent)
 {
-    const auto value = table.maybe_number(key, {-static_cast<double>(most), static_cast<double>(most), false, {}, 0});
+    const auto value = table.maybe_number(key, {-static_cast<double>(most), static_cast<double>(most), false});
     if (value && *value != std::floor(*value))
         table.refuse(key, "is not a whole number");
     return value ? static_cast<int>(*value) : absent;
