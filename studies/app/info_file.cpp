@@ -119,6 +119,21 @@ void add_warnings(const std::vector<std::string>& warnings, Told& told)
     told.json.member("warnings", list);
 }
 
+/// The band over contact laws, or the command that measures it.
+void tell_laws(const std::string& file, const ResultHeader& header, Told& told)
+{
+    std::optional<Study> study;
+    try {
+        study = parse_study(header.study_toml, file + " (its study)");
+    } catch (const InputError&) { // of another version: all else is known of it
+        return;
+    }
+    const std::optional<LawBand> band = law_band_beside(file, *study, header);
+    told.text += band ? law_band_text(*band) : law_advice(*study) + "\n";
+    if (band)
+        told.json.member("contact_laws", law_band_json(*band));
+}
+
 void tell_result(const std::string& file, Told& told)
 {
     const ResultReader reader(file);
@@ -149,13 +164,8 @@ void tell_result(const std::string& file, Told& told)
     if (told.unfinished)
         told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",
                                  header.shard.whole() ? "" : "--shard " + header.shard.text() + " ", file);
-    if (!told.unfinished) {
-        const Study study = parse_study(header.study_toml, file + " (its study)");
-        const std::optional<LawBand> band = law_band_beside(file, study, header);
-        told.text += band ? law_band_text(*band) : law_advice(study) + "\n";
-        if (band)
-            told.json.member("contact_laws", law_band_json(*band));
-    }
+    if (!told.unfinished)
+        tell_laws(file, header, told);
     add_warnings(header.warnings, told);
 }
 
