@@ -30,6 +30,9 @@ void AtomicFile::check(const std::filesystem::path& file)
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         fail(file, errno);
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        fail(file, ENOTDIR);
 }
 
 AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
@@ -79,7 +82,39 @@ void AtomicFile::fail(const std::filesystem::path& file, int error)
     throw InputError(
         fmt::format("cannot write '{}': {}.\n  Name a file in a folder that exists, can be written and has "
                     "room; nothing was written.",
-                    file.string(), std::generic_category().message(error)));
+                    file.string(), why_not_written(file, error)));
+}
+
+std::string why_not_written(const std::filesystem::path& file, int error)
+{
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const std::string reason = std::generic_category().message(error);
+    if (error == EISDIR)
+        return "it is a folder";
+    fs::path folder = fs::absolute(file, ignored).lexically_normal().parent_path();
+    const std::string shown = file.has_parent_path() ? file.parent_path().string() : folder.string();
+    if (error == EACCES || error == EROFS || error == EPERM)
+        return fmt::format("the folder '{}' cannot be written: {}", shown, reason);
+    if (error != ENOENT && error != ENOTDIR)
+        return reason;
+    const bool missing = !fs::exists(folder, ignored);
+    while (!fs::exists(folder, ignored) && folder.has_relative_path())
+        folder = folder.parent_path();
+    if (!fs::is_directory(folder, ignored))
+        return fmt::format("'{}' is a file, not a folder", folder.string());
+    return missing ? fmt::format("there is no such folder '{}'", shown) : reason;
+}
+
+void make_folder(const std::filesystem::path& folder)
+{
+    std::error_code error, ignored;
+    std::filesystem::create_directory(folder, error);
+    if (std::filesystem::is_directory(folder, ignored))
+        return;
+    throw InputError(fmt::format("cannot make the folder '{}': {}.\n  Name a folder whose parent exists and can be "
+                                 "written; nothing was written.",
+                                 folder.string(), error ? why_not_written(folder, error.value()) : "it is a file"));
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content)

@@ -37,6 +37,13 @@ private:
     int descriptor_ = -1;
 };
 
+/// Why a file or a folder cannot be made: which folder is missing, is a file, or may not be written (by its whole path
+/// where it is the working folder), or else what the system reports.
+std::string why_not_written(const std::filesystem::path& file, int error);
+
+/// A folder for several files: it may be there. @throws InputError if it cannot be made
+void make_folder(const std::filesystem::path& folder);
+
 /// One text as a file, whole or not at all. @throws InputError as above
 void write_whole(const std::filesystem::path& file, std::string_view content);
 

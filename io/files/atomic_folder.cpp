@@ -1,6 +1,7 @@
 #include "io/files/atomic_folder.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/atomic_file.hpp"
 
 #include <cerrno>
 #include <cstdlib>
@@ -22,7 +23,7 @@ AtomicFolder::AtomicFolder(fs::path folder) : folder_(std::move(folder))
         fail(fs::is_directory(folder_, ignored) ? "it holds files already" : "it is a file");
     std::string name = (folder_.parent_path() / fmt::format(".{}.XXXXXX", folder_.filename().string())).string();
     if (::mkdtemp(name.data()) == nullptr)
-        fail(std::generic_category().message(errno));
+        fail(why_not_written(folder_, errno));
     temporary_ = name;
 }
 

@@ -82,14 +82,19 @@ FileHandle FileHandle::open(const std::filesystem::path& file, bool writable)
 FileHandle FileHandle::claim(const std::filesystem::path& file)
 {
     const auto folder = folder_of(file);
-    if (!std::filesystem::exists(folder))
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(folder, error);
+    if (status.type() == std::filesystem::file_type::not_found)
         refuse(folder, "there is no such folder; create it first, or choose another output");
-    if (!std::filesystem::is_directory(folder))
+    if (status.type() == std::filesystem::file_type::none)
+        refuse(folder, "cannot be written: " + error.message() + "; choose another output folder");
+    if (!std::filesystem::is_directory(status))
         refuse(folder, "is not a folder; choose another output");
     for (int attempt = 0; attempt < 2; ++attempt) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (descriptor < 0)
-            refuse(folder, "cannot be written: " + reason(errno) + "; choose another output folder");
+            refuse(file.has_parent_path() ? folder : std::filesystem::current_path(error), // "." names no folder
+                   "cannot be written: " + reason(errno) + "; choose another output folder");
         FileHandle handle(descriptor, file);
         if (!handle.try_lock() || !handle.is_at(file))
             refuse(file, "another run is writing it; wait until it ends, or choose another output");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace stylobate {
 
@@ -26,6 +27,19 @@ std::string shown_key(const std::string& key)
     quoted.type = TomlValue::Type::string;
     quoted.text = key;
     return quoted.shown();
+}
+
+/// 1e6 is a float in TOML; below 2^53 it stands for one whole number only.
+constexpr double exact = 9007199254740992.0;
+
+std::optional<std::uint64_t> whole_number(const TomlValue& value)
+{
+    if (value.type == TomlValue::Type::integer && value.integer >= 0)
+        return static_cast<std::uint64_t>(value.integer);
+    if (value.type == TomlValue::Type::number && value.number >= 0 && value.number < exact &&
+        value.number == std::floor(value.number))
+        return static_cast<std::uint64_t>(value.number);
+    return std::nullopt;
 }
 
 std::string with_todo(const std::string& what, std::string todo)
@@ -208,22 +222,16 @@ std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uin
 {
     const auto range = fmt::format("[{}, {}]", low, high);
     const auto& value = need(key, fmt::format("Give a whole number in {}. {}", range, hint));
-    if (value.type == TomlValue::Type::integer) {
-        if (value.integer >= 0 && static_cast<std::uint64_t>(value.integer) >= low &&
-            static_cast<std::uint64_t>(value.integer) <= high)
-            return static_cast<std::uint64_t>(value.integer);
-        refuse(key, "is outside " + range, hint);
-    }
-    // 1e6 is a float in TOML; below 2^53 it stands for one whole number only
-    constexpr double exact = 9007199254740992.0;
-    if (value.type != TomlValue::Type::number ||
-        (std::isfinite(value.number) && value.number != std::floor(value.number)))
+    if (const std::optional<std::uint64_t> number = whole_number(value); number && *number >= low && *number <= high)
+        return *number;
+    const bool numeric = value.type == TomlValue::Type::number || value.type == TomlValue::Type::integer;
+    if (!numeric || (std::isfinite(value.number) && value.number != std::floor(value.number)))
         refuse(key, fmt::format("is {}, not a whole number", value.type_name()),
                fmt::format("Give a whole number in {}. {}", range, hint));
-    if (!(value.number >= static_cast<double>(low) && value.number <= static_cast<double>(high) &&
-          value.number < exact))
-        refuse(key, "is outside " + range, hint);
-    return static_cast<std::uint64_t>(value.number);
+    if (value.type == TomlValue::Type::number && value.number >= exact && value.number < static_cast<double>(high))
+        refuse(key, "is a floating-point number above 2^53, which does not stand for one whole number",
+               fmt::format("Write all digits, without point and exponent: a whole number in {}. {}", range, hint));
+    refuse(key, "is outside " + range, hint);
 }
 
 std::uint64_t KeyReader::whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
@@ -244,12 +252,11 @@ std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, s
                list.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", list.type_name()),
                fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint));
     for (const TomlValue& entry : list.entries) {
-        const bool whole = entry.type == TomlValue::Type::integer && entry.integer >= 0;
-        const auto value = static_cast<std::uint64_t>(entry.integer);
-        if (!whole || value < low || value > high)
+        const std::optional<std::uint64_t> value = whole_number(entry);
+        if (!value || *value < low || *value > high)
             refuse(key, fmt::format("contains {}, which is not a whole number in [{}, {}]", entry.shown(), low, high),
                    hint);
-        all.push_back(value);
+        all.push_back(*value);
     }
     return all;
 }

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 // toml++ 3.3 breaks its own assertions on some malformed texts; without them it runs into undefined behaviour. Here
@@ -53,6 +56,87 @@ toml::table parse(std::string_view text)
     } catch (const detail::BrokenAssertion&) {
         throw NotToml{"the parser cannot read it", 0};
     }
+}
+
+/// A literal that is a number of TOML but beyond what its parser takes: a whole number beyond 64 bits, or a magnitude
+/// that no double has (infinite then, or 0). Nothing for all other texts.
+std::optional<double> beyond_parser(std::string_view literal)
+{
+    const auto all_of = [](std::string_view text, const char* allowed) {
+        return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
+    };
+    std::string plain; // without the underscores between digits
+    for (std::size_t i = 0; i < literal.size(); ++i)
+        if (literal[i] != '_' || i == 0 || i + 1 == literal.size() || literal[i - 1] == '_')
+            plain += literal[i];
+    const bool negative = plain.starts_with('-');
+    const std::string digits = plain.substr(negative || plain.starts_with('+') ? 1 : 0);
+    constexpr double most = 9223372036854775808.0; // 2^63
+    for (const auto& [prefix, allowed, base] :
+         {std::tuple("0x", "0123456789abcdefABCDEF", 16), std::tuple("0o", "01234567", 8), std::tuple("0b", "01", 2)})
+        if (digits.starts_with(prefix) && all_of(std::string_view(digits).substr(2), allowed)) {
+            double value = 0;
+            for (const char c : digits.substr(2))
+                value = value * base +
+                        static_cast<double>(std::string_view("0123456789abcdef")
+                                                .find(c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c));
+            return value < most ? std::nullopt : std::optional(negative ? -value : value);
+        }
+    const bool number =
+        !digits.empty() && digits.front() >= '0' && digits.front() <= '9' && all_of(digits, "0123456789.eE+-");
+    char* end = nullptr;
+    const double value = number ? std::strtod(digits.c_str(), &end) : 0;
+    if (!number || *end != '\0')
+        return std::nullopt;
+    const bool whole = all_of(digits, "0123456789");
+    const bool vanishes =
+        std::fabs(value) < 2.2250738585072014e-308 && digits.find_first_of("123456789") < digits.find_first_of("eE");
+    if (!(whole && value >= most) && !std::isinf(value) && !vanishes)
+        return std::nullopt;
+    return negative ? -value : value;
+}
+
+/// As a number that the parser takes.
+std::string parsable(double value)
+{
+    return std::isinf(value) ? (value < 0 ? "-inf" : "inf") : toml_number(value);
+}
+
+/// Numbers beyond what the parser takes, on a line (from 1) of a text: written so that it takes them, and that the
+/// keys' ranges refuse them. @returns whether there is one
+bool rewrite_beyond_parser(std::string& text, long line)
+{
+    std::size_t begin = 0;
+    for (long at = 1; at < line && begin != std::string::npos; ++at)
+        begin = text.find('\n', begin) == std::string::npos ? begin : text.find('\n', begin) + 1;
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string out;
+    bool changed = false;
+    const std::string source = text.substr(begin, end - begin);
+    char quote = 0;
+    std::size_t i = 0;
+    while (i < source.size() && (quote != 0 || source[i] != '#')) {
+        const char c = source[i];
+        const bool escaped = quote == '"' && i > 0 && source[i - 1] == '\\';
+        if ((c == '"' || c == '\'') && !escaped)
+            quote = quote == 0 ? c : quote == c ? '\0' : quote;
+        constexpr std::string_view between = " \t\r,=[]{}\"'#";
+        const std::size_t stop = std::min(source.find_first_of(between, i), source.size());
+        if (quote != 0 || stop == i) {
+            out += c;
+            ++i;
+            continue;
+        }
+        const std::string word = source.substr(i, stop - i);
+        const bool value = source.find('=') > source.size() || source.find('=') < i; // not the key
+        const std::optional<double> number = value ? beyond_parser(word) : std::nullopt;
+        changed = changed || number;
+        out += number ? parsable(*number) : word;
+        i = stop;
+    }
+    if (changed)
+        text.replace(begin, end - begin, out + source.substr(i));
+    return changed;
 }
 
 /// No study nests so deep: what is there is refused as an unknown key above it, and must not use up the stack.
@@ -219,6 +303,12 @@ toml::table parse_setting(const std::string& value, const std::string& place)
         } catch (const NotToml& error) {
             why = error.why;
         }
+        std::string text = "value = " + value;
+        try {
+            if (rewrite_beyond_parser(text, 1))
+                return parse(text);
+        } catch (const NotToml&) { // something else is wrong with it, too
+        }
     }
     if (value.front() == '{' || value.front() == '[' || value.front() == '"' || value.front() == '\'')
         throw InputError(place, 0, "the value is not valid TOML: " + why + ".");
@@ -302,8 +392,9 @@ std::string TomlValue::shown() const
         return boolean ? "true" : "false";
     case Type::integer:
         return fmt::format("{}", integer);
-    case Type::number:
-        return fmt::format("{}", number);
+    case Type::number: // a whole number beyond 64 bits has all its digits
+        return std::fabs(number) >= 1e16 && std::fabs(number) < 1e22 ? fmt::format("{:.0f}", number)
+                                                                     : fmt::format("{}", number);
     case Type::string: {
         constexpr std::size_t longest = 60;
         if (text.size() <= longest)
@@ -351,12 +442,18 @@ TomlValue parse_toml(const std::string& text, const std::string& name)
         throw InputError(
             name, unfit.line,
             fmt::format("not valid in a study file: {}.\n  Write text as \"text\", on one line.", unfit.what));
-    try {
-        return convert(parse(text), "", {name, 0, false});
-    } catch (const NotToml& error) {
-        throw InputError(name, error.line,
-                         "not valid TOML: " + error.why + ".\n  A line is KEY = VALUE, a [section] or a # comment.");
-    }
+    std::string parsed = text;
+    for (int lines = 0;; ++lines)
+        try {
+            return convert(parse(parsed), "", {name, 0, false});
+        } catch (const NotToml& error) {
+            constexpr int most = 16; // lines with such numbers: the first one that a key has is refused
+            if (error.line > 0 && lines < most && rewrite_beyond_parser(parsed, error.line))
+                continue;
+            throw InputError(name, error.line,
+                             "not valid TOML: " + error.why +
+                                 ".\n  A line is KEY = VALUE, a [section] or a # comment.");
+        }
 }
 
 void apply_setting(TomlValue& root, const std::string& setting)

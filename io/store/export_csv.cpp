@@ -197,12 +197,7 @@ void write_tables(const std::filesystem::path& folder, const ResultHeader& heade
     const bool has_surface = !surface.frequency_hz.empty() && !surface.pga_m_s2.empty();
     const std::string cells = has_surface ? surface_text(surface) : std::string();
 
-    std::error_code error;
-    std::filesystem::create_directory(folder, error);
-    if (error)
-        throw InputError(fmt::format("cannot make the folder '{}': {}.\n  Name a folder whose parent exists and can be "
-                                     "written; nothing was written.",
-                                     folder.string(), error.message()));
+    make_folder(folder);
     AtomicFile table_file(folder / table);
     table_file.write(text);
     AtomicFile blocks_file(folder / "blocks.csv");

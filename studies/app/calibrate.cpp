@@ -106,7 +106,7 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     if (options.json)
         fmt::print("{}\n",
                    calibration_json(found).member("results", results).member("calibrated_study", calibrated).text());
-    else if (!options.quiet)
+    else
         fmt::print("{}{}: {}\n{}: the calibrated study\n", calibration_text(found), results, calibration_cost(found),
                    calibrated);
     return exit_done;

@@ -78,7 +78,7 @@ int verify_command(const CommonOptions& options, const std::string& file, const 
     const FileVerification found = verify_file(file, verify, console);
     if (options.json)
         fmt::print("{}\n", json_of(found).text());
-    else if (!options.quiet || !found.well())
+    else
         fmt::print("{}", text_of(found));
     if (!found.well())
         return exit_failed;

@@ -156,10 +156,10 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                      std::string output, const DiagnoseOptions& wanted);
 /// @param file measured data, outcomes or results; empty: about the program
 /// @param mpi of this program; empty: none
-int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi);
+int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi);
 /// Its part about a file: what it is, what it holds, and what can be done with it; as JSON where that is asked for.
 /// @throws InputError if there is no such file, if it is damaged, or if its content is wrong
-void print_file(const CommonOptions& options, const std::string& file);
+void print_file(const CommonOptions& options, const std::string& file, bool all);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
 /// @param results of a fragility study

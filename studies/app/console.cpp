@@ -79,6 +79,8 @@ void Console::progress(const Progress& progress)
 
 void Console::warn(const std::string& text)
 {
+    if (quiet_)
+        return;
     clear_line();
     say(fmt::format("warning: {}\n", text));
 }

@@ -149,10 +149,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
 /// One that is refused leaves nothing half-written: all texts are there before the first file.
 void write_files(const std::vector<std::pair<std::string, std::string>>& files, const fs::path& folder)
 {
-    std::error_code error;
-    fs::create_directory(folder, error);
-    if (!fs::is_directory(folder))
-        throw InputError(folder.string(), 0, "the folder cannot be created: " + error.message());
+    make_folder(folder);
     for (const auto& [name, text] : files)
         write_whole(folder / name, text);
 }
@@ -270,7 +267,7 @@ int report_written(const CommonOptions& options, const std::string& written)
 {
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", written).text());
-    else if (!options.quiet)
+    else
         fmt::print("{}\n", written);
     return exit_done;
 }

@@ -9,10 +9,10 @@
 
 namespace stylobate {
 
-int info_command(const CommonOptions& options, const std::string& file, const std::string& mpi)
+int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi)
 {
     if (!file.empty()) {
-        print_file(options, file);
+        print_file(options, file, all);
         return exit_done;
     }
     const std::vector<Isa> usable = usable_isas();

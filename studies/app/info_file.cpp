@@ -20,6 +20,7 @@
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/diagnosis/laws/track.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -53,18 +55,80 @@ Json json_of(const std::vector<Finding>& findings)
     return list;
 }
 
-std::string text_of(const std::vector<Finding>& findings)
+/// A text without its numbers: what findings of one kind have in common.
+std::string without_numbers(const std::string& text)
 {
+    const auto digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+    std::string out;
+    for (const char c : text)
+        if (!digit(c))
+            out += c;
+        else if (!out.ends_with('#'))
+            out += '#';
+    return out;
+}
+
+/// Where in a run a finding is, whichever run it is: "run 004, blocks/x_m, block 2" -> "blocks/x_m, block 2".
+std::string place_in_run(const std::string& place)
+{
+    const std::size_t comma = place.find(", ");
+    return place.starts_with("run ") && comma != std::string::npos ? place.substr(comma + 2) : place;
+}
+
+/// Warnings before notes, and kinds with few findings before those with many, which a property of the whole campaign
+/// makes. Of a kind with many only the first.
+/// @param all print every finding
+std::string text_of(const std::vector<Finding>& findings, bool all)
+{
+    constexpr std::size_t few = 3;
+    std::vector<std::vector<const Finding*>> kinds;
+    std::map<std::string, std::size_t> known;
+    for (const Finding& finding : findings) {
+        const std::string kind =
+            fmt::format("{} {} {}", static_cast<int>(finding.severity), without_numbers(place_in_run(finding.place)),
+                        without_numbers(finding.text));
+        const std::size_t at = known.emplace(kind, kinds.size()).first->second;
+        kinds.resize(known.size());
+        kinds[at].push_back(&finding);
+    }
+    std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) {
+        const Severity of_a = a.front()->severity, of_b = b.front()->severity;
+        return of_a != of_b ? of_a == Severity::warning : a.size() < b.size();
+    });
     std::string text;
-    for (const Severity severity : {Severity::warning, Severity::note})
-        for (const Finding& finding : findings)
-            if (finding.severity == severity)
-                text += fmt::format("{}: {}: {}\n", severity == Severity::warning ? "warning" : "note", finding.place,
-                                    finding.text);
+    for (const auto& kind : kinds) {
+        const std::size_t shown = all || kind.size() <= few ? kind.size() : 1;
+        for (std::size_t i = 0; i < shown; ++i)
+            text += fmt::format("{}: {}: {}\n", kind[i]->severity == Severity::warning ? "warning" : "note",
+                                kind[i]->place, kind[i]->text);
+        if (shown < kind.size())
+            text += fmt::format("  and {} more of this kind; --all prints them\n", kind.size() - shown);
+    }
     return text;
 }
 
-void tell_campaign(const std::string& file, Told& told)
+/// Reasons why a verb does not take the file as it stands: its message, without the file's name.
+void add_refusals(const std::vector<std::string>& refusals, Told& told)
+{
+    for (const std::string& refusal : refusals)
+        told.text += "refused: " + refusal + "\n";
+    told.json.member("refused", Json::list(refusals));
+}
+
+std::vector<std::string> refusals_of(const Campaign& campaign, const std::string& file)
+{
+    try {
+        track_scales(campaign);
+    } catch (const InputError& error) {
+        std::string message = error.what();
+        if (message.starts_with(file + ": "))
+            message.erase(0, file.size() + 2);
+        return {"diagnose: " + message};
+    }
+    return {};
+}
+
+void tell_campaign(const std::string& file, bool all, Told& told)
 {
     const Campaign campaign = read_campaign(file);
     std::set<int> motions;
@@ -87,10 +151,11 @@ void tell_campaign(const std::string& file, Told& told)
     told.text = fmt::format("a measured campaign\nspecimen \"{}\": {} blocks, {} joints\n{} runs of {} motions, {:.4g} "
                             "s in all; {} collapsed\n{}",
                             campaign.specimen.name, campaign.specimen.blocks(), campaign.specimen.joints.size(),
-                            campaign.runs.size(), motions.size(), seconds, collapsed, text_of(campaign.findings));
+                            campaign.runs.size(), motions.size(), seconds, collapsed, text_of(campaign.findings, all));
+    add_refusals(refusals_of(campaign, file), told);
 }
 
-void tell_outcomes(const std::string& file, Told& told)
+void tell_outcomes(const std::string& file, bool all, Told& told)
 {
     const OutcomeTable table = read_outcomes(file);
     std::set<int> motions;
@@ -105,7 +170,7 @@ void tell_outcomes(const std::string& file, Told& told)
         .member("fell", fell)
         .member("findings", json_of(table.findings));
     told.text = fmt::format("measured outcomes\n{} tests of {} motions: {} fell, {} stood\n{}", table.rows.size(),
-                            motions.size(), fell, table.rows.size() - fell, text_of(table.findings));
+                            motions.size(), fell, table.rows.size() - fell, text_of(table.findings, all));
 }
 
 /// What of a study can hardly be meant.
@@ -249,9 +314,14 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.json.member(key, is);
         told.text += fmt::format("  {}: {}\n", what, is);
     }
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, refusals;
     for (const Doubt& doubt : doubts(study))
-        warnings.push_back(doubt.text);
+        if (doubt.refused)
+            refusals.push_back(
+                fmt::format("run: {} If it is intended: study.allow = [\"{}\"].", doubt.text, doubt.check));
+        else
+            warnings.push_back(doubt.text);
+    add_refusals(refusals, told);
     add_warnings(warnings, told);
 }
 
@@ -285,7 +355,7 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
 
 } // namespace
 
-void print_file(const CommonOptions& options, const std::string& file)
+void print_file(const CommonOptions& options, const std::string& file, bool all)
 {
     const RecognisedFile known = recognise(file);
     if (known.kind != FileKind::study && !options.set.empty())
@@ -312,7 +382,7 @@ void print_file(const CommonOptions& options, const std::string& file)
         tell_risk(file, told);
         break;
     case FileKind::outcomes:
-        tell_outcomes(file, told);
+        tell_outcomes(file, all, told);
         break;
     case FileKind::record:
         tell_record(file, known, told);
@@ -325,7 +395,7 @@ void print_file(const CommonOptions& options, const std::string& file)
         told.text = describe(known) + "\nstylobate writes such files and does not read them.\n";
         break;
     case FileKind::campaign:
-        tell_campaign(file, told);
+        tell_campaign(file, all, told);
         break;
     case FileKind::unknown:
         if (!std::filesystem::exists(file))

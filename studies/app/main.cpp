@@ -52,7 +52,7 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
     verb.add_option("--backend", options.backend, "device that computes")
         ->check(CLI::IsMember(backends))
         ->capture_default_str();
-    verb.add_flag("--quiet", options.quiet, "prints only results and errors, no progress");
+    verb.add_flag("--quiet", options.quiet, "print results and errors only: no progress, notes and warnings");
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
 
@@ -79,22 +79,72 @@ namespace {
 }
 
 /// CLI11 reports an unknown verb only as a missing one.
-/// @throws InputError if the first word is no verb, or if there is none
-void check_verb(const CLI::App& app, int argc, char** argv)
+/// @throws InputError if a word is no verb, or empty
+void check_verb(const CLI::App& app, const std::string& word)
 {
-    const std::string word = argc > 1 ? argv[1] : "";
     std::vector<std::string> verbs;
     std::string list;
     for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
         verbs.push_back(verb->get_name());
         list += (list.empty() ? "" : ", ") + verbs.back();
     }
-    if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
+    if (std::find(verbs.begin(), verbs.end(), word) != verbs.end())
         return;
-    const std::string meant = nearest_word(word, verbs);
+    verbs.emplace_back("help");
+    std::string meant = nearest_word(word, verbs);
+    for (const std::string& verb : verbs)
+        if (meant.empty() && word.size() > 2 && verb.starts_with(word))
+            meant = verb;
     throw InputError(fmt::format("{}; the commands are {}.\n  {}",
                                  word.empty() ? "no command is given" : "'" + word + "' is not a command", list,
                                  meant.empty() ? "Run stylobate --help." : "Did you mean " + meant + "?"));
+}
+
+/// The words after the program's name, with `help` and `help VERB` as --help of the program and of a verb.
+/// @throws InputError if the first word is no verb and no option
+std::vector<std::string> checked_words(const CLI::App& app, int argc, char** argv)
+{
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (!words.empty() && words.front() == "help") {
+        const bool of_verb = words.size() > 1 && words[1] != "help" && !words[1].starts_with('-');
+        words = of_verb ? std::vector<std::string>{words[1], "--help"} : std::vector<std::string>{"--help"};
+    }
+    if (words.empty() || !words.front().starts_with('-'))
+        check_verb(app, words.empty() ? "" : words.front());
+    return words;
+}
+
+/// CLI11 reports an unknown option only where nothing else is missing, and never the one that was meant.
+/// @throws InputError at the first word that has the form of an option and is none of the app's or of the verb's
+void check_options(const CLI::App& app, const std::vector<std::string>& words)
+{
+    const bool of_verb = !words.empty() && !words.front().starts_with('-');
+    const CLI::App& verb = of_verb ? *app.get_subcommand(words.front()) : app;
+    for (std::size_t i = of_verb ? 1 : 0; i < words.size() && words[i] != "--"; ++i) {
+        const std::string& word = words[i];
+        const bool is_long = word.starts_with("--");
+        const char first = word.size() > 1 ? word[1] : '0';
+        if (!is_long && !(word.starts_with('-') && ((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z'))))
+            continue;
+        const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+        const bool one_dash =
+            !is_long && word.size() > 2 && verb.get_option_no_throw("-" + word.substr(0, word.find('='))) != nullptr;
+        const CLI::Option* option = one_dash ? nullptr : verb.get_option_no_throw(name);
+        if (option != nullptr) {
+            const bool attached = is_long ? word.size() > name.size() : word.size() > 2;
+            i += option->get_type_size_max() > 0 && !attached; // its value, whatever it looks like
+            continue;
+        }
+        std::vector<std::string> known;
+        for (const CLI::Option* each : verb.get_options())
+            for (const std::string& long_name : each->get_lnames())
+                known.push_back("--" + long_name);
+        const std::string meant = one_dash ? "-" + word : is_long ? nearest_word(name, known) : "";
+        throw InputError(fmt::format("{} is not an option{}.\n  {}stylobate {}--help lists the options.",
+                                     one_dash ? word : name, of_verb ? " of " + words.front() : "",
+                                     meant.empty() ? "" : "Did you mean " + meant + "? ",
+                                     of_verb ? words.front() + " " : ""));
+    }
 }
 
 /// An error of the command line, in the form of all other messages.
@@ -110,6 +160,7 @@ class CommandLine {
 public:
     CommandLine()
     {
+        app_.name("stylobate");
         app_.require_subcommand(1);
         app_.failure_message(usage_message);
         app_.set_version_flag("--version", code_version());
@@ -138,9 +189,11 @@ public:
     /// @returns the exit status   @throws InputError and what else a verb throws
     int run(int argc, char** argv)
     {
-        check_verb(app_, argc, argv);
+        std::vector<std::string> words = checked_words(app_, argc, argv);
+        check_options(app_, words);
+        std::ranges::reverse(words); // as CLI11 takes them
         try {
-            app_.parse(argc, argv);
+            app_.parse(words);
         } catch (const CLI::ParseError& error) {
             return app_.exit(error) == 0 ? exit_done : exit_bad_input;
         }
@@ -482,7 +535,7 @@ private:
                                      fmt::join(words_of(excitation_kind_names), ", ")))
             ->check(CLI::IsMember(words_of(excitation_kind_names)));
         begin->add_option("-o,--output", output_, "the study file (default: KIND.toml)");
-        begin->add_flag("--quiet", options_.quiet, "print nothing but errors");
+        begin->add_flag("--quiet", options_.quiet, "print the name of the file only");
         add_force(*begin, options_);
         begin->callback([this] { status_ = new_command(options_, new_, output_); });
     }
@@ -503,9 +556,10 @@ private:
             "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, a risk estimate, "
             "measured data (HDF5, "
             "folder), measured outcomes (CSV), a record");
+        info->add_flag("--all", all_, "print every note on measured data, not one of each kind");
         add_set(*info, options_);
         add_common(*info, options_);
-        info->callback([this] { status_ = info_command(options_, file_, mpi_library()); });
+        info->callback([this] { status_ = info_command(options_, file_, all_, mpi_library()); });
     }
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
@@ -519,7 +573,7 @@ private:
     RealizationChoice choice_;
     std::vector<std::string> files_;
     std::string shard_;
-    bool partial_ = false, mpi_ = false, laws_ = false;
+    bool partial_ = false, mpi_ = false, laws_ = false, all_ = false;
     std::string unit_, component_, block_;
     CalibrateOptions calibration_;
     bool keep_all_ = false;

@@ -38,8 +38,9 @@ int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std
         output = wanted.kind + ".toml";
     check_output("", output, options.force);
     write_whole(output, text);
+    fmt::print("{}\n", output);
     if (!options.quiet)
-        fmt::print("{0}\n  stylobate info {0}    what it would run, with warnings\n"
+        fmt::print("  stylobate info {0}    what it would run, with warnings\n"
                    "  stylobate check {0}    its time, memory and file, and where it is weak\n  stylobate run {0}\n",
                    output);
     return exit_done;

@@ -219,7 +219,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
                             same};
     if (options.json)
         print_json(replayed);
-    else if (!options.quiet)
+    else
         print_text(replayed);
     if (known && !same) {
         say(fmt::format(

@@ -117,7 +117,7 @@ int report_command(const CommonOptions& options, const std::string& file, const 
         console.warn(warning);
     if (options.json)
         fmt::print("{}\n", Json::object().member("written", output).text());
-    else if (!options.quiet)
+    else
         fmt::print("{}\n", output);
     return exit_done;
 }

@@ -98,7 +98,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
 {
     if (options.json)
         print_json(options, r);
-    else if (!options.quiet)
+    else
         print_text(r);
     if (r.merged && !r.complete)
         return exit_done; // it was asked for

@@ -67,6 +67,12 @@ for file, line in (("CITATION.cff", f"version: {version.group(1)}"),
                    ("docs/library.md", f"find_package(stylobate {major_minor} REQUIRED)")):
     check(line in (root / file).read_text(), f"{file}: not '{line}'")
 
+# the changes since the last release are those of this version
+sections = re.findall(r"^## (\S+)", (root / "CHANGELOG.md").read_text(), re.M)
+check(sections and sections[0] == version.group(1),
+      f"CHANGELOG.md: the top section is {sections[:1]}, and CMakeLists.txt has {version.group(1)}")
+check(len(sections) == len(set(sections)), "CHANGELOG.md: two sections have one version")
+
 # every library that the project cannot do without is a dependency of both
 looked_for = {name.lower() for name in re.findall(r"^find_package\((\w+) REQUIRED", (root / "CMakeLists.txt").read_text(), re.M)}
 looked_for |= {"eigen3", "xsimd", "tomlplusplus"}

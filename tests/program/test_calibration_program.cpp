@@ -71,6 +71,8 @@ TEST_F(CalibrationProgram, WhatAnInterruptKeepsIsSaidAndUsed)
     // in one go: the same results
     const Ended again = run({"calibrate", "m.h5", "-o", "d.h5", "--threads", "1", "--quiet"});
     EXPECT_EQ(again.status, 0) << testing::PrintToString(again);
+    EXPECT_NE(again.out.find("d_calibrated.toml: the calibrated study"), std::string::npos) << again.out;
+    EXPECT_EQ(again.err, "");
     EXPECT_EQ(read_bytes(folder / "c_calibrated.toml"), read_bytes(folder / "d_calibrated.toml"));
 }
 

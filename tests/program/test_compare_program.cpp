@@ -85,6 +85,9 @@ TEST_F(Compare, ANeutralVariantHasNoDiscordantPair)
     EXPECT_GT(smoother["base_only"].number + smoother["variant_only"].number, 0);
     EXPECT_EQ(names(), (Words{"col.h5", "col.toml", "col_comparison.h5", "col_neutral.h5", "col_smoother.h5"}));
     EXPECT_EQ(run(Words{"info", "col_comparison.h5"}).status, 0);
+    const Ended quiet = run(Words{"compare", "col.toml", "--quiet"}); // nothing is left to run
+    EXPECT_TRUE(quiet.out.starts_with("col_comparison.h5: ")) << testing::PrintToString(quiet);
+    EXPECT_EQ(quiet.err, "");
     EXPECT_EQ(json_of(run(Words{"info", "col_comparison.h5", "--json"}))["holds"].text, "comparison");
 }
 

@@ -148,22 +148,82 @@ TEST_F(Verbs, RunNamesItsResultsAfterTheStudyAndSpeaksPlainWords)
     EXPECT_EQ(ended.err, "");
 }
 
-TEST_F(Verbs, QuietSaysNothing)
+/// The results of every verb are on standard output with --quiet too; standard error is empty. (compare, risk, past,
+/// calibrate and diagnose have tests of their own.)
+TEST_F(Verbs, QuietPrintsResultsAlone)
 {
     for (const bool terminal : {false, true}) {
         fs::remove(folder / "a.h5");
         const Ended ended = run({.arguments = run_words(column_study, eight_realizations, {"-o", "a.h5", "--quiet"}),
                                  .terminal = terminal});
         EXPECT_EQ(ended.status, 0);
-        EXPECT_EQ(ended.out + ended.err, "");
+        EXPECT_TRUE(ended.out.starts_with("a.h5: 8 of 8 realizations")) << ended.out;
+        EXPECT_EQ(ended.err, "");
     }
-    for (const Words& words : {Words{"replay", "a.h5", "--realization", "0"}, Words{"export", "a.h5", "--to", "csv"}}) {
+    for (const char* shard : {"1/2", "2/2"}) {
+        const Words words = run_words(column_study, eight_realizations,
+                                      {"--shard", shard, "-o", shard[0] == '1' ? "p.h5" : "q.h5", "--quiet"});
+        const Ended ended = run(words);
+        EXPECT_NE(ended.out.find("The shard is complete"), std::string::npos) << testing::PrintToString(ended);
+        EXPECT_EQ(ended.err, "");
+    }
+    write_bytes(folder / "record.at2", Burst{}.at2());
+    Words check = run_words(column_study, eight_realizations, {"--pilot", "0", "--trial-seconds", "0"});
+    check.front() = "check";
+    const std::vector<std::pair<Words, std::string>> verbs = {
+        {{"merge", "p.h5", "q.h5", "-o", "m.h5"}, "m.h5: 8 of 8 realizations"},
+        {check, "run: 8 realizations"},
+        {{"replay", "a.h5", "--realization", "0"}, "realization 0"},
+        {{"verify-file", "a.h5", "--replay", "1"}, "a.h5: 8 of 8 realizations"},
+        {{"record", "record.at2"}, "record.at2"},
+        {{"export", "a.h5", "--to", "csv"}, "a_csv\n"},
+        {{"report", "a.h5"}, "a.html\n"},
+        {{"new", "single"}, "single.toml\n"},
+        {{"info", "a.h5"}, "a.h5: results of a study"}};
+    for (const auto& [words, part] : verbs) {
         Words quiet = words;
         quiet.push_back("--quiet");
         const Ended ended = run(quiet);
-        EXPECT_EQ(ended.status, 0);
-        EXPECT_EQ(ended.out + ended.err, "");
+        EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
+        EXPECT_NE(ended.out.find(part), std::string::npos) << testing::PrintToString(ended);
+        EXPECT_EQ(ended.err, "") << words.front();
     }
+}
+
+TEST_F(Verbs, QuietSilencesWarnings)
+{
+    Words settings = eight_realizations;
+    settings.push_back("contact.friction=0.05"); // lower than any stone's
+    const Ended loud = run(run_words(column_study, settings, {"-o", "loud.h5"}));
+    ASSERT_NE(loud.err.find("warning: "), std::string::npos) << testing::PrintToString(loud);
+    const Ended quiet = run(run_words(column_study, settings, {"-o", "quiet.h5", "--quiet"}));
+    EXPECT_EQ(quiet.err, "");
+    EXPECT_NE(quiet.out, "");
+}
+
+TEST_F(Verbs, HelpIsFoundByItsOtherNames)
+{
+    const Ended whole = run({"--help"}), of_run = run({"run", "--help"});
+    ASSERT_EQ(whole.status + of_run.status, 0);
+    EXPECT_TRUE(of_run.out.find("Usage: stylobate run") != std::string::npos) << of_run.out;
+    EXPECT_EQ(run(Words{"help"}).out, whole.out);
+    EXPECT_EQ(run(Words{"help", "run"}).out, of_run.out);
+    EXPECT_EQ(run(Words{"help", "help"}).out, whole.out);
+    expect_refused(Words{"help", "rnu"}, {"'rnu' is not a command", "Did you mean run?"});
+    expect_refused(Words{"hlep"}, {"'hlep' is not a command", "Did you mean help?"});
+    expect_refused(Words{"verify"}, {"'verify' is not a command", "Did you mean verify-file?"});
+    expect_refused(Words{"--hlep"}, {"--hlep is not an option", "Did you mean --help?"});
+    expect_refused(Words{"--versoin"}, {"Did you mean --version?"});
+    for (const char* verb : {"run", "check", "merge", "compare", "replay", "verify-file", "record", "calibrate",
+                             "diagnose", "risk", "past", "export", "report", "new", "schema", "info"}) {
+        expect_refused(Words{verb, "--helpp"}, {"--helpp is not an option of " + std::string(verb),
+                                                "Did you mean --help?", "stylobate " + std::string(verb) + " --help"});
+        expect_refused(Words{verb, "-help"}, {"-help is not an option of", "Did you mean --help?"});
+    }
+    expect_refused(Words{"run", column_study, "--thread=2"}, {"--thread is not an option of run", "--threads?"});
+    expect_refused(Words{"run", column_study, "--zzzzzz"}, {"--zzzzzz is not an option of run", "lists the options"});
+    // a value is no option, whatever it looks like
+    expect_refused(Words{"export", "none.h5", "--title", "--helpp", "--to", "png"}, {"none.h5", "no such file"});
 }
 
 TEST_F(Verbs, OneProgressLineIsRewrittenOnATerminal)

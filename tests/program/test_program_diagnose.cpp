@@ -122,11 +122,16 @@ TEST_F(Diagnose, ItSaysWhatItCouldNotJudge)
     EXPECT_NE(json["text"].text.find("Not tested: "), std::string::npos) << json["text"].text;
     for (const char* part : {"balance of forces", "joints and blocks"})
         EXPECT_NE(json["text"].text.find(part), std::string::npos) << json["text"].text;
+    EXPECT_EQ(json["heading"].text, "No cause identified");
+    const Ended text = run(Words{"diagnose", "campaign.h5", "-o", "d.h5", "--nulls", "0", "--force", "--quiet"});
+    EXPECT_NE(text.out.find("Verdict: No cause identified\n"), std::string::npos) << text.out;
+    EXPECT_EQ(text.out.find("null distribution"), std::string::npos) << "none was simulated\n" << text.out;
+    EXPECT_EQ(text.err, "");
     EXPECT_EQ(names(), (Words{"campaign.h5", "d.h5"}));
 
     const Ended told = run(Words{"info", "d.h5"});
     EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
-    EXPECT_NE(told.out.find("d.h5: a diagnosis of campaign.h5 (one run)"), std::string::npos) << told.out;
+    EXPECT_NE(told.out.find("d.h5: a diagnosis of campaign.h5 (1 run)"), std::string::npos) << told.out;
 }
 
 } // namespace

@@ -161,7 +161,17 @@ TEST_F(Faults, OutputsThatCannotBeWritten)
     expect_refused({"replay", "out.h5", "--realization", "0", "-o", "out.h5"}, {"out.h5", "the input file"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "nowhere/a.png"}, {"nowhere/a.png"});
     expect_refused({"export", "out.h5", "--to", "png", "-o", "./out.h5"}, {"out.h5", "the input file"});
-    expect_refused({"export", "out.h5", "--to", "csv", "-o", "nowhere/a"}, {"nowhere/a"});
+    expect_refused({"export", "out.h5", "--to", "csv", "-o", "nowhere/a"}, {"nowhere/a", "no such folder 'nowhere'"});
+    expect_refused({"export", "out.h5", "--to", "vtk", "-o", "nowhere/a"}, {"nowhere/a", "no such folder 'nowhere'"});
+    expect_refused({"export", "out.h5", "--to", "html", "-o", "nowhere/a.html"}, {"no such folder 'nowhere'"});
+    expect_refused({"report", "out.h5", "-o", "nowhere/a.html"}, {"nowhere/a.html", "no such folder 'nowhere'"});
+    expect_refused({"new", "single", "-o", "nowhere/a.toml"}, {"nowhere/a.toml", "no such folder 'nowhere'"});
+    for (const Words& words :
+         {Words{"export", "out.h5", "--to", "png", "-o", "file/a.png"}, Words{"report", "out.h5", "-o", "file/a.html"},
+          Words{"new", "single", "-o", "file/a.toml"}, Words{"export", "out.h5", "--to", "csv", "-o", "file/a"}})
+        expect_refused(words, {"file' is a file, not a folder"});
+    fs::create_directory(folder / "folder.html");
+    expect_refused({"report", "out.h5", "-o", "folder.html"}, {"folder.html", "it is a folder"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "file"}, {"file"});
     expect_refused({"export", "out.h5", "--to", "csv", "-o", "out.h5"}, {"out.h5"});
 }
@@ -182,6 +192,24 @@ TEST_F(Faults, WhatThePermissionsForbid)
     refuse({"replay", "out.h5", "--realization", "0", "-o", "closed/t.h5"}, {"closed", "Permission denied"});
     refuse({"export", "out.h5", "--to", "png", "-o", "closed/a.png"}, {"closed/a.png", "Permission denied"});
     refuse({"export", "out.h5", "--to", "csv", "-o", "closed/a"}, {"closed/a", "Permission denied"});
+    // where no output is given, the folder that is closed is the working folder: it is named
+    const fs::path above = folder / "closed";
+    fs::permissions(above, fs::perms::owner_all);
+    for (const char* file : {"study.toml", "record.at2", "out.h5"})
+        fs::copy_file(folder / file, above / file);
+    fs::permissions(above, fs::perms::owner_read | fs::perms::owner_exec);
+    const std::string named = fs::canonical(above).string();
+    for (const Words& words :
+         {Words{"run", "study.toml"}, Words{"new", "single"}, Words{"report", "out.h5"},
+          Words{"export", "out.h5", "--to", "png"}, Words{"export", "out.h5", "--to", "csv"},
+          Words{"export", "out.h5", "--to", "vtk"}, Words{"replay", "out.h5", "--realization", "0", "-o", "t.h5"},
+          Words{"merge", "out.h5", "-o", "m.h5", "--partial"}}) {
+        const Ended ended = run_program({.arguments = words, .no_privilege = true}, above);
+        EXPECT_EQ(ended.status, 2) << words.front() << testing::PrintToString(ended);
+        if (words.front() != "merge") // refuses what is no shard before
+            EXPECT_NE(ended.err.find(named), std::string::npos) << words.front() << testing::PrintToString(ended);
+        EXPECT_EQ(ended.err.find("stylobate: .:"), std::string::npos) << ended.err;
+    }
     for (const char* file : {"study.toml", "record.at2", "out.h5"})
         fs::permissions(folder / file, fs::perms::none);
     // (a snapshot of the folder still reads them where the test itself has the privilege; else the files are left out)

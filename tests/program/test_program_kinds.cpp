@@ -95,6 +95,58 @@ TEST_F(Kinds, InfoSaysWhatItIsAndWhatTakesIt)
     EXPECT_NE(run(Words{"info", "calibration.h5"}).out.find("nothing slides"), std::string::npos);
 }
 
+/// Findings of one kind are counted, rare ones come first, and what matters is not lost among them.
+TEST_F(Kinds, InfoGroupsWhatItFindsInMeasuredData)
+{
+    Campaign campaign = sample_campaign();
+    const MeasuredRun run_of = campaign.runs.front();
+    campaign.runs.clear();
+    constexpr int runs = 12;
+    for (int i = 0; i < runs; ++i) {
+        MeasuredRun each = run_of;
+        each.name = fmt::format("{:03}", i);
+        each.motion_id = i;
+        each.base_source = BaseSource::command;
+        campaign.runs.push_back(each);
+    }
+    write_campaign(campaign, folder / "many.h5");
+    const std::string note = "it is the command, not the measured motion of the table.";
+    const std::string grouped = run(Words{"info", "many.h5"}).out;
+    EXPECT_EQ(count_of(grouped, note), 1U) << grouped;
+    EXPECT_NE(grouped.find("  and 11 more of this kind; --all prints them\n"), std::string::npos) << grouped;
+    const std::string all = run(Words{"info", "many.h5", "--all"}).out;
+    EXPECT_EQ(count_of(all, note), runs) << all;
+    EXPECT_EQ(all.find("more of this kind"), std::string::npos);
+    std::size_t in_json = 0;
+    for (const JsonValue& finding : json_of(run(Words{"info", "many.h5", "--json"}))["findings"].items)
+        in_json += finding["text"].text == note;
+    EXPECT_EQ(in_json, runs);
+    EXPECT_LT(grouped.rfind("warning: "), grouped.find("note: ")) << grouped; // or there is none
+}
+
+TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
+{
+    // what run refuses is no warning
+    const std::string study = run(Words{"info", "study.toml", "--set", "contact.friction=5"}).out;
+    const Ended ran = run(Words{"run", "study.toml", "-o", "x.h5", "--set", "contact.friction=5"});
+    ASSERT_EQ(ran.status, 2) << testing::PrintToString(ran);
+    EXPECT_NE(study.find("refused: run: "), std::string::npos) << study;
+    EXPECT_NE(study.find("study.allow = ["), std::string::npos) << study;
+    EXPECT_EQ(study.find("warning: "), std::string::npos) << study;
+    const JsonValue json = json_of(run(Words{"info", "study.toml", "--json", "--set", "contact.friction=5"}));
+    EXPECT_EQ(json["refused"].items.size(), 1U);
+    EXPECT_EQ(json["warnings"].items.size(), 0U);
+    // what diagnose refuses
+    Campaign campaign = sample_campaign();
+    for (MeasuredRun& each : campaign.runs)
+        each.blocks.theta_rad.values.clear();
+    write_campaign(campaign, folder / "flat.h5");
+    EXPECT_EQ(run(Words{"diagnose", "flat.h5", "--nulls", "0"}).status, 2);
+    const std::string told = run(Words{"info", "flat.h5"}).out;
+    EXPECT_NE(told.find("refused: diagnose: "), std::string::npos) << told;
+    EXPECT_EQ(run(Words{"info", "campaign.h5"}).out.find("refused"), std::string::npos);
+}
+
 TEST_F(Kinds, AVerbSaysWhatAnotherFileIs)
 {
     const std::map<std::string, Words> more = {{"replay", {"--realization", "0"}}, {"export", {"--to", "csv"}}};

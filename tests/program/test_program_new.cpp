@@ -38,7 +38,7 @@ TEST_F(NewStudy, RunsAsItStands)
 
 TEST_F(NewStudy, ReplacesNothing)
 {
-    ASSERT_EQ(run({"new", "single", "--quiet", "-o", "mine.toml"}).out, "");
+    ASSERT_EQ(run({"new", "single", "--quiet", "-o", "mine.toml"}).out, "mine.toml\n");
     const std::string before = read_bytes(folder / "mine.toml");
     expect_refused({"new", "surface", "-o", "mine.toml"}, {"mine.toml", "exists already", "--force"});
     EXPECT_EQ(read_bytes(folder / "mine.toml"), before);

@@ -46,6 +46,9 @@ TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
 {
     const Ended ended = risk({"--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.4", "--years", "50,100", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const Ended quiet = risk({"--hazard", "k0=1e-3,k=3,measure=pgv", "-o", "quiet.h5", "--quiet"});
+    EXPECT_TRUE(quiet.out.ends_with("\nquiet.h5\n")) << testing::PrintToString(quiet);
+    EXPECT_EQ(quiet.err, "");
     const JsonValue json = json_of(ended), fragility = json_of(ran_);
     int compared = 0;
     for (const JsonValue& s : fragility["fragility"]["states"].items) {

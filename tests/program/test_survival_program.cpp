@@ -116,6 +116,7 @@ TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
 {
     ASSERT_EQ(run(words(survival, "a.h5", "2")).status, 0);
     ASSERT_EQ(run(words(with(survival, {"structure.drum_width_m=0.06"}), "b.h5", "2")).status, 0);
+    EXPECT_EQ(run({"past", "a.h5", "b.h5", "--quiet"}).out, run({"past", "a.h5", "b.h5"}).out);
     const Ended ended = run({"past", "a.h5", "b.h5", "-o", "both.png", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     EXPECT_GT(bytes("both.png").size(), 10000U);

@@ -88,7 +88,7 @@ int conclude(const CommonOptions& options, const Comparison& comparison, const s
         Json json = comparison_json(comparison);
         json.member("comparison", output).member("complete", true);
         fmt::print("{}\n", json.text());
-    } else if (!options.quiet) {
+    } else {
         fmt::print("{}: {}", output, comparison_text(comparison));
     }
     return exit_done;
@@ -108,7 +108,7 @@ int interrupted(const CommonOptions& options, const Studies& studies, const std:
                                .member("realizations", done)
                                .member("total", total)
                                .text());
-    else if (!options.quiet)
+    else
         fmt::print("Interrupted; {} of {} realizations are kept. The same command continues the comparison.\n", done,
                    total);
     return exit_interrupted;
@@ -218,7 +218,7 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
     if (!result) {
         if (options.json)
             fmt::print("{}\n", Json::object().member("complete", false).text());
-        else if (!options.quiet)
+        else
             fmt::print("Interrupted; what was run is kept. The same command continues the search.\n");
         return exit_interrupted;
     }
@@ -226,7 +226,7 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
         plot_search(*result, wanted.output);
     if (options.json)
         fmt::print("{}\n", search_json(*result).member("complete", true).text());
-    else if (!options.quiet)
+    else
         fmt::print("{}", search_text(*result));
     const LoadedStudy study = LoadedStudy::from_file(files.study, files.settings);
     for (const SearchedRun& searched : result->runs)

@@ -59,7 +59,7 @@ int past_command(const CommonOptions& options, const std::vector<std::string>& f
             "{}\n",
             (picture.empty() ? combined_json(combined) : combined_json(combined).member("written", picture)).text());
     else
-        fmt::print("{}{}", combined_text(combined), picture.empty() || options.quiet ? "" : picture + "\n");
+        fmt::print("{}{}", combined_text(combined), picture.empty() ? "" : picture + "\n");
     return exit_done;
 }
 

@@ -102,8 +102,6 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
     write_risk(risk, output);
     if (options.json)
         fmt::print("{}\n", risk_json(risk).member("written", output).text());
-    else if (options.quiet)
-        fmt::print("{}", risk_text(risk));
     else
         fmt::print("{}{}\n", risk_text(risk), output);
     return exit_done;

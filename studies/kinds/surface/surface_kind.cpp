@@ -226,8 +226,12 @@ std::string partial_words(const ResultReader& reader, const Study& study, const 
     if (reader.complete())
         return "";
     const auto n = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
-    const std::string of = reader.header().selected ? "" : " of " + grouped(study.originals());
-    return fmt::format(" – partial: {}{} realizations", grouped(n), of);
+    const std::string of = reader.header().selected ? "" : "of " + grouped(study.originals()) + " ";
+    // of those kept some are not drawn: invalid ones, and ones that ended before others that were begun earlier
+    const bool of_kept = study.originals() == study.total() && n < reader.done();
+    return of_kept ? fmt::format(" – partial: {} of the {} realizations kept{}", grouped(n), grouped(reader.done()),
+                                 of.empty() ? "" : ", " + of.substr(0, of.size() - 1))
+                   : fmt::format(" – partial: {} {}realizations", grouped(n), of);
 }
 
 SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, const std::string& results,

@@ -460,6 +460,35 @@ TEST(StudyFile, SettingsOverrideTheFile)
     EXPECT_EQ(read(record, {"excitation.file=a", "excitation.component=2"}).excitation.component, "2");
 }
 
+/// Numbers beyond what the parser of TOML takes are refused by the range of their key, in files and by --set.
+TEST(StudyFile, NamesTheRangeOfNumbersThatNoKeyCanHave)
+{
+    const std::string seeds = "is outside [0, 9223372036854775807]";
+    for (const char* huge : {"9223372036854775808", "-9223372036854775809", "18446744073709551616", "1e19", "1e400",
+                             "-1e400", "99_999_999_999_999_999_999", "0x8000000000000000", "0o1000000000000000000000",
+                             "0xFFFFFFFFFFFFFFFFFF", "inf", "-1"}) {
+        expect_line_refused(3, std::string("seed = ") + huge, {"study.seed = ", seeds});
+        expect_line_refused(3, std::string("realizations = ") + huge, {"is outside [1, 1000000000]"});
+        expect_line_refused(7, std::string("drum_width_m = ") + huge, {"structure.drum_width_m = ", "is outside (0, "});
+        const std::string setting = std::string("study.seed=") + huge;
+        expect_refused(joined(surface_lines()), "--set " + setting, {"study.seed = ", seeds}, {setting});
+        const std::string blocks = std::string("structure.blocks=") + huge;
+        expect_refused(joined(surface_lines()), "--set " + blocks, {"is outside [1, 200]"}, {blocks});
+    }
+    expect_line_refused(3, "seed = 9223372036854775808", {"study.seed = 9223372036854775808 is outside"});
+    expect_line_refused(18, "frequency_hz = { from = 0.5, to = 8, count = 99999999999999999999 } # 1e999",
+                        {"surface.frequency_hz.count = 100000000000000000000 is outside", "[1, 1000]"});
+    // within the range, but no whole number of its own
+    expect_line_refused(3, "seed = 9.1e18", {"is a floating-point number above 2^53", "Write all digits"});
+    EXPECT_EQ(read(surface_lines(), {"study.seed=9223372036854775807"}).seed, 9223372036854775807U);
+    EXPECT_EQ(read(surface_lines(), {"study.seed=1e6"}).seed, 1000000U);
+    // a text is a text, whatever is in it
+    auto lines = surface_lines();
+    lines[3] = "realizations = 8\ntitle = \"seed = 9223372036854775808\" # 9223372036854775808";
+    EXPECT_EQ(read(lines, {}).title, "seed = 9223372036854775808");
+    expect_line_refused(3, "realizations = 9 9223372036854775808", {"not valid TOML"});
+}
+
 TEST(StudyFile, RefusesBadSettingsByTheirName)
 {
     const auto text = joined(surface_lines());
