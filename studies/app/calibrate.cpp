@@ -79,7 +79,7 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     });
     search.outcomes = wanted.outcomes;
     search.held_out = wanted.held_out;
-    if (!run.leads()) { // predicts what rank 0 asks for
+    if (!run.leads()) { // predicts what rank 0 requests
         Console silent(true);
         data->calibrated(start, search, run, silent);
         return exit_done;

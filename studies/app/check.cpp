@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the drawing goes; empty: none is asked for.
+/// The file of the drawing; empty: none.
 /// @throws InputError for an unknown format, or one that the file's extension contradicts
 fs::path picture_path(const std::string& study, const CheckOptions& wanted)
 {

@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-/// What is asked for must be one thing.
+/// The options must select in one way.
 void check_asked(const RealizationChoice& choice)
 {
     const bool by_property = choice.cells.frequency_hz || choice.cells.pga_m_s2 || !choice.cells.motion.empty() ||

@@ -23,7 +23,8 @@ struct ChosenRealization {
     std::string words; ///< "number 2 of the 143 that fell, of 256 at 3.02 Hz, 9.8 m/s2"; empty if the index was given
 };
 
-/// @throws InputError if nothing is asked for, if it contradicts itself, lies outside an axis, or if there is no such
+/// @throws InputError if nothing is selected, if the selection contradicts itself, lies outside an axis, or if there is
+/// no such
 ///         realization
 ChosenRealization choose_realization(const Results& results, const RealizationChoice& choice);
 

@@ -57,7 +57,7 @@ struct ExportOptions {
     std::string title;               ///< of the picture, instead of the study's or the file's name
 };
 
-/// What `check` is asked for.
+/// Options of `check`.
 struct CheckOptions {
     std::optional<std::uint64_t> pilot; ///< realizations that are run twice; 0: none
     double trial_seconds = 2;           ///< of the trial; 0: none
@@ -66,13 +66,13 @@ struct CheckOptions {
     std::string output;                 ///< the drawing; empty and no format: none
 };
 
-/// What `verify-file` is asked for.
+/// Options of `verify-file`.
 struct VerifyChoice {
     std::optional<std::uint64_t> replay; ///< realizations that are run again
     std::uint64_t seed = 1;              ///< of their choice
 };
 
-/// What `report` is asked for.
+/// Options of `report`.
 struct ReportOptions {
     std::string output;                    ///< the page; empty: beside the file, with .html
     std::string title;                     ///< of the page, instead of the study's or the file's name
@@ -81,7 +81,7 @@ struct ReportOptions {
     std::optional<double> animate_seconds; ///< for running them again
 };
 
-/// What `compare` is asked for (studies/app/decisions).
+/// Options of `compare` (studies/app/decisions).
 struct CompareOptions {
     std::vector<std::string> files; ///< study files or finished results, the base first; one study file: its [variants]
     std::string output;             ///< the comparison; empty: the base's name with _comparison.h5
@@ -91,7 +91,7 @@ struct CompareOptions {
     bool search = false;                   ///< for the values of [optimise]
 };
 
-/// What `calibrate` is asked for.
+/// Options of `calibrate`.
 struct CalibrateOptions {
     std::string study;              ///< to begin from; empty: by the specimen (`default_study`)
     std::string output;             ///< results; empty: by the name of the measured file
@@ -102,13 +102,13 @@ struct CalibrateOptions {
     bool held_out = true;           ///< cross-validation over motions
 };
 
-/// What `diagnose` is asked for.
+/// Options of `diagnose`.
 struct DiagnoseOptions {
     long long nulls = 192; ///< healthy campaigns that are simulated near the measured contact law
     long long seed = 1;    ///< of what is drawn in them
 };
 
-/// What `risk` is asked for.
+/// Options of `risk`.
 struct RiskCommandOptions {
     std::vector<std::string> hazard; ///< files, or a power law
     std::string site;                ///< of several in the hazard
@@ -123,7 +123,7 @@ struct RiskCommandOptions {
     std::uint64_t seed = 1;          ///< of the histories
 };
 
-/// What `new` is asked for, in the words of a study file; empty: the usual one.
+/// Options of `new`, in the words of a study file; empty: the default.
 struct NewStudyOptions {
     std::string kind, structure, excitation;
 };
@@ -157,7 +157,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
 /// @param file measured data, outcomes or results; empty: about the program
 /// @param mpi of this program; empty: none
 int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi);
-/// Its part about a file: what it is, what it holds, and what can be done with it; as JSON where that is asked for.
+/// Its part about a file: what it is, what it holds, and what can be done with it; as JSON with --json.
 /// @throws InputError if there is no such file, if it is damaged, or if its content is wrong
 void print_file(const CommonOptions& options, const std::string& file, bool all);
 /// @param output the study file; empty: KIND.toml

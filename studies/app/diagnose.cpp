@@ -16,6 +16,7 @@
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
 #include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/diagnosis/laws/track.hpp"
+#include "studies/windows/stop_only.hpp"
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
             const AtomicFile writable(output);
         }
     });
-    if (!how.run.leads()) { // simulates its part of the campaigns; what follows from them rank 0 says
+    if (!how.run.leads()) { // simulates its part of the campaigns; rank 0 reports the results
         Console silent(true);
         return diagnose(
                    campaign, study, how, [](const std::string&) {}, silent)
@@ -84,14 +85,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         if (!options.quiet)
             say(line + "\n");
     };
-    class Quiet : public Observer {
-    public:
-        explicit Quiet(Console& console) : console_(console) {}
-        bool stop_requested() override { return console_.stop_requested(); }
-
-    private:
-        Console& console_;
-    } observer(console);
+    StopOnly observer(console);
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
         tell(std::filesystem::exists(how.cache)
@@ -118,7 +112,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         fmt::print("{}\n", diagnosis_json(*diagnosis).text());
     else
         fmt::print("{}", diagnosis_text(*diagnosis));
-    std::fflush(stdout); // before what is said beside it
+    std::fflush(stdout); // before the line on standard error
     tell(fmt::format("Diagnosis: {}. A page of it: stylobate report {}", output, output));
     return exit_done;
 }

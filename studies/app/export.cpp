@@ -34,8 +34,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is to be written: said by --to, or by the ending of the output.
-/// @throws InputError if nothing says it, or if the two contradict each other
+/// The format to write: by --to, or by the ending of the output.
+/// @throws InputError if neither is given, or if the two contradict each other
 std::string format_of(const ExportOptions& wanted)
 {
     const std::string ending = ending_of(wanted.output);
@@ -85,7 +85,7 @@ PictureKind picture_named(const std::string& name, const Results& results)
                                  meant == of_kinds.end() ? "" : fmt::format("\n  That one is of {}.", meant->of)));
 }
 
-/// The picture that is asked for, or else the one that suits the results.
+/// The selected picture, or else the default one of the results.
 /// @throws InputError for a picture that they do not have, and for an option that the picture does not use
 PictureKind picture_of(const Results& results, const ExportOptions& wanted)
 {
@@ -223,7 +223,7 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
     return folder;
 }
 
-/// The format of a realization in motion, by --to or by the ending of the output; empty: something else is asked for.
+/// The format of a realization in motion, by --to or by the ending of the output; empty: another format.
 /// @throws InputError if the two contradict each other
 std::string motion_format_of(const ExportOptions& wanted)
 {

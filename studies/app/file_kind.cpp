@@ -85,7 +85,7 @@ constexpr Use uses[] = {
     {FileKind::record, "record", "stylobate record {}", "its intensity measures and spectrum"},
 };
 
-/// As much of a file as tells what it is.
+/// The first part of a file, by which its kind is recognised.
 std::string beginning_of(const fs::path& file)
 {
     constexpr std::uint64_t enough = 1 << 16;
@@ -146,7 +146,7 @@ FileKind of_csv(std::string_view text)
         const auto begins = [&](std::initializer_list<std::string_view> names) {
             return line.fields.size() > names.size() && std::equal(names.begin(), names.end(), line.fields.begin());
         };
-        // what fell, or else what shook it: then the reader says what is missing
+        // what fell, or else what shook it: then the reader reports what is missing
         for (const std::string_view name :
              {"fell", "collapsed", "overturned", "toppled", "motion_file", "motion_id", "amplitude_m", "amplitude_cm",
               "amplitude_mm", "pga_m_s2", "pga_cm_s2", "pga_g"})
@@ -202,7 +202,7 @@ RecognisedFile recognise(const fs::path& file)
     std::string begin;
     try {
         begin = beginning_of(file);
-    } catch (const InputError&) { // its reader says why it cannot be read
+    } catch (const InputError&) { // its reader reports why it cannot be read
         return {};
     }
     if (begin.starts_with("stylobate seal"))
@@ -271,7 +271,7 @@ void check_option_kind(const std::string& file, FileKind wanted, const std::stri
     RecognisedFile found;
     try {
         found = recognise(file);
-    } catch (const InputError&) { // who reads or continues it says what is wrong
+    } catch (const InputError&) { // the verb that reads or continues it reports the fault
         return;
     }
     if (found.kind != wanted && found.kind != FileKind::unknown)

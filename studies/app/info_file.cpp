@@ -37,7 +37,7 @@
 namespace stylobate {
 namespace {
 
-/// What is told of a file: one text for people, members for programs.
+/// The report on a file: text for people, members for programs.
 struct Told {
     std::string text; ///< follows "FILE: "
     Json json = Json::object();
@@ -332,7 +332,7 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
     std::vector<Record> records;
     try {
         records = read_records(file, "");
-    } catch (const InputError& error) { // its unit is not said, for example: it is a record all the same
+    } catch (const InputError& error) { // it lacks its unit, for example: it is a record nevertheless
         told.json.member("note", error.what());
         told.text += fmt::format("note: {}\n", error.what());
     }

@@ -601,7 +601,7 @@ void prepare_process()
 {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0)
-            continue; // nothing can be said about it
+            continue; // no stream is left for a message
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

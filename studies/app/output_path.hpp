@@ -22,9 +22,9 @@ void check_drawing(const std::filesystem::path& output);
 /// @throws InputError if the output is the input
 void check_not_input(const std::string& input, const std::filesystem::path& output);
 
-/// Nothing is lost to a slip in the name of an output: what is there stays, unless it is asked to go.
+/// An existing file is kept unless --force is given: a mistyped output loses nothing.
 ///
-/// @param output a file; asked before the work is done
+/// @param output a file; checked before the work is done
 /// @param force whether a file that is there may be replaced
 /// @throws InputError if the output is the input, or if it exists and is not to be replaced
 void check_output(const std::string& input, const std::filesystem::path& output, bool force);

@@ -54,7 +54,7 @@ std::optional<BlockSize> block_size(const std::string& text)
     return size;
 }
 
-/// What is said of a component.
+/// The report on a component.
 struct Described {
     const Record& record;
     IntensityMeasures measures;

@@ -27,7 +27,7 @@ namespace stylobate {
 
 namespace {
 
-/// A page is HTML, whatever its name says; one that says something else is a slip.
+/// A page is HTML: another ending of its name is refused.
 void check_ending(const std::string& output)
 {
     const std::string ending = std::filesystem::path(output).extension().string();

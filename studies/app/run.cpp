@@ -30,14 +30,14 @@ namespace stylobate {
 
 namespace {
 
-/// Where results go unless the user says: beside nothing, in the working folder, under the study's name.
+/// The default results file: in the working folder, with the name of the study.
 std::string default_results(const std::string& study, const Shard& shard)
 {
     return std::filesystem::path(study).stem().string() +
            (shard.whole() ? "" : fmt::format("_{}_of_{}", shard.number, shard.of)) + ".h5";
 }
 
-/// The part of the study that is asked for. @throws InputError if there is no such part
+/// The part of the study by --shard. @throws InputError if there is no such part
 Shard shard_of(const std::string& text)
 {
     if (text.empty())

@@ -101,7 +101,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
     else
         print_text(r);
     if (r.merged && !r.complete)
-        return exit_done; // it was asked for
+        return exit_done; // by --partial
     if (!r.complete || r.laws_interrupted)
         return exit_interrupted;
     const Progress& p = r.progress;

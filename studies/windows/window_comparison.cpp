@@ -50,7 +50,7 @@ struct WindowComparison::Prepared {
         return job;
     }
 
-    /// The windows of a run that are asked for, or all.
+    /// The selected windows of a run, or all.
     std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const
     {
         if (options.places.empty())

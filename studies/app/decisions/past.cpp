@@ -1,4 +1,4 @@
-/// `stylobate past`: what several structures of one site tell of the shaking that all of them have been through.
+/// `stylobate past`: the shaking of a site, from the state of several structures that have been through it.
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"

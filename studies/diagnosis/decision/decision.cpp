@@ -99,7 +99,7 @@ void take_size_of_forces(const BalanceEvidence& balance, JudgedCause& j)
 }
 
 /// More friction of one joint lets it slide less, and so do contact laws that are not of the family. Only forces that
-/// the nominal friction cannot carry tell the two apart.
+/// the nominal friction cannot carry distinguish the two.
 bool more_friction_without_forces(const BalanceEvidence& balance, const CauseFit& fit)
 {
     if (fit.cause.mechanism != "joint_friction" || fit.size <= 1)
@@ -133,7 +133,7 @@ StructureFit left_over(const EnsembleDiagnosis& ensemble)
     return fit;
 }
 
-/// The force of no known kind that the scores ask for most, if nothing else explains it.
+/// The force of unknown kind with the largest score, if nothing else explains it.
 std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
                                           const DecisionRule& rule, double named_at)
 {
@@ -282,7 +282,7 @@ std::vector<Cause> named_by_statistics(const Decided& decided)
     return causes;
 }
 
-/// What the statistics say of a mechanism [nats].
+/// Gain of a mechanism by the statistics [nats].
 double gain_by_statistics(const EnsembleDiagnosis& ensemble, const std::string& mechanism)
 {
     double gain = 0;
@@ -359,7 +359,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
             named.probability = std::max(same->probability, named.probability);
             named.forces_too = same->chance;
             by_forces.erase(same);
-            out.in_set.clear(); // of the statistics: forces tell more apart
+            out.in_set.clear(); // of the statistics: forces distinguish more
         }
         most = std::max(most, named.probability.value_or(0));
     }

@@ -73,7 +73,7 @@ struct Decided {
     std::optional<CauseFit> beside; ///< the cause beside which it is left; nothing: it stands by itself
     std::vector<Cause> beside_too;  ///< and those that the statistics name
     bool by_tie =
-        false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not tell from it
+        false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not distinguish from it
     double unexplained_chance = 1;
     double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind in healthy campaigns [nats]
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What the balance of forces of a campaign says of each cause and of forces of no known kind.
+/// Evidence of the balance of forces of a campaign for each cause and for forces of unknown kind.
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"

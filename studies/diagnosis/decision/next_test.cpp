@@ -115,7 +115,7 @@ OutcomeSpread spread_of(const std::vector<Campaign>& campaigns, const Specimen& 
     return spread;
 }
 
-/// How far two causes are apart in the outcome that tells them best, in standard deviations and noise.
+/// Difference of two causes in the outcome that separates them best, in standard deviations and noise.
 MotionChoice choice_of(const ProposedMotion& motion, const OutcomeSpread& a, const OutcomeSpread& b,
                        const TrackScales& scales)
 {

@@ -48,7 +48,7 @@ public:
     Pipeline(const Campaign& measured, const Study& start, const DiagnosisOptions& options, const Tell& tell,
              Observer& observer)
         : measured_(measured), start_(start), options_(options), tell_(tell), observer_(observer),
-          scales_(track_scales(measured)), // refuses what cannot be diagnosed, before anything is told
+          scales_(track_scales(measured)), // refuses what cannot be diagnosed, before anything is reported
           built_(build_specimen(measured.specimen)), study_(start)
     {
         study_.structure = built_.structure;
@@ -422,7 +422,7 @@ void Pipeline::write_extended_study()
         d_.missing.push_back({"all of the extended study", "It lacks " + list_words(left_out) + "."});
 }
 
-/// A motion that would tell the two likeliest causes of different mechanisms apart.
+/// A motion that would separate the two most probable causes of different mechanisms.
 void Pipeline::propose_next_test()
 {
     std::vector<JudgedCause> rivals;

@@ -274,7 +274,7 @@ std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedC
     return share;
 }
 
-/// Which of the runs left out fall. @pre all of them say whether they did
+/// Which of the runs left out fall. @pre the outcome of all of them is known
 CollapsePrediction predict_collapse(const Campaign& rest, const Campaign& rest_corrected,
                                     const std::vector<SizedCause>& causes, const Simulating& simulating)
 {

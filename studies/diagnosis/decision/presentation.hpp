@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What the stages of a diagnosis found, as its tables, figures and sentences tell it.
+/// Findings of the stages of a diagnosis as tables, figures and sentences.
 namespace stylobate {
 
 /// What explains the campaign's statistics in the place of a candidate that is not named.
@@ -44,7 +44,7 @@ std::vector<Missing> hardly_shown(const EnsembleDiagnosis& ensemble, const Decid
 /// The friction as the balance of forces judges it, for the table of the baseline.
 CalibratedParameter baseline_friction(const FrictionJudgement& judged, const Study& start);
 
-/// What sliding joints say of friction, sample by sample; nothing where none slides.
+/// Friction of the sliding joints, sample by sample; nothing where none slides.
 /// @pre balance.fit
 std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, const Campaign& campaign);
 
@@ -52,7 +52,7 @@ std::optional<DiagnosisFigure> friction_figure(const BalanceEvidence& balance, c
 /// @pre balance.fit
 std::optional<DiagnosisFigure> turning_figure(const BalanceEvidence& balance);
 
-/// Adds what could not be judged. Things that lack the same are told in one sentence.
+/// Adds what could not be judged. Things with one reason are reported in one sentence.
 void add_missing(Diagnosis& d, const std::string& what, const std::string& why);
 
 /// What the reader of the campaign noticed; what it noticed in several runs is one sentence.

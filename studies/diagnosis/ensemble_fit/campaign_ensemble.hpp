@@ -34,7 +34,7 @@ struct OwnRound {
     double size_spread = 0;    ///< of ln z
 };
 
-/// How many campaigns are simulated; which ones say `Proposals`.
+/// How many campaigns are simulated; `Proposals` chooses which.
 ///
 /// Healthy laws come nearer to the measured one round by round: scouts of the whole family, then campaigns near the
 /// laws that were the likest so far. The rounds' campaigns and those after them are the null distribution: what chance
@@ -91,7 +91,7 @@ void refuse_foreign_cache(const std::filesystem::path& cache);
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    numbers and scores of the measured campaign
 /// @param cache    file that keeps the rows; empty: none
-/// @param progress is told (campaigns done, campaigns in all, as far as is known)
+/// @param progress called with (campaigns done, campaigns in all, as far as is known)
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
                                    const EnsemblePlan& plan, const SimulatedCampaign& shown,

@@ -55,7 +55,7 @@ void complete_descriptors(EnsembleEvidence& evidence)
     evidence.descriptors = evidence.descriptors(kept).eval();
 }
 
-/// How much a healthy campaign tells of the measured one: the nearer half of them count in full.
+/// Weight of a healthy campaign for the measured one: the nearer half of them count in full.
 std::vector<double> weights_of(const std::vector<double>& distance)
 {
     const double middle = upper_median(distance);
@@ -81,7 +81,7 @@ ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const s
     return force_test(evidence);
 }
 
-/// @param column of all tables   @param of says whether a candidate's campaigns are the labelled ones
+/// @param column of all tables   @param of whether a candidate's campaigns are the labelled ones
 template <class Of>
 CarryingNumber carrying_number(const EnsembleDiagnosis& diagnosis, const LabelledCampaigns& labelled, double measured,
                                const Eigen::VectorXd& nulls, const Eigen::VectorXd& labelled_numbers, Of&& of)

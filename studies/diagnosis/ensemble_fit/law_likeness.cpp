@@ -12,7 +12,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr double far = 10;             // beyond it one number tells no more
+constexpr double far = 10;             // a larger distance of one number counts as this one
 constexpr std::size_t least_pairs = 6; // that have a number
 
 std::vector<double> with_descriptors(const CampaignStatistics& campaign, const std::vector<double>& others)

@@ -33,7 +33,7 @@ void add(Json& json, const char* key, const std::optional<T>& part, F object)
         json.member(key, std::numeric_limits<double>::quiet_NaN());
 }
 
-/// What `causes` says of one.
+/// An item of `causes`.
 Json cause(const Candidate& c)
 {
     return Json::object()

@@ -195,7 +195,7 @@ std::string baseline_part(const Diagnosis& d)
     if (d.baseline.empty())
         return "";
     std::string out = heading("The calibrated baseline (95 % interval)");
-    std::vector<CalibratedParameter> numbers, words; // what has a value, and what is told in words alone
+    std::vector<CalibratedParameter> numbers, words; // parameters with a value, and those with words alone
     for (const CalibratedParameter& p : d.baseline)
         (p.value ? numbers : words).push_back(p);
     if (!numbers.empty())

@@ -32,7 +32,7 @@ bool at_joint(const LawTerm& term, int joint)
     return joint < 0 || term.joint == joint;
 }
 
-/// Sum over the terms of a law at a joint (-1: any) of weight x what `value` says.
+/// Sum over the terms of a law at a joint (-1: any) of weight x `value`.
 template <class Value>
 double sum_of(const LawSample& sample, Law law, int joint, Value&& value)
 {

@@ -110,7 +110,7 @@ public:
     /// The structures of `balance_structures`, fitted beside the causes given; most telling first.
     std::vector<StructureFit> describe(const std::vector<Cause>& given = {}) const;
 
-    /// How strongly the samples ask for a cause, without fitting it: the derivative of the log posterior of the
+    /// Score of a cause, without fitting it: the derivative of the log posterior of the
     /// baseline for its size at the neutral one, over the root of its information (Rao's score test, Proceedings of
     /// the Cambridge Philosophical Society 44 (1948)). Of scatter about 1 where nothing acts, positive where the fitted
     /// coefficient would be. NaN: the samples do not show the cause.

@@ -26,7 +26,7 @@ constexpr double slip_noise = 4;
 // A joint is open beyond this part of the specimen's slenderness, and beyond its noise.
 constexpr double open_part = 0.03;
 constexpr double open_noise = 8;
-// A collapse begins this long, in time scales, before it is told.
+// A collapse begins this long, in time scales, before it is reported.
 constexpr double falls_before = 1.0;
 
 bool seen(const MeasuredRun& run)

@@ -46,7 +46,7 @@ public:
     /// Whether all blocks are seen, and none is falling, `margin` samples to either side.
     bool usable(std::size_t i, int margin) const;
 
-    /// Smoothed by `widths[width]`; derivative 0 to 2. Computed anew by every call: few samples are asked for.
+    /// Smoothed by `widths[width]`; derivative 0 to 2. Computed anew by every call: few samples are needed.
     double of(int width, int derivative, Component coordinate, int block, std::size_t i) const
     {
         return widths_[static_cast<std::size_t>(width)].at(derivative, raw_[index(coordinate, block)], i);

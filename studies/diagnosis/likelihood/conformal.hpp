@@ -12,7 +12,7 @@ namespace stylobate {
 /// Shafer, "Algorithmic Learning in a Random World", 2005).
 /// @param nulls scores of campaigns that were not used in the fit
 double conformal_p_value(const std::vector<double>& nulls, double score);
-/// The same where campaigns are unlike in how much they tell of this one (Tibshirani, Barber, Candes and Ramdas,
+/// The same with weights of the campaigns (Tibshirani, Barber, Candes and Ramdas,
 /// "Conformal prediction under covariate shift", Advances in Neural Information Processing Systems 32 (2019)); this one
 /// weighs 1.
 /// @param weights (nulls) of each, at most 1; empty: 1

@@ -196,7 +196,7 @@ void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, L
     }
 }
 
-/// @param is_named says of a largest gain whether its cause is named
+/// @param is_named largest gain -> whether its cause is named
 void look_at_labelled(const EnsembleEvidence& evidence, const EnsembleRule& rule, const Fit& fit, int fold,
                       LeftOut& out, const std::function<bool(double)>& is_named)
 {

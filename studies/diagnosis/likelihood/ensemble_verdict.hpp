@@ -32,7 +32,7 @@ struct LabelledCampaigns {
 
 struct EnsembleEvidence {
     CampaignTable nulls;
-    std::vector<double> likeness; ///< (nulls) how much each tells of the measured campaign, at most 1; empty: 1
+    std::vector<double> likeness; ///< (nulls) weight of each for the measured campaign, at most 1; empty: 1
     LabelledCampaigns labelled;
     double law_p_value = 1;     ///< of the measured law in the family
     std::vector<int> mechanism; ///< (causes) candidates of one mechanism at several places have one number

@@ -1,6 +1,6 @@
 #pragma once
-/// Whether the balance of forces asks for something: its largest score over all causes of the list, or over all forces
-/// of no known kind, against the same of healthy campaigns.
+/// Whether the balance of forces needs a cause or a force of unknown kind: its largest score over all causes of the
+/// list, or over all forces of no known kind, against the same of healthy campaigns.
 ///
 /// Variants (a cause at a place; a force on a block, in a direction, in proportion to position, velocity and so on) are
 /// not equally noisy, and a law that the balance of forces does not have moves some of them more than others. Each
@@ -16,7 +16,7 @@ namespace stylobate {
 /// Scores of the variants: NaN where a campaign does not show one.
 struct ForceEvidence {
     Eigen::MatrixXd nulls;        ///< (n x variants)
-    std::vector<double> likeness; ///< (n) how much each tells of the measured campaign, at most 1; empty: 1
+    std::vector<double> likeness; ///< (n) weight of each for the measured campaign, at most 1; empty: 1
     Eigen::VectorXd campaign;     ///< (variants)
 };
 

@@ -29,7 +29,7 @@ struct CampaignTable {
 class LawAdjustment {
 public:
     /// @param nulls   healthy campaigns, at least 20 and more than twice the descriptors
-    /// @param weights (n) how much each tells of the measured campaign, at most 1
+    /// @param weights (n) weight of each for the measured campaign, at most 1
     /// @param wanted  (p) whether a statistic is to be used: those that the measured campaign has
     /// @param least_scatter (p) of each statistic, in its unit: what noise gives where the nulls hardly show it; empty:
     /// 0
@@ -69,7 +69,7 @@ private:
     double freedom_ = 0, scale_ = 1;
 };
 
-/// The sample correlation of rows with weights, shrunk towards the identity by as much as its own noise asks for.
+/// The sample correlation of rows with weights, shrunk towards the identity by as much as its own noise requires.
 /// @param residuals (n x p) of mean near 0 and scatter near 1   @param weights (n)
 Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
 

@@ -12,7 +12,7 @@
 
 namespace stylobate {
 
-/// What one campaign says of one cause.
+/// Evidence of one campaign for one cause.
 struct CauseLikelihood {
     double gain = 0;          ///< log of the likelihood over that of no cause, averaged over the sizes [nats]
     double size = 0;          ///< z: mean of the posterior

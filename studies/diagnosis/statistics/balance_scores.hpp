@@ -1,5 +1,5 @@
 #pragma once
-/// What the balance of forces says of every cause and of every force of no known kind, as one score each
+/// The balance of forces as one score for every cause and for every force of unknown kind
 /// (`BalanceFit::score`): the same numbers of a measured campaign and of simulated ones.
 
 #include "studies/diagnosis/laws/balance_fit.hpp"

@@ -8,7 +8,7 @@ namespace stylobate {
 namespace {
 
 constexpr double bin_part = 0.04;    // of sqrt(height / g)
-constexpr double falls_before = 1;   // time scales: a collapse begins so long before it is told
+constexpr double falls_before = 1;   // time scales: a collapse begins so long before it is reported
 constexpr double series_up_to = 0.3; // rad
 constexpr double endless = 1e3;      // m
 

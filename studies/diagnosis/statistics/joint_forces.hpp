@@ -1,5 +1,5 @@
 #pragma once
-/// What Newton's law says of the joints at intervals of 0.08 sqrt(height / g): the work of friction, and the
+/// The joints by Newton's law at intervals of 0.08 sqrt(height / g): the work of friction, and the
 /// moment about the corner on which a joint rocks, with what drag and eccentricities would make of it.
 ///
 /// A joint's force follows from the accelerations of the blocks that it carries, where each block stands on one other

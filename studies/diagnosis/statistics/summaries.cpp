@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-/// @param reduce says of a label what is left of it
+/// @param reduce label -> what is left of it
 template <class Reduce>
 Summary summary_of(const std::vector<StatisticLabel>& statistics, Reduce&& reduce)
 {

@@ -19,7 +19,7 @@ namespace {
 // A slide counts from this part of the velocity at which the diagnosis takes a joint to slide: what it takes for the
 // slip of one instant asks for four deviations of the noise, a window full of samples of one sign for fewer.
 constexpr double slow_part = 0.5;
-// The nominal friction shall say next to nothing.
+// The nominal friction has next to no weight.
 constexpr double nominal_deviation = 1;
 // Half an interval over the standard deviation: that of normal errors. Campaigns of the kernel's own contact laws ask
 // for less, those of other laws for as much (docs/calibration.md).

@@ -27,7 +27,7 @@ enum class DampingKind {
 };
 const char* to_string(DampingKind kind);
 
-/// One law, relative to the study's contacts where it says so.
+/// One law; some of its numbers are relative to the study's contacts.
 struct HealthyLaw {
     ContactForm form = ContactForm::area;
     DampingKind kind = DampingKind::dashpot;

@@ -16,7 +16,7 @@ namespace stylobate {
 
 namespace {
 
-/// Mean of the differences over the runs, and its standard deviation as the runs tell it.
+/// Mean of the differences over the runs, and its standard deviation by the scatter of the runs.
 void judge(const std::vector<double>& upper, const std::vector<double>* lower, double& mean, double& sd)
 {
     std::vector<double> d;
@@ -35,7 +35,7 @@ void judge(const std::vector<double>& upper, const std::vector<double>* lower, d
 
 /// Every block is put down with the tolerance, each time anew: what stays in the mean over the runs is an offset. Where
 /// the cameras see the table, offsets count from it; else the cameras' zero and the place of the table are not known,
-/// and they count from where the others lie. The one that is farthest off is told first, and is no measure for the
+/// and they count from where the others lie. The one that is farthest off is reported first, and is no measure for the
 /// others.
 ///
 /// @param place (blocks)(runs) from where it should be
@@ -93,7 +93,7 @@ void test_places(const Specimen& s, bool table, const TrackScales& scales, const
                 its = p;
             }
         }
-        // the last two cannot be told apart: the one that is left is the measure
+        // the last two cannot be distinguished: the one that is left is the measure
         const bool alone = !table && std::count(off.begin(), off.end(), 0) < 2;
         if (farthest == n || alone || its.in_sds() <= most)
             break;
@@ -151,7 +151,7 @@ void test_rest(const Campaign& campaign, const TrackScales& scales, const Direct
         scatter[j] = std::isfinite(sd) ? std::pow(sd / noise[j], 2) : 1;
         common += scatter[j] / static_cast<double>(s.joints.size());
     }
-    // A block on two seats leans by what either of them is askew: the one over which it leans more is told.
+    // A block on two seats leans by what either of them is askew: the one over which it leans more is reported.
     std::vector<CauseFit> wedges(n);
     for (std::size_t j = 0; j < s.joints.size(); ++j) {
         const auto [lower, upper] = s.joints[j];
