@@ -28,11 +28,11 @@ void AtomicFile::check(const std::filesystem::path& file)
     if (is_folder(file))
         fail(file, EISDIR);
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code ignored;
+    if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
+        fail(file, ENOTDIR);
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         fail(file, errno);
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(folder, ignored))
-        fail(file, ENOTDIR);
 }
 
 AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
@@ -114,7 +114,9 @@ void make_folder(const std::filesystem::path& folder)
         return;
     throw InputError(fmt::format("cannot make the folder '{}': {}.\n  Name a folder whose parent exists and can be "
                                  "written; nothing was written.",
-                                 folder.string(), error ? why_not_written(folder, error.value()) : "it is a file"));
+                                 folder.string(),
+                                 error && error != std::errc::file_exists ? why_not_written(folder, error.value())
+                                                                          : "it is a file"));
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content)

@@ -92,6 +92,8 @@ FileHandle FileHandle::claim(const std::filesystem::path& file)
         refuse(folder, "is not a folder; choose another output");
     for (int attempt = 0; attempt < 2; ++attempt) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (descriptor < 0 && errno == EISDIR)
+            refuse(file, "is a folder; name a file");
         if (descriptor < 0)
             refuse(file.has_parent_path() ? folder : std::filesystem::current_path(error), // "." names no folder
                    "cannot be written: " + reason(errno) + "; choose another output folder");
