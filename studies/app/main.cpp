@@ -147,11 +147,29 @@ void check_options(const CLI::App& app, const std::vector<std::string>& words)
     }
 }
 
+/// CLI11's "Could not convert: --nth = 1e30" with what the option takes.
+std::string with_range(std::string what, const CLI::App& verb)
+{
+    const std::string before = "Could not convert: ", between = " = ";
+    const std::size_t equals = what.find(between);
+    if (!what.starts_with(before) || equals == std::string::npos)
+        return what;
+    const std::string name = what.substr(before.size(), equals - before.size());
+    const CLI::Option* option = verb.get_option_no_throw(name);
+    const std::string type = option != nullptr ? option->get_type_name() : "";
+    const std::string range = type.starts_with("UINT")  ? "whole number in [0, 18446744073709551615]"
+                              : type.starts_with("INT") ? "whole number in [-9223372036854775808, 9223372036854775807]"
+                              : type.starts_with("FLOAT") ? "number"
+                                                          : "";
+    return range.empty() ? what : fmt::format("{} is not a {}.", what.substr(before.size()), range);
+}
+
 /// An error of the command line, in the form of all other messages.
 std::string usage_message(const CLI::App* app, const CLI::Error& error)
 {
     const auto verbs = app->get_subcommands();
-    return fmt::format("stylobate: {}\n  stylobate {}--help lists the options.\n", error.what(),
+    return fmt::format("stylobate: {}\n  stylobate {}--help lists the options.\n",
+                       with_range(error.what(), verbs.empty() ? *app : *verbs.front()),
                        verbs.empty() ? "" : verbs.front()->get_name() + " ");
 }
 

@@ -137,7 +137,12 @@ TEST_F(Faults, WrongCommandLines)
     expect_refused({"replay", "out.h5", "--realization", "8"}, {"--realization 8", "0 to 7", "out.h5"});
     expect_refused({"replay", "out.h5", "--realization", "-1"}, {"--realization -1", "0 to 7"});
     expect_refused({"replay", "out.h5", "--realization", "1.5"}, {"--realization", "1.5"});
-    expect_refused({"replay", "out.h5", "--realization", "99999999999999999999"}, {"--realization"});
+    expect_refused({"replay", "out.h5", "--realization", "99999999999999999999"},
+                   {"--realization = 99999999999999999999 is not a whole number in [-9223372036854775808, "});
+    expect_refused({"replay", "out.h5", "--nth", "1e30"}, {"--nth = 1e30 is not a whole number in ["});
+    expect_refused({"verify-file", "out.h5", "--seed", "18446744073709551616"},
+                   {"--seed = 18446744073709551616 is not a whole number in [0, 18446744073709551615]"});
+    expect_refused({"verify-file", "out.h5", "--seed", "-1"}, {"--seed = -1 is not a whole number in [0, "});
     expect_refused({"export", "out.h5"}, {"--to"});
     expect_refused({"export", "out.h5", "--to", "bmp"}, {"bmp", "csv", "png", "svg", "pdf"});
     expect_refused({"export", "out.h5", "--to", "png", "--picture", "cake"}, {"cake", "strip"});
@@ -206,8 +211,9 @@ TEST_F(Faults, WhatThePermissionsForbid)
           Words{"merge", "out.h5", "-o", "m.h5", "--partial"}}) {
         const Ended ended = run_program({.arguments = words, .no_privilege = true}, above);
         EXPECT_EQ(ended.status, 2) << words.front() << testing::PrintToString(ended);
-        if (words.front() != "merge") // refuses what is no shard before
+        if (words.front() != "merge") { // refuses what is no shard before
             EXPECT_NE(ended.err.find(named), std::string::npos) << words.front() << testing::PrintToString(ended);
+        }
         EXPECT_EQ(ended.err.find("stylobate: .:"), std::string::npos) << ended.err;
     }
     for (const char* file : {"study.toml", "record.at2", "out.h5"})

@@ -121,7 +121,7 @@ TEST_F(Kinds, InfoGroupsWhatItFindsInMeasuredData)
     for (const JsonValue& finding : json_of(run(Words{"info", "many.h5", "--json"}))["findings"].items)
         in_json += finding["text"].text == note;
     EXPECT_EQ(in_json, runs);
-    EXPECT_LT(grouped.rfind("warning: "), grouped.find("note: ")) << grouped; // or there is none
+    EXPECT_TRUE(count_of(grouped, "warning: ") == 0 || grouped.rfind("warning: ") < grouped.find("note: ")) << grouped;
 }
 
 TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
@@ -139,7 +139,7 @@ TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
     // what diagnose refuses
     Campaign campaign = sample_campaign();
     for (MeasuredRun& each : campaign.runs)
-        each.blocks.theta_rad.values.clear();
+        each.blocks.theta_rad = Series{};
     write_campaign(campaign, folder / "flat.h5");
     EXPECT_EQ(run(Words{"diagnose", "flat.h5", "--nulls", "0"}).status, 2);
     const std::string told = run(Words{"info", "flat.h5"}).out;

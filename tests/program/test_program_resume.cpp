@@ -263,10 +263,11 @@ TEST_F(Resume, AnInterimShareIsThatOfTheWhole)
         EXPECT_NE(words.find(slow_build ? "of 2,048" : "of 5,120"), std::string::npos) << words;
         // what is kept and not drawn is counted too
         const std::uint64_t kept = rows_in("a.h5");
-        if (drawn < kept && kept < 1000)
+        if (drawn < kept && kept < 1000) {
             EXPECT_NE(words.find(fmt::format("partial: {} of the {} realizations kept", drawn, kept)),
                       std::string::npos)
                 << words;
+        }
         for (const char* picture : {"surface", "slice"}) {
             const Ended drawing = run({"export", "a.h5", "--to", "png", "--picture", picture});
             EXPECT_EQ(drawing.status, 0) << testing::PrintToString(drawing);
