@@ -16,7 +16,6 @@
 #include "studies/diagnosis/findings/diagnosis_text.hpp"
 #include "studies/diagnosis/findings/fingerprint.hpp"
 #include "studies/diagnosis/laws/track.hpp"
-#include "studies/windows/stop_only.hpp"
 
 #include <fmt/format.h>
 
@@ -85,7 +84,14 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
         if (!options.quiet)
             say(line + "\n");
     };
-    StopOnly observer(console);
+    class Stopping : public Observer { // no progress: `tell` prints the stages
+    public:
+        explicit Stopping(Console& console) : console_(console) {}
+        bool stop_requested() override { return console_.stop_requested(); }
+
+    private:
+        Console& console_;
+    } observer(console);
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
         tell(std::filesystem::exists(how.cache)
