@@ -49,9 +49,9 @@ std::vector<std::string> remarks(const StateFragility& s)
 {
     std::vector<std::string> all = s.curve.says;
     if (s.moving > 0)
-        all.push_back(fmt::format("{} realizations without collapse still moved at the end. Their residuals are not "
-                                  "known, and they are not counted here: {} of {} are.",
-                                  s.moving, s.curve.trials, s.curve.trials + static_cast<double>(s.moving)));
+        all.push_back(fmt::format("Counted: {} of {} realizations. The other {} stand and still moved at the end, and "
+                                  "their residuals are not known.",
+                                  s.curve.trials, s.curve.trials + static_cast<double>(s.moving), s.moving));
     if (has_curve(s) && s.fit.p_value < fit_significance)
         all.push_back(s.fit.says);
     if (s.stripes && s.stripes->p_monotone < 0.05)
