@@ -315,7 +315,14 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.text += fmt::format("  {}: {}\n", what, is);
     }
     std::vector<std::string> warnings, refusals;
-    for (const Doubt& doubt : doubts(study))
+    std::vector<Doubt> found;
+    try {
+        found = LoadedStudy::from_file(file, options.set).doubts();
+    } catch (const InputError& error) { // without its motions
+        refusals.push_back(std::string("run: ") + error.what());
+        found = doubts(study);
+    }
+    for (const Doubt& doubt : found)
         if (doubt.refused)
             refusals.push_back(
                 fmt::format("run: {} If it is intended: study.allow = [\"{}\"].", doubt.text, doubt.check));

@@ -136,6 +136,9 @@ TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
     const JsonValue json = json_of(run(Words{"info", "study.toml", "--json", "--set", "contact.friction=5"}));
     EXPECT_EQ(json["refused"].items.size(), 1U);
     EXPECT_EQ(json["warnings"].items.size(), 0U);
+    const Ended missing = run(Words{"info", record_study, "--set", "excitation.file=none.at2"});
+    EXPECT_EQ(missing.status, 0) << testing::PrintToString(missing);
+    EXPECT_NE(missing.out.find("refused: run: none.at2: "), std::string::npos) << missing.out;
     // what diagnose refuses
     Campaign campaign = sample_campaign();
     for (MeasuredRun& each : campaign.runs)
