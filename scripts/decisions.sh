@@ -40,7 +40,7 @@ ROWS
     for study in small_scale_strengthened strengthening_dowels strengthening_tendon strengthening_joints isolated_column \
         small_scale_restored restored_column small_scale_clamped clamped_colonnade; do
         "$stylobate" compare "$inputs/$study.toml" -o "$study.cmp.h5" --json --quiet >"$study.json"
-        "$stylobate" export "$study.cmp.h5" --to png -o "$images/decisions_$study.png" --force --quiet
+        "$stylobate" export "$study.cmp.h5" --to png -o "$images/decisions_$study.png" --force --quiet >/dev/null
         compared "$study.json" "$study"
     done
     echo
@@ -50,13 +50,13 @@ ROWS
     echo "$ stylobate risk monument.h5 --hazard k0=1e-3,k=3,measure=pgv,sigma_ln=0.5 --state collapse"
     "$stylobate" risk monument.h5 --hazard k0=1e-3,k=3,measure=pgv,sigma_ln=0.5 --state collapse 2>/dev/null
     echo '```'
-    "$stylobate" export monument_risk.h5 --to png -o "$images/decisions_monument_risk.png" --force --quiet
+    "$stylobate" export monument_risk.h5 --to png -o "$images/decisions_monument_risk.png" --force --quiet >/dev/null
     echo
     echo '```'
     echo "$ stylobate run monument_past.toml -o past.h5"
     "$stylobate" run "$inputs/monument_past.toml" -o past.h5 2>/dev/null
     echo '```'
-    "$stylobate" export past.h5 --to png --picture likelihood -o "$images/decisions_monument_past.png" --force --quiet
+    "$stylobate" export past.h5 --to png --picture likelihood -o "$images/decisions_monument_past.png" --force --quiet >/dev/null
 } >page.md
 cd "$root"
 scripts/into_page.sh decisions.sh docs/decisions.md <"$work/page.md"

@@ -38,7 +38,7 @@ mkdir -p results
 [[ $# -eq 0 ]] || rm -f "$name.h5"
 "$stylobate" run "$study" -o "$name.h5" "$@"
 stage="drawing the picture"
-"$stylobate" export "$name.h5" -o "$name.png" --force --quiet
+"$stylobate" export "$name.h5" -o "$name.png" --force --quiet >/dev/null
 
 cat <<TEXT
 
