@@ -39,6 +39,10 @@ void refuse_decimal_commas(const RecordText& text)
         if (line.find_first_of(",.") == std::string_view::npos ||
             line.find_first_not_of("0123456789+-.,;eEdD \t") != std::string_view::npos)
             continue;
+        if (line.find(',') == std::string_view::npos) {
+            ++with_points;
+            continue;
+        }
         std::size_t tokens = 0;
         std::string_view comma;
         for (std::size_t at = 0; at < line.size();) {
@@ -243,8 +247,10 @@ std::string plain_unit(std::string_view spelling)
         for (std::size_t at = unit.find(what); at != std::string::npos; at = unit.find(what, at + by.size()))
             unit.replace(at, what.size(), by);
     };
-    replace("\xc2\xb2", "2"); // superscript
-    replace("\xe2\x81\xbb\xc2\xb2", "-2");
+    replace("\xc2\xb2", "2"); // superscript, in UTF-8 and in Latin-1
+    replace("\xb2", "2");
+    replace("\xe2\x81\xbb", "-");
+    replace("\xc2\xb9", "1");
     replace("sec", "s");
     for (const std::string_view mark : {" ", "^", "*", "\xc2\xb7", "{", "}"})
         replace(mark, "");

@@ -94,9 +94,9 @@ Quantity quantity_of_words(std::string_view name, bool& plain)
     for (const std::string& word : words) {
         if (begins_with(word, {"acc", "acel", "aceler", "beschl", "ivme"}) || word == "ag")
             return Quantity::acceleration;
-        if (begins_with(word, {"vel", "vitess", "geschw"}))
+        if (begins_with(word, {"vel", "vitess", "geschw", "speed", "pgv"}) || word == "hiz")
             return Quantity::velocity;
-        if (begins_with(word, {"disp", "despl", "depl", "versch"}))
+        if (begins_with(word, {"disp", "despl", "depl", "versch", "posit", "pgd"}) || word == "dis")
             return Quantity::displacement;
         if (begins_with(word, {"time", "tiempo", "temps", "zeit", "zaman"}) || is_one_of(word, {"sec", "seconds"}))
             return Quantity::time;
@@ -132,6 +132,8 @@ struct UnitInName {
 
 UnitInName unit_in(std::string_view name)
 {
+    if (const Quantity quantity = quantity_of_unit(name); quantity != Quantity::unnamed && lower_case(name) != "s")
+        return {std::string(name), {}}; // nothing but a unit, "cm/s"; S is south
     // in brackets
     for (std::size_t open = name.find_first_of("[("); open != std::string_view::npos;
          open = name.find_first_of("[(", open + 1)) {

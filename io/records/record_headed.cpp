@@ -67,6 +67,8 @@ std::optional<Entry> entry_of(const RecordText& text, std::size_t i)
 bool is_count(const Entry& entry)
 {
     const std::string& name = entry.name;
+    if (has_one_of(name, {"channel", "component", "canal", "line", "header"}))
+        return false; // what is counted there is not samples
     const bool counts = has_one_of(name, {"number of", "no. of", "no of", "num. of", "num of", "nr. of", "numero de",
                                           "# of", "total"}) &&
                         has_one_of(name, {"data", "point", "sample", "value", "datos", "muestras", "puntos"});
@@ -78,14 +80,29 @@ bool is_interval(const Entry& entry)
 {
     return has_one_of(entry.name,
                       {"sampling interval", "sample interval", "time increment", "time step", "time interval",
-                       "sampling period", "sampling time", "intervalo de muestreo", "delta t", "delta"}) ||
-           entry.name == "dt";
+                       "sampling period", "sampling time", "intervalo de muestreo", "delta t"}) ||
+           entry.name == "dt" || (entry.name == "delta" && entry.inside != "km");
 }
 
 bool is_rate(const Entry& entry)
 {
     return has_one_of(entry.name, {"sampling rate", "sample rate", "samplerate", "sampling freq", "sampling hz",
                                    "frecuencia de muestreo", "tasa de muestreo", "samples per second"});
+}
+
+bool is_unit(const Entry& entry)
+{
+    if (has_one_of(entry.name, {"time", "velocity", "displacement"}))
+        return false;
+    const bool known = !canonical_unit(parts_of(entry.value, true).front()).empty();
+    return entry.name == "unit" || entry.name == "units" ||
+           (known && has_one_of(entry.name, {"unit", "unidad", "einheit"}));
+}
+
+bool is_peak(const Entry& entry)
+{
+    return !has_one_of(entry.name, {"time"}) &&
+           has_one_of(entry.name, {"pga", "peak ground acc", "peak acc", "max acc", "maximum acc", "max. acc"});
 }
 
 /// A row of numbers and nothing else.
@@ -118,9 +135,8 @@ Header header_of(const RecordText& text)
         take(header.count, is_count(*entry) && is_number(parts_of(entry->value, true).front()));
         take(header.interval,
              (is_interval(*entry) || is_rate(*entry)) && is_number(parts_of(entry->value, true).front()));
-        take(header.unit, has_one_of(entry->name, {"unit", "unidad", "einheit"}));
-        take(header.peak,
-             has_one_of(entry->name, {"pga", "peak ground acc", "peak acc", "max acc", "maximum acc", "max. acc"}));
+        take(header.unit, is_unit(*entry));
+        take(header.peak, is_peak(*entry));
         if (header.station.empty() && entry->name.starts_with("station"))
             header.station = entry->value;
         if (header.orientation.empty() &&
@@ -324,8 +340,8 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
             largest = std::max(largest, std::fabs(a));
         }
         const std::string peak_unit = header.peak ? canonical_unit(header.peak->inside) : "";
-        if (const auto peak = peak_of(header, names.empty() ? "" : names[c]); peak)
-            record.header_pga_m_s2 = stated_peak_m_s2(*peak, peak_unit.empty() ? record.unit : peak_unit);
+        if (const auto peak = peak_of(header, names.empty() ? "" : names[c]); peak && !peak_unit.empty())
+            record.header_pga_m_s2 = stated_peak_m_s2(*peak, peak_unit);
         constexpr double alike = 3;
         if (unit.of_peak_only && record.header_pga_m_s2 &&
             !(largest < alike * *record.header_pga_m_s2 && largest > *record.header_pga_m_s2 / alike))

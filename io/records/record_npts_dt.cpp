@@ -30,9 +30,9 @@ std::optional<Size> size_of(const RecordText& text)
 {
     for (std::size_t i = 0; i + 1 < text.lines.size() && i <= longest_top; ++i) {
         const auto parts = parts_of(text.lines[i], true);
-        if (!is_number(parts.front()))
-            continue;
-        if (parts.size() != 2 || !is_number(parts[1]) || is_whole(parts[0]) == is_whole(parts[1]))
+        if (!std::all_of(parts.begin(), parts.end(), is_number) || (i == 0 && parts.size() == 1))
+            continue; // text, or a number that is the name
+        if (parts.size() != 2 || is_whole(parts[0]) == is_whole(parts[1]))
             return {};
         const std::size_t place = is_whole(parts[0]) ? 0 : 1;
         const Size size{i, static_cast<std::size_t>(std::stoul(std::string(parts[place]))),

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
+#include "io/files/csv_fields.hpp"
 #include "io/files/key_reader.hpp"
 #include "io/files/suggest.hpp"
 #include "io/keys/contact_keys.hpp"
@@ -415,6 +416,8 @@ std::string read_text(const std::filesystem::path& file)
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (text.size() > largest_file)
         throw InputError(file.string(), 0, "is larger than 1 MiB.\n  Is this a study file?");
+    if (const std::string reason = unreadable_encoding(text); !reason.empty())
+        throw InputError(file.string(), 0, reason);
     return text;
 }
 

@@ -103,6 +103,24 @@ TEST(BaseTable, OtherColumnsAreLeftAlone)
     EXPECT_DOUBLE_EQ(read_base_table(file.path()).acceleration_m_s2[30], acceleration(0.3));
 }
 
+TEST(BaseTable, UnitsInTheNamesCount)
+{
+    const auto value = [](double t) { return digits(acceleration(t)); };
+    const Motion si = read_base_table(File(rows("time_s,acceleration_m_s2", 50, value)).path());
+    for (const auto& [head, factor] : {std::pair{"time_s,acceleration_cm_s2", 0.01},
+                                       {"time_s,acceleration_g", 9.80665},
+                                       {"Time_s,Acceleration_gal", 0.01}}) {
+        const Motion motion = read_base_table(File(rows(head, 50, value)).path());
+        EXPECT_NEAR(motion.acceleration_m_s2[30], factor * si.acceleration_m_s2[30], 1e-12) << head;
+        EXPECT_DOUBLE_EQ(motion.dt_s, si.dt_s) << head;
+    }
+    const auto small = [](double t) { return digits(0.01 * acceleration(t)); };
+    const auto large = [](double t) { return digits(10 * acceleration(t)); };
+    const Motion metres = read_base_table(File(rows("time_s,displacement_m", 50, small)).path());
+    const Motion millimetres = read_base_table(File(rows("time_s,displacement_mm", 50, large)).path());
+    EXPECT_NEAR(millimetres.displacement_m[30], metres.displacement_m[30], 1e-12);
+}
+
 void expect_refused(const std::string& content, const std::vector<std::string>& words)
 {
     const File file(content);
@@ -130,6 +148,9 @@ TEST(BaseTable, SaysWhatIsWrong)
     const auto one = [](double t) { return digits(acceleration(t)); };
     expect_refused(rows("time_s,acceleration", 50, one), {"acceleration_m_s2", "The unit is part of the name"});
     expect_refused(rows("time_s,displacment_m", 50, one), {"Did you mean displacement_m?"});
+    expect_refused(rows("time_s,displacment_mm", 50, one),
+                   {"Did you mean displacement_mm?"}); // in the unit of the file
+    expect_refused(rows("time_s,displacement_furlong", 50, one), {"displacement_m?", "displacements in m, cm, mm"});
     expect_refused(rows("time_s,base_x_m", 50, one), {"has no motion", "base_x_m", "line of names"});
     expect_refused(rows("t,acceleration_m_s2", 50, one), {"begins with the column \"t\", not with time_s"});
     expect_refused(rows("# no names", 50, one), {"begins with the column \"column 1\""});

@@ -349,11 +349,35 @@ TEST(MeasuredFile, ColumnsOfCsvSayTheirUnits)
         EXPECT_NE(text.find(part), std::string::npos) << text;
     };
     refused("time_s,thta0_rad\n0,0\n", "Did you mean theta0_rad?");
-    refused("time_s,x0_furlong\n0,0\n", "Did you mean x0_m?");
+    refused("time_s,thta0_deg\n0,0\n", "Did you mean theta0_deg?"); // in the unit of the file
+    refused("time_s,x0_furlong\n0,0\n",
+            "Did you mean x0_m? The unit is part of the name, and the values must be in it: "
+            "known units are m, cm, mm, um.");
+    refused("time_s;x0_mm\n0;0,5\n", "x.csv:2: x0_mm = \"0,5\" has a decimal comma");
+    refused(std::string("\xff\xfet\0i\0", 6), "UTF-16");
     refused("time_s,x0_m\n0,0\n1\n", "x.csv:3: has 1 fields where there are 2 columns");
     refused("time_s,x0_m\n0,O\n", "x.csv:2: x0_m = \"O\" is not a number");
     refused("time_s,x0_m,x0_mm\n", "occurs twice");
     refused("", "no line of column names");
+}
+
+TEST(MeasuredFile, CsvOfOtherProgramsIsRead)
+{
+    const MeasuredFolder folder("separators");
+    fs::create_directories(folder / "a/runs");
+    write_content(folder / "a/campaign.toml", "[campaign]\nformat = \"stylobate-measured\"\nformat_version = 1\n"
+                                              "[[run]]\nname = \"x\"\nrate_hz = 2.0\nnoise_x_m = 0.001\n");
+    for (const char* csv :
+         {"time_s,X0_mm\n0,1.5\n0.5,2\n", "Time_s;X0_MM\n0;1.5\n0.5;2\n", "time_s\tx0_mm\n0\t1.5\n0.5\t2\n",
+          "\xef\xbb\xbftime_s; x0_m\n0; 1.5D-03\n5.0d-01; 2.0D-3\n"}) {
+        SCOPED_TRACE(csv);
+        write_content(folder / "a/runs/x.csv", csv);
+        const MeasuredRun run = read_campaign(folder / "a").runs[0];
+        EXPECT_EQ(run.time_s, (std::vector<double>{0, 0.5}));
+        ASSERT_EQ(run.blocks.x_m.values.size(), 2u);
+        EXPECT_DOUBLE_EQ(run.blocks.x_m.values[0], 0.0015);
+        EXPECT_DOUBLE_EQ(run.blocks.x_m.values[1], 0.002);
+    }
 }
 
 TEST(MeasuredFile, PracticeCampaignsAreRead)

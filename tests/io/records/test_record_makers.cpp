@@ -66,11 +66,21 @@ std::vector<Made> made_files()
          "NPTS = 23\nDT = 0.01\nacceleration in g\n" +
              rows(23, 4, [](int i) { return fmt::format(" {:.4f}", sample(i)); }),
          "", "headed", 23, g, 0.01, "u"},
+        {"other keys that are no count and no interval",
+         "Number of data channels : 3\nDelta (km) : 35\nTime of PGA (s) : 3.2\nVelocity unit : cm/s\nNumber of samples "
+         ": "
+         "23\nSample interval : 5 ms\nAcceleration unit : cm/s2\n" +
+             rows(23, 1, [](int i) { return fmt::format("{:.3f}", 1000 * sample(i)); }),
+         "", "headed", 23, 10, 0.005, "u"},
         {"Spanish",
          "Estacion: X\nNumero de muestras: 23\nTasa de muestreo: 100 Hz\nUnidades: gal\n" +
              rows(23, 1, [](int i) { return fmt::format("{:.3f}", 1000 * sample(i)); }),
          "", "headed", 23, 10, 0.01, "u"},
         // a name, the size, the values
+        {"eqsig, a name that begins with a number", replaced(named_size(), "motion 1", "1999 motion"), "m/s2",
+         "npts-dt", 23, 1, 0.005, "u"},
+        {"eqsig, a name that is a number", replaced(named_size(), "motion 1", "12"), "m/s2", "npts-dt", 23, 1, 0.005,
+         "u"},
         {"eqsig", named_size(), "m/s2", "npts-dt", 23, 1, 0.005, "u"},
         {"dt first, no name", "0.01 23\n" + rows(23, 5, [](int i) { return fmt::format(" {:.4f}", sample(i)); }), "g",
          "npts-dt", 23, g, 0.01, "u"},
@@ -115,6 +125,8 @@ std::vector<Made> made_files()
          named_columns("\xef\xbb\xbfTime [s],Acceleration [g],Velocity [m/s],Displacement [m]", 3), "", "columns", 12,
          g, 0.005, "u"},
         {"t a v d", named_columns("t a v d", 3, " "), "m/s2", "columns", 12, 1, 0.005, "u"},
+        {"names that are units", named_columns("t,cm/s2,cm/s,cm", 3), "", "columns", 12, 0.01, 0.005, "u"},
+        {"a superscript in Latin-1", named_columns("t [s],acc [m/s\xb2],v [m/s]", 2), "", "columns", 12, 1, 0.005, "u"},
         {"units only", named_columns("t,A [m/s2],B [cm/s],C [cm]", 3), "", "columns", 12, 1, 0.005, "u"},
         {"acc_x, vel_x, disp_x", named_columns("time,acc_x,vel_x,disp_x", 3), "g", "columns", 12, g, 0.005, "u"},
         {"blanks between names with units", named_columns("Time (s) Acc (g) Vel (m/s) Disp (cm)", 3, " "), "",
@@ -197,8 +209,9 @@ TEST(RecordMakers, EncodingsAndContainersAreNamed)
 
 TEST(RecordMakers, ColumnsThatAreNoAccelerationNeverBecomeMotions)
 {
-    for (const char* names : {"Time [s],Velocity [m/s]", "time,vel", "t,v", "t,disp_cm", "Time (s),Displacement (mm)",
-                              "time,Velocidad", "time,u", "t,x_mm", "time,PSA", "t,EW (kine)", "time,vx"})
+    for (const char* names :
+         {"Time [s],Velocity [m/s]", "time,vel", "t,v", "t,disp_cm", "Time (s),Displacement (mm)", "time,Velocidad",
+          "time,u", "t,cm/s", "t,cm", "time,Speed", "time,Dis.", "t,x_mm", "time,PSA", "t,EW (kine)", "time,vx"})
         expect_says(message_for(named_columns(names, 1), "g"), {"record.txt:1:", "no column is an acceleration"});
     for (const char* names : {"Period [s],Sa [g]", "Frequency (Hz),a [g]", "acc,t", "Displacement [m],Force [kN]"})
         expect_says(message_for(named_columns(names, 1), "g"), {"record.txt:1:", "must be the time"});
