@@ -40,7 +40,7 @@ struct OfBlock {
         inside,          ///< last step of the chunk after which it was within both; -1: none. step
         count
     };
-    static constexpr int traced = force_x; ///< so many fields, the first ones, are kept by `BundleOf::trace`
+    static constexpr int traced = force_x; ///< number of fields, the first ones, that `BundleOf::trace` keeps
 };
 
 /// Fields of a joint.

@@ -27,7 +27,7 @@ struct KernelTable {
     /// Multiply-adds on registers, `count` of them: the peak of the machine. Returns a number, so that none is removed.
     double (*peak_fma)(long count) = nullptr;
     /// Two registers of realizations at a time (`twice.hpp`), for a stack of the paper's model without watched pairs:
-    /// null where that is not built in. It is faster with up to so many free blocks.
+    /// null where that is not built in. It is faster up to this number of free blocks.
     int twice_blocks = 0;
     void (*run_twice)(const Topology&, const Bundle&, int first, int last) = nullptr;
     void (*fill_twice)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;

@@ -47,7 +47,7 @@ struct Lanes<double> {
 template <>
 struct Lanes<float> {
     using Number = float;
-    using Full = double; ///< the same in double precision: so many, or half as many
+    using Full = double; ///< the same in double precision: as many numbers, or half as many
     static constexpr int count = 1;
     STYLOBATE_INLINE static float load(const float* from) { return *from; }
     STYLOBATE_INLINE static void store(float* to, float value) { *to = value; }

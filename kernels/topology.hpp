@@ -25,7 +25,7 @@ struct Topology {
     int top = 0;   ///< block whose displacement is followed
     int joints = 0;
     const TopologyJoint* joint = nullptr; ///< (joints)
-    int watched = 0;                      ///< so many of the joints, the last ones, are watched pairs
+    int watched = 0;                      ///< number of joints, the last ones, that are watched pairs
     Model model{};                        ///< which step is run, and whether the bundle has the extensions' rows
     const int* bed_lists = nullptr;       ///< (`bed_lists_size`) what `list_beds` makes, and the clamped blocks
     bool stack = false; ///< the beds are those of one column: bed j lies between block fixed - 1 + j and the next one

@@ -102,7 +102,7 @@ void fill_twice(MotionFormula formula, const FormulaParameters& p, const double*
 /// @tparam Single the register of `Real`'s instruction set in single precision
 /// @tparam Here a type in the unnamed namespace of the file, which makes all these functions its own
 /// @tparam Two two registers at a time (`Twice<Real>`); void: none
-/// @param twice_blocks up to so many free blocks `Two` is faster (`docs/performance.md`)
+/// @param twice_blocks largest number of free blocks for which `Two` is faster (`docs/performance.md`)
 template <class Real, class Single, class Here, class Two = void>
 constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
 {

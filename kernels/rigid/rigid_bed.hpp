@@ -23,7 +23,7 @@ protected:
 
     /// The rows of a bed: a displacement of its blocks as changes of the two gaps, and as sliding of the upper one.
     /// Where an end is a corner of the lower block, its normal is that of the upper face; if it is the nearer end, the
-    /// sliding is along the upper face. `on_faces` says so for rows of the lower block's directions.
+    /// sliding is along the upper face. `on_faces` marks rows of the lower block's directions.
     struct Bed {
         int lower, upper;
         Real sine, cosine; ///< of the lower block

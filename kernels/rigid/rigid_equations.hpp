@@ -113,7 +113,7 @@ protected:
 
     // ---- the system of equations ----
 
-    /// Which rows of a bed say what. Friction at its limit is slope * N + rest.
+    /// Meaning of the rows of a bed. Friction at its limit is slope * N + rest.
     struct Rule {
         Real left, right, slips, slope, rest;
         Real back; ///< normal force of the expansion
