@@ -10,8 +10,8 @@
 /// (Poisson) | | XML | NRML 0.4 or 0.5 with `hazardCurves` |
 ///
 /// A MEASURE has its unit in its name: pga_m_s2, pga_cm_s2, pga_g, pgv_m_s, pgv_cm_s, pgd_m, pgd_cm, arias_m_s,
-/// cav_m_s, sa_1s_m_s2, sa_1s_cm_s2, sa_1s_g. Of a power law it may be without: then it is in SI. OpenQuake's measures
-/// are in its units (`fragility_measure.hpp`).
+/// cav_m_s, cav_cm_s, cav_g_s, sa_1s_m_s2, sa_1s_cm_s2, sa_1s_g. Of a power law it may be without: then it is in SI.
+/// OpenQuake's measures are in its units (`fragility_measure.hpp`).
 
 #include "ensemble/estimators/risk/hazard.hpp"
 

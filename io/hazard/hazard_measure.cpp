@@ -21,6 +21,7 @@ constexpr Unit accelerations[] = {{"m_s2", 1}, {"cm_s2", 0.01}, {"g", standard_g
 constexpr Unit velocities[] = {{"m_s", 1}, {"cm_s", 0.01}};
 constexpr Unit lengths[] = {{"m", 1}, {"cm", 0.01}};
 constexpr Unit si_velocity[] = {{"m_s", 1}};
+constexpr Unit cumulative[] = {{"m_s", 1}, {"cm_s", 0.01}, {"g_s", standard_gravity}};
 
 struct Family {
     const char* name;
@@ -32,7 +33,7 @@ constexpr Family families[] = {{"pga", IntensityMeasure::pga, accelerations, "PG
                                {"pgv", IntensityMeasure::pgv, velocities, "PGV"},
                                {"pgd", IntensityMeasure::pgd, lengths, "PGD"},
                                {"arias", IntensityMeasure::arias, si_velocity, "IA"},
-                               {"cav", IntensityMeasure::cav, si_velocity, "CAV"}};
+                               {"cav", IntensityMeasure::cav, cumulative, "CAV"}};
 
 std::optional<double> period_of(std::string_view text)
 {

@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -28,40 +26,16 @@ constexpr std::array<Bars, 2> of_morris{{{"mu_star", "mu*", "#999999"}, {"rms", 
 
 constexpr std::size_t columns = 2;
 
-struct Range {
-    double low, high;
-};
-
-/// Of Sobol's indices: all of their intervals, but no further than this; arrows at the edge mark what goes beyond.
-constexpr Range usual{-0.1, 1.1}, farthest{-0.5, 1.6};
-
-Range shown_range(const SensitivityTable& table, const std::vector<Bars>& bars)
-{
-    Range range = usual;
-    for (const Bars& bar : bars) {
-        const IntervalArray& of = table.find(bar.index)->of;
-        for (std::size_t i = 0; i < of.value.size(); ++i)
-            if (std::isfinite(of.value[i])) {
-                range.low = std::min({range.low, of.lower[i], of.value[i]});
-                range.high = std::max({range.high, of.upper[i], of.value[i]});
-            }
-    }
-    return {std::max(range.low, farthest.low), std::min(range.high, farthest.high)};
-}
-
 std::string spoken(std::string name)
 {
     std::replace(name.begin(), name.end(), '_', ' ');
     return name;
 }
 
-/// The bars of one outcome as data: place, value, ends of the interval within the range; and arrows at its edges,
-/// place, edge and direction, for what goes beyond.
-std::string data_of(const SensitivityTable& table, std::size_t outcome, const std::vector<Bars>& bars, double width,
-                    const Range& range)
+/// The bars of one outcome as data: place, value, ends of the interval.
+std::string data_of(const SensitivityTable& table, std::size_t outcome, const std::vector<Bars>& bars, double width)
 {
-    std::string data, arrows = fmt::format("$beyond{} << EOD\n", outcome);
-    const auto within = [&](double x) { return std::clamp(x, range.low, range.high); };
+    std::string data;
     const std::size_t n = table.factors.size();
     for (std::size_t b = 0; b < bars.size(); ++b) {
         data += fmt::format("$bars{}_{} << EOD\n", outcome, b);
@@ -72,15 +46,11 @@ std::string data_of(const SensitivityTable& table, std::size_t outcome, const st
                 continue;
             const double place =
                 static_cast<double>(k) + width * (static_cast<double>(b) - static_cast<double>(bars.size() - 1) / 2);
-            data += fmt::format("{} {} {} {}\n", place, within(of.value[i]), within(of.lower[i]), within(of.upper[i]));
-            if (of.lower[i] < range.low)
-                arrows += fmt::format("{} {} -1\n", place, range.low);
-            if (of.upper[i] > range.high)
-                arrows += fmt::format("{} {} 1\n", place, range.high);
+            data += fmt::format("{} {} {} {}\n", place, of.value[i], of.lower[i], of.upper[i]);
         }
         data += "EOD\n";
     }
-    return data + arrows + "EOD\n";
+    return data;
 }
 
 } // namespace
@@ -97,11 +67,9 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
     const std::size_t n = table.factors.size(), outcomes = table.outcomes.size();
     const std::size_t lines = (outcomes + columns - 1) / columns;
 
-    constexpr double huge = std::numeric_limits<double>::max();
-    const Range range = sobol ? shown_range(table, bars) : Range{-huge, huge};
     std::string script;
     for (std::size_t o = 0; o < outcomes; ++o)
-        script += data_of(table, o, bars, width, range);
+        script += data_of(table, o, bars, width);
     script += "set multiplot\n" +
               gnuplot_heading(title, fmt::format("{} rows · bars: {}", table.rows, describe_interval(table.interval))) +
               fmt::format("set border 3 linewidth 0.8\nset tics out nomirror\nset grid ytics linecolor rgb '#dddddd' "
@@ -109,8 +77,7 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                           "set xrange [-0.6:{}]\n",
                           width * 0.92, static_cast<double>(n) - 0.4);
     if (sobol)
-        script += fmt::format("set yrange [{}:{}]\nset ytics -0.4,0.2,1.6 format '%.1f'\n", range.low - 0.03,
-                              range.high + 0.03);
+        script += "set yrange [-0.03:1.03]\nset ytics 0,0.2,1 format '%.1f'\n";
     for (std::size_t b = 0; b < bars.size(); ++b)
         script += fmt::format("set label {} at screen {}, screen 0.872 center font ',17' textcolor rgb '{}'\n",
                               gnuplot_text(std::string("■ ") + bars[b].says),
@@ -137,11 +104,6 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
             plot += fmt::format(", $bars{}_{} using 1:3:(0):($4-$3) with vectors nohead linecolor rgb '#303030' "
                                 "linewidth 1.2",
                                 o, b);
-        if (script.find(fmt::format("$beyond{} << EOD\nEOD", o)) == std::string::npos)
-            for (const auto& [sign, triangle] : {std::pair{'>', 9}, {'<', 11}})
-                plot += fmt::format(", $beyond{} using 1:($3 {} 0 ? $2 : NaN) with points pointtype {} pointsize 1.4 "
-                                    "linecolor rgb '#303030'",
-                                    o, sign, triangle);
         script += plot + "\nunset label\n";
     }
     run_gnuplot(script + "unset multiplot\n", PictureSize{}, png);

@@ -70,8 +70,10 @@ double per_si_unit(const std::string& measure)
         return 1 / standard_gravity;
     if (measure == "PGV" || measure == "PGD")
         return 100;
-    if (measure == "IA" || measure == "CAV")
+    if (measure == "IA")
         return 1;
+    if (measure == "CAV")
+        return 1 / standard_gravity;
     if (measure.starts_with("SA(") && measure.ends_with(")")) {
         double period = 0;
         const char* const end = measure.data() + measure.size() - 1;
@@ -82,6 +84,16 @@ double per_si_unit(const std::string& measure)
     throw InputError(fmt::format("fragility: '{}' is not a known intensity measure of OpenQuake.\n  Known: PGA, "
                                  "PGV, PGD, SA(period), IA, CAV.",
                                  measure));
+}
+
+const char* openquake_unit(const std::string& measure)
+{
+    per_si_unit(measure); // refuses an unknown one
+    return measure == "PGV"   ? "cm/s"
+           : measure == "PGD" ? "cm"
+           : measure == "IA"  ? "m/s"
+           : measure == "CAV" ? "g s"
+                              : "g";
 }
 
 void check_fragility_model(const FragilityModel& model)

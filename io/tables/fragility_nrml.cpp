@@ -36,7 +36,7 @@ std::string interval(const FragilityValue& value, double scale)
 {
     if (std::isnan(value.lower))
         return fmt::format("{:.6g} (no interval)", value.value * scale);
-    return fmt::format("{:.6g} [{:.6g}, {:.6g}]", value.value * scale, value.lower * scale, value.upper * scale);
+    return fmt::format("{:.6g} ({:.6g} to {:.6g})", value.value * scale, value.lower * scale, value.upper * scale);
 }
 
 void append_function(pugi::xml_node model_node, const FragilityModel& model, const FragilityFunction& function)
@@ -59,6 +59,7 @@ void append_function(pugi::xml_node model_node, const FragilityModel& model, con
         set(imls, "minIML", fmt::format("{}", function.least * scale));
         set(imls, "maxIML", fmt::format("{}", function.most * scale));
     }
+    append_comment(node, fmt::format("intensities in {}", openquake_unit(function.measure)));
     if (!function.note.empty())
         append_comment(node, function.note);
     for (std::size_t s = 0; s < function.states.size(); ++s) {
@@ -67,8 +68,8 @@ void append_function(pugi::xml_node model_node, const FragilityModel& model, con
             std::string text, bounds;
             for (const FragilityValue& value : state.probability) {
                 text += fmt::format("{}{}", text.empty() ? "" : " ", value.value);
-                bounds += std::isnan(value.lower) ? " [none]"
-                                                  : fmt::format(" [{:.6g}, {:.6g}]", value.lower, value.upper);
+                bounds += bounds.empty() ? " " : ", ";
+                bounds += std::isnan(value.lower) ? "none" : fmt::format("{:.6g} to {:.6g}", value.lower, value.upper);
             }
             append_comment(node, fmt::format("{} at {:g} %:{}", model.limit_states[s], 100 * model.level, bounds));
             pugi::xml_node poes = node.append_child("poes");

@@ -11,6 +11,8 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_page.hpp"
 #include "studies/report/json.hpp"
@@ -288,17 +290,24 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
     if (!options.set.empty())
         throw InputError(fmt::format("--set {}: {} is a risk estimate and contains no study whose keys could be set",
                                      options.set.front(), file));
-    const Risk risk = read_risk(file);
+    const bool change = recognise(file).detail == risk_of_comparison;
     if (!picture) {
         const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
         check_output_folder(file, folder, options.force);
-        write_files(risk_csv(risk), folder);
+        write_files(change ? risk_change_csv(read_risk_change(file)) : risk_csv(read_risk(file)), folder);
         return folder;
     }
     const std::string name = wanted.limit.empty() ? "." : "_" + wanted.limit + ".";
     const fs::path to = wanted.output.empty() ? beside(file, name + format) : fs::path(wanted.output);
     check_output(file, to, options.force);
-    plot_risk(risk, wanted.limit, wanted.title.empty() ? "Risk: " + risk.title : wanted.title, to);
+    const auto title = [&](const std::string& usual) { return wanted.title.empty() ? usual : wanted.title; };
+    if (change) {
+        const RiskChange found = read_risk_change(file);
+        plot_risk_change(found, wanted.limit, title("Change of risk: " + found.title), to);
+    } else {
+        const Risk risk = read_risk(file);
+        plot_risk(risk, wanted.limit, title("Risk: " + risk.title), to);
+    }
     return to;
 }
 

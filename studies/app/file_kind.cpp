@@ -73,6 +73,8 @@ constexpr Use uses[] = {
     {FileKind::comparison, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::results, "risk", "stylobate risk {} --hazard HAZARD",
      "how often its limit states are reached at a site, and how likely that is over years"},
+    {FileKind::comparison, "risk", "stylobate risk {} --hazard HAZARD",
+     "what it changes of how often limit states are reached at a site, and over years (fragility studies)"},
     {FileKind::risk, "report", "stylobate report {}", "writes a page of it"},
     {FileKind::risk, "export", "stylobate export {} --to png", "draws it; --to csv: its tables"},
     {FileKind::results, "past", "stylobate past {} OTHERS", "the past that it has in common with other structures"},
@@ -106,6 +108,8 @@ RecognisedFile of_sealed(const fs::path& file)
         return {FileKind::comparison, ""};
     if (label.format == "stylobate-risk")
         return {FileKind::risk, ""};
+    if (label.format == "stylobate-risk-change")
+        return {FileKind::risk, risk_of_comparison};
     return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind} : RecognisedFile{};
 }
 
@@ -237,7 +241,8 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
         if (const std::string_view verb = use.verb;
             use.kind == file.kind && !(verb == "replay" && is({"rare"})) &&
             !(verb == "compare" && is({"rare", "sensitivity", "survival", "replay"})) &&
-            (verb != "risk" || is({"fragility"})) && (verb != "past" || is({"survival"})))
+            (verb != "risk" || file.kind != FileKind::results || is({"fragility"})) &&
+            (verb != "past" || is({"survival"})))
             found.push_back({use.verb, fmt::format(fmt::runtime(use.command), name), use.purpose});
     return found;
 }

@@ -25,9 +25,12 @@ enum class FileKind {
     page         ///< HTML
 };
 
+inline constexpr const char* risk_of_comparison = "of a comparison"; ///< detail of a risk estimate of several studies
+
 struct RecognisedFile {
     FileKind kind = FileKind::unknown;
-    std::string detail; ///< of results the kind of the study, of a record its format, of a picture its format
+    std::string detail; ///< of results the kind of the study, of a record its format, of a picture its format; of a
+                        ///< risk estimate `risk_of_comparison` or empty
 };
 
 /// @throws InputError if it is a file of stylobate that is damaged, truncated or of another format version

@@ -16,6 +16,8 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
@@ -42,6 +44,7 @@ struct Told {
     std::string text; ///< follows "FILE: "
     Json json = Json::object();
     bool unfinished = false;
+    bool has_risk = true; ///< of a comparison: whether it is of fragility studies
 };
 
 Json json_of(const std::vector<Finding>& findings)
@@ -257,6 +260,7 @@ void tell_comparison(const std::string& file, Told& told)
     told.text = fmt::format("a comparison of studies of kind '{}', by stylobate {}\n{}", comparison.kind,
                             comparison.code_version, comparison_text(comparison));
     told.json = comparison_json(comparison);
+    told.has_risk = comparison.kind == "fragility" && comparison.intensity.size() > 1;
     told.json.member("holds", "comparison").member("code_version", comparison.code_version);
 }
 
@@ -289,6 +293,15 @@ void tell_calibration(const std::string& file, Told& told)
 
 void tell_risk(const std::string& file, Told& told)
 {
+    if (recognise(file).detail == risk_of_comparison) {
+        const RiskChange change = read_risk_change(file);
+        told.json.member("holds", "risk estimate of a comparison")
+            .member("code_version", change.code_version)
+            .member("risk_change", risk_change_json(change));
+        told.text = fmt::format("a risk estimate of a comparison, by stylobate {}\n{}", change.code_version,
+                                risk_change_text(change));
+        return;
+    }
     const Risk risk = read_risk(file);
     told.json.member("holds", "risk estimate")
         .member("code_version", risk.code_version)
@@ -415,6 +428,8 @@ void print_file(const CommonOptions& options, const std::string& file, bool all)
                          "layouts.");
     }
     std::vector<FileUse> uses = uses_of(known, file);
+    if (!told.has_risk)
+        std::erase_if(uses, [](const FileUse& use) { return use.verb == "risk"; });
     std::erase_if(uses, [&](const FileUse& use) { return use.verb == (told.unfinished ? "report" : "merge"); });
     if (options.json) {
         Json verbs = Json::list();

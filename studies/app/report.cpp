@@ -10,6 +10,8 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_page.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
@@ -92,7 +94,9 @@ int report_command(const CommonOptions& options, const std::string& file, const 
         page = calibration_page(read_calibration(file), file, wanted.title).text();
     } else if (kind == FileKind::risk) {
         check_no_realizations(options, wanted, file, "risk estimate");
-        page = risk_page(read_risk(file), file, wanted.title).text();
+        page = recognise(file).detail == risk_of_comparison
+                   ? risk_change_page(read_risk_change(file), file, wanted.title).text()
+                   : risk_page(read_risk(file), file, wanted.title).text();
     } else {
         const Results results(file, options.set);
         check_complete(results.reader(), file);

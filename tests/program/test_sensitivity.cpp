@@ -157,7 +157,7 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
         peak.value.push_back(fell ? 0.048 : std::min(row.outcome.peak_top_displacement_m, 0.048));
     }
     for (const auto& [outcome, design] : {std::pair{std::size_t{0}, &collapse}, {std::size_t{2}, &peak}}) {
-        const SobolIndices again = sobol_indices(*design, {.seed = 1});
+        const SobolIndices again = possible_shares(sobol_indices(*design, {.seed = 1}));
         EXPECT_EQ(table.mean.value[outcome], again.mean.value);
         for (std::size_t k = 0; k < 6; ++k) {
             const std::size_t i = outcome * 7 + k;
@@ -165,9 +165,10 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
             EXPECT_TRUE(same(table.find("total")->of.upper[i], again.of_mean[k].total.upper));
             EXPECT_TRUE(same(table.find("value_total")->of.lower[i], again.of_value[k].total.lower));
             const JsonValue& told = found["outcomes"][table.outcomes[outcome]]["factors"][table.factors[k]];
-            EXPECT_EQ(told["value_first"]["value"].number, again.of_value[k].first.value);
+            EXPECT_TRUE(std::isnan(again.of_value[k].first.value) ||
+                        told["value_first"]["value"].number == again.of_value[k].first.value);
         }
-        EXPECT_EQ(table.find("value_total")->of.value[outcome * 7 + 6], again.of_value[6].total.value);
+        EXPECT_TRUE(same(table.find("value_total")->of.value[outcome * 7 + 6], again.of_value[6].total.value));
         EXPECT_TRUE(std::isnan(table.find("total")->of.value[outcome * 7 + 6]));
     }
 

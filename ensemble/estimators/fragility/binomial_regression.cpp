@@ -64,6 +64,26 @@ bool parts(const Eigen::VectorXd& eta, const BinomialCounts& counts)
     return any;
 }
 
+/// Whether one value of x parts the outcomes, in either direction; runs at that value itself may have both. Then a
+/// slope without end is the likeliest, and rounding decides where the search for it ends.
+bool parts_at_one_value(const Eigen::VectorXd& x, const BinomialCounts& counts)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double first_reached = infinity, last_reached = -infinity, first_missed = infinity, last_missed = -infinity;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        if (counts.reached[i] > 0) {
+            first_reached = std::min(first_reached, x[i]);
+            last_reached = std::max(last_reached, x[i]);
+        }
+        if (counts.reached[i] < counts.trials[i]) {
+            first_missed = std::min(first_missed, x[i]);
+            last_missed = std::max(last_missed, x[i]);
+        }
+    }
+    const bool differ = std::max(last_reached, last_missed) > std::min(first_reached, first_missed);
+    return differ && (last_missed <= first_reached || last_reached <= first_missed);
+}
+
 /// Points that carry information on the coefficients: all others are certain to rounding.
 Eigen::Index telling_points(Link link, const Eigen::VectorXd& eta, const BinomialCounts& counts)
 {
@@ -111,11 +131,15 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
         fit.maximum = reached == 0 ? Maximum::none : Maximum::all;
         return fit;
     }
+    const bool one_measure = offset.size() == 0 && parameters == 2 && (predictors.col(0).array() == 1).all();
+    const bool separated = one_measure && parts_at_one_value(predictors.col(1), counts);
     fit.log_likelihood = -std::numeric_limits<double>::infinity();
     // where fewer points than coefficients carry information, the others are 0 or 1 to rounding: it grows without bound
     const auto found = [&] {
-        if (offset.size() == 0 &&
-            telling_points(link, predictor(predictors, fit.coefficients, offset), counts) < parameters)
+        if (offset.size() > 0)
+            return fit;
+        const Eigen::VectorXd eta = predictor(predictors, fit.coefficients, offset);
+        if (separated || parts(eta, counts) || telling_points(link, eta, counts) < parameters)
             fit.maximum = Maximum::separated;
         return fit;
     };

@@ -217,6 +217,8 @@ Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, cons
         mean += target.value(coefficients) / n;
     for (const ParameterVector& coefficients : without.coefficients)
         square += std::pow(target.value(coefficients) - mean, 2);
+    if (!(square > 1e-20 * mean * mean)) // equal records
+        return {};
     const double value = target.value(curve.fit.coefficients), unbiased = n * value - (n - 1) * mean;
     const double reach = student_reach(record_spread(curve, target).freedom, level) * std::sqrt((n - 1) / n * square);
     // an estimate is never outside its own interval

@@ -77,7 +77,7 @@ Jackknife jackknife(const FittedCurve& curve);
 /// The jackknife over records (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993), chapter 11): G value - (G
 /// - 1) mean of the values without each, which removes the bias that a steep curve has with few records, -+ Student's
 /// quantile x the standard error of the values without each.
-/// @return unbounded where the curve depends on one record
+/// @return unbounded where the curve depends on one record, and where the records do not differ
 Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, const CurveTarget& target, double level);
 
 /// value -+ Student's quantile x standard error from the records, CR3.

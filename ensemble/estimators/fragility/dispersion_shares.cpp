@@ -168,6 +168,49 @@ Limits fieller(double a, double b, double aa, double ab, double bb, double t)
     return {(linear - std::sqrt(root)) / square, (linear + std::sqrt(root)) / square};
 }
 
+/// The part of a set of shares that is possible: between 0 and 1. A set keeps its coverage when what cannot be true is
+/// cut from it. It contains the estimate. Unbounded where the whole range is in it, or nothing of it: the share is not
+/// determined.
+Limits within(const Limits& set, double estimate)
+{
+    const bool none_differ = set.lower == 0 && set.upper == 0;
+    if (!none_differ && (set.upper <= 0 || set.lower >= 1))
+        return {};
+    const Limits cut{std::min(std::clamp(set.lower, 0.0, 1.0), estimate),
+                     std::max(std::clamp(set.upper, 0.0, 1.0), estimate)};
+    return cut.lower <= 0 && cut.upper >= 1 ? Limits{} : cut;
+}
+
+/// The variances that are nearest to the estimates and none of which is negative: half differences that do not increase
+/// from a level to the next one below, by pooling neighbours (Ayer & others 1955, as in stripe_shares.cpp).
+Components possible(const Differences& differences, const std::array<bool, dispersion_levels>& known)
+{
+    struct Pool {
+        double sum, levels;
+        double mean() const { return sum / levels; }
+    };
+    std::vector<Pool> pools;
+    for (std::size_t l = 0; l < dispersion_levels; ++l) {
+        if (!known[l])
+            continue;
+        pools.push_back({std::max(differences[l], 0.0), 1});
+        while (pools.size() > 1 && pools[pools.size() - 2].mean() < pools.back().mean()) {
+            const Pool last = pools.back();
+            pools.pop_back();
+            pools.back() = {pools.back().sum + last.sum, pools.back().levels + last.levels};
+        }
+    }
+    Differences pooled{};
+    std::size_t l = 0;
+    for (const Pool& pool : pools)
+        for (double i = 0; i < pool.levels; ++l)
+            if (known[l]) {
+                pooled[l] = pool.mean();
+                ++i;
+            }
+    return components(pooled, known);
+}
+
 } // namespace
 
 const char* to_string(DispersionLevel level)
@@ -197,8 +240,9 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
 
     DispersionShares shares;
     shares.records = records;
-    const Components all = components(differences, known);
+    const Components all = components(differences, known), nearest = possible(differences, known);
     shares.total = all[dispersion_levels];
+    const bool any = nearest[dispersion_levels] > 0;
 
     // the jackknife's pseudo-values give covariances with the total
     const double n = static_cast<double>(records);
@@ -231,7 +275,7 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
         DispersionShare& share = shares.levels[l];
         share.known = known[l];
         share.variance = all[l];
-        share.share = all[l] / shares.total;
+        share.share = any ? nearest[l] / nearest[dispersion_levels] : std::nan("");
         if (!known[l]) {
             shares.says.push_back(fmt::format("No two runs differ only in {}: its share is part of the level above.",
                                               to_string(static_cast<DispersionLevel>(l))));
@@ -241,13 +285,14 @@ DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level
             continue;
         const double own = covariance(l, l), with_total = covariance(l, dispersion_levels);
         share.variance_limits = {share.variance - t * std::sqrt(own), share.variance + t * std::sqrt(own)};
-        share.share_limits = fieller(all[l], shares.total, own, with_total, total_variance, t);
+        if (any)
+            share.share_limits = within(fieller(all[l], shares.total, own, with_total, total_variance, t), share.share);
     }
     if (!each)
         shares.says.push_back(fmt::format("{} records, or too few of them with runs at every level, are too few for "
                                           "intervals (at least {}).",
                                           records, least_records));
-    if (!(shares.total > 0))
+    if (!any)
         shares.says.push_back("All runs have the same response: there is no dispersion to divide.");
     return shares;
 }

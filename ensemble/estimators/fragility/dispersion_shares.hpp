@@ -11,8 +11,9 @@
 ///
 /// (own derivation; the model is that of Searle, Casella & McCulloch, "Variance Components" (1992)). D_l is estimated
 /// without bias from all such pairs, with any number of runs anywhere. The variance of the level is D_l - D_(l+1), the
-/// total is D of the records, and the shares add up to 1 by construction. An estimate may be negative where the true
-/// value is near 0; truncating it would bias it.
+/// total is D of the records. An estimated variance may be negative where the true value is near 0; it is given as it
+/// is, because truncating it would bias it. The shares are those of the nearest variances that are possible (none
+/// negative), so that each is between 0 and 1 and they add up to 1.
 
 #include "ensemble/estimators/fragility/limits.hpp"
 
@@ -40,8 +41,11 @@ struct DispersionShare {
     bool known = false;  ///< false where no two runs differ at this level: it is then part of the level above
     double variance = 0; ///< in the square of the response's unit
     Limits variance_limits;
-    double share = 0; ///< of the total
+    double share = 0; ///< of the total, in [0, 1]; NaN where all responses are equal
     Limits share_limits;
+
+    /// Whether the runs say anything of the share: its interval is not the whole of [0, 1].
+    bool determined() const { return share_limits.lower >= 0 && share_limits.upper <= 1; }
 };
 
 struct DispersionShares {
@@ -54,7 +58,8 @@ struct DispersionShares {
 
 /// Intervals by the jackknife over records: for a variance Student's; for a share the set of Fieller ("Some problems in
 /// interval estimation", Journal of the Royal Statistical Society B 16 (1954) 175), the shares s at which the level's
-/// variance - s total is not significantly different from 0.
+/// variance - s total is not significantly different from 0, cut to [0, 1]: a set keeps its coverage when what cannot
+/// be true is cut from it. Unbounded where the whole of [0, 1] is in it.
 ///
 /// @throws InputError with fewer than two records, a response that is not finite, or a level outside (0.5, 1)
 DispersionShares dispersion_shares(std::span<const NestedRun> runs, double level = 0.95);

@@ -76,6 +76,16 @@ public:
         return limits;
     }
 
+    /// Whether weaker shaking did more than stronger shaking, which no non-decreasing curve does.
+    bool contradictory() const
+    {
+        for (const auto& [low, lower] : all_)
+            for (const auto& [high, upper] : none_)
+                if (low < high && lower > upper)
+                    return true;
+        return false;
+    }
+
     Limits median() const
     {
         Limits limits{0, std::numeric_limits<double>::infinity()};
@@ -132,28 +142,35 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
         curve.at.push_back({intensity, same_everywhere(nan, {0, 1})});
     if (data.measures == 1) {
         const BoundsWithoutCurve bounds(data, options.level);
+        if (bounds.contradictory()) {
+            curve.says.emplace_back("Weaker shaking reached the limit state where stronger shaking did not: there is "
+                                    "no curve that rises, no median and no dispersion.");
+            return;
+        }
         curve.median = same_everywhere(nan, bounds.median());
         curve.dispersion = same_everywhere(nan, bounds.dispersion(options.link));
         for (CurvePoint& point : curve.at)
             point.probability = same_everywhere(nan, bounds.probability(point.intensity[0]));
     }
-    const std::string bounds =
-        data.measures == 1 && std::isfinite(curve.median.records.upper) && curve.median.records.lower > 0
-            ? fmt::format("The median lies between {:.4g} and {:.4g}.", curve.median.records.lower,
-                          curve.median.records.upper)
-            : std::string("Only bounds of the probabilities can be given.");
+    const Limits& median = curve.median.records;
+    const std::string where =
+        median.lower > 0 && std::isfinite(median.upper)
+            ? fmt::format("The median lies between {:.4g} and {:.4g}.", median.lower, median.upper)
+        : median.lower > 0            ? fmt::format("The median lies above {:.4g}.", median.lower)
+        : std::isfinite(median.upper) ? fmt::format("The median lies below {:.4g}.", median.upper)
+                                      : std::string("Only bounds of the probabilities can be given.");
     if (curve.maximum == Maximum::none)
         curve.says.push_back(fmt::format(
-            "None of {} runs of {} records reached the limit state: there is no curve. Increase the intensities.",
-            curve.trials, curve.records));
+            "None of {} runs of {} records reached the limit state: there is no curve. {} Increase the intensities.",
+            curve.trials, curve.records, where));
     else if (curve.maximum == Maximum::all)
-        curve.says.push_back(
-            fmt::format("All {} runs of {} records reached the limit state: there is no curve. Reduce the intensities.",
-                        curve.trials, curve.records));
+        curve.says.push_back(fmt::format(
+            "All {} runs of {} records reached the limit state: there is no curve. {} Reduce the intensities.",
+            curve.trials, curve.records, where));
     else
-        curve.says.push_back("One intensity separates all runs that reached the limit state from all that did not: the "
-                             "likelihood has no maximum, so there is no curve. " +
-                             bounds + " Run more intensities between them.");
+        curve.says.push_back("The stripes separate: one intensity divides all runs that reached the limit state from "
+                             "all that did not. The likelihood has no maximum, so there is no curve. " +
+                             where + " Run more intensities between them.");
 }
 
 } // namespace
@@ -214,8 +231,18 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
     if (data.measures == 1 && !falls) {
         curve.median = changed(estimates.back(), std::exp(estimates.back().value), exponentials);
         curve.dispersion = changed(estimates[1], 1 / estimates[1].value, inverses);
-    } else
-        curve.median = curve.dispersion = same_everywhere(std::numeric_limits<double>::quiet_NaN(), {});
+        if (std::isfinite(estimates[1].records.lower) && !(estimates[1].records.lower > 0)) {
+            curve.median = same_everywhere(curve.median.value, {0, std::numeric_limits<double>::infinity()});
+            curve.says.emplace_back("The share that reaches the limit state does not grow significantly with the "
+                                    "intensity: the median has no interval.");
+        }
+    } else {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        curve.median = curve.dispersion = same_everywhere(nan, {0, std::numeric_limits<double>::infinity()});
+        if (falls)
+            for (CurvePoint& point : curve.at)
+                point.probability = same_everywhere(nan, {0, 1});
+    }
 
     if (falls)
         curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
@@ -223,6 +250,9 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
     if (intervals && without.coefficients.empty())
         curve.says.push_back("The curve depends on one record: without it, the likelihood is unbounded. There is no "
                              "interval; add records or intensities.");
+    if (!without.coefficients.empty() && std::isinf(estimates.front().records.upper))
+        curve.says.emplace_back("All records have the same outcomes: their scatter is not known, and there is no "
+                                "interval. Are they the same motion?");
     if (!intervals)
         curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
                                          "and must not be used alone.",

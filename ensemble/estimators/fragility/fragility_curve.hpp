@@ -51,8 +51,10 @@ struct FragilityCurve {
     Maximum maximum = Maximum::inside; ///< otherwise there is no curve, only bounds of the probabilities
     double log_likelihood = 0;
     std::vector<CurveEstimate> coefficients; ///< (1 + measures) constant, then one per ln intensity
-    CurveEstimate median;                    ///< of one measure, in its unit; where separated, its form-free bounds
-    CurveEstimate dispersion;                ///< 1 / slope: the standard deviation of ln capacity for the probit
+    /// Of one measure, in its unit. Without a curve the value is NaN, and the limits are those of any non-decreasing
+    /// curve. A slope that is not significantly above 0 gives no limits.
+    CurveEstimate median;
+    CurveEstimate dispersion; ///< 1 / slope: the standard deviation of ln capacity for the probit
     std::vector<CurvePoint> at;
     std::vector<std::string> says; ///< remarks for the reader, in sentences
 };

@@ -145,10 +145,10 @@ std::string sentence(const RankedMeasure& measure, double less, const std::strin
                      double level)
 {
     std::string says =
-        fmt::format("{}: dispersion {:.3f} [{:.3f}, {:.3f}], information {:.3f} nat per run", measure.name,
+        fmt::format("{}: dispersion {:.3f} ({:.3f} to {:.3f}), information {:.3f} nat per run", measure.name,
                     measure.dispersion, measure.dispersion_limits.lower, measure.dispersion_limits.upper, measure.gain);
     if (!best.empty())
-        says += fmt::format(", {:.3f} [{:.3f}, {:.3f}] less than {}{}", less, measure.behind.lower,
+        says += fmt::format(", {:.3f} ({:.3f} to {:.3f}) less than {}{}", less, measure.behind.lower,
                             measure.behind.upper, best, measure.behind.lower <= 0 ? ", which is not significant" : "");
     if (features > 0) {
         std::string adds;
@@ -188,6 +188,7 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
         RankedMeasure measure = fitted.measure;
         if (fitted.by_record.empty()) {
             measure.sufficient = false;
+            measure.dispersion = measure.gain = std::nan("");
             measure.says = fmt::format("{}: no curve with this measure alone, so it is not ranked.", measure.name);
         } else {
             const auto [sum, limits] = behind(all.front().by_record, fitted.by_record, level);

@@ -23,7 +23,9 @@ struct Sufficiency {
 struct RankedMeasure {
     std::string name;
     std::size_t column = 0; ///< in the data
-    double dispersion = 0;  ///< of the lognormal curve in this measure alone: the smaller, the more efficient
+    /// Of the lognormal curve in this measure alone: the smaller, the more efficient. Without a curve it is NaN, as is
+    /// the gain.
+    double dispersion = 0;
     Limits dispersion_limits;
     double gain = 0; ///< information on the outcome: (log likelihood - that of the mean share) / runs [nat]
     Limits behind;   ///< by how much the best measure's gain exceeds it, by records [nat]; 0, 0 of the best itself

@@ -100,6 +100,14 @@ void set_limits(const std::vector<std::vector<RecordCount>>& counts, double leve
         stripes[j].limits = record_share_limits(counts[j], level);
         stripes[j].band = record_share_limits(counts[j], 1 - (1 - level) / static_cast<double>(stripes.size()));
     }
+    // below the first damage a probability is no greater than that of stronger shaking; above the last survival it is
+    // no smaller than that of weaker shaking
+    for (std::size_t j = stripes.size(); j-- > 1;)
+        if (stripes[j - 1].monotone == 0)
+            stripes[j - 1].limits.upper = std::min(stripes[j - 1].limits.upper, stripes[j].limits.upper);
+    for (std::size_t j = 1; j < stripes.size(); ++j)
+        if (stripes[j].monotone == 1)
+            stripes[j].limits.lower = std::max(stripes[j].limits.lower, stripes[j - 1].limits.lower);
     for (std::size_t j = 1; j < stripes.size(); ++j)
         stripes[j].band.lower = std::max(stripes[j].band.lower, stripes[j - 1].band.lower);
     for (std::size_t j = stripes.size(); j-- > 1;)
@@ -127,8 +135,8 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
         found.stripes[j].intensity = data.intensity[j];
         found.stripes[j].share = found.stripes[j].reached / found.stripes[j].trials;
     }
-    set_limits(counts, level, found.stripes);
     make_monotone(found.stripes);
+    set_limits(counts, level, found.stripes);
 
     found.says = "The shares do not fall significantly with the intensity.";
     const std::vector<Fall> falls = falls_of(data, found.stripes);
@@ -141,8 +149,8 @@ StripeShares stripe_shares(const FragilityData& data, double level, std::uint64_
         const StripeShare &from = found.stripes[largest.from], &to = found.stripes[largest.to];
         found.says =
             fmt::format("Stronger shaking was less damaging: from intensity {:.4g} to {:.4g} the share that "
-                        "reached the limit state falls from {:.3f} [{:.3f}, {:.3f}] to {:.3f} [{:.3f}, {:.3f}] "
-                        "(p = {:.2g}). A monotonic curve does not describe it.",
+                        "reached the limit state falls from {:.3f} ({:.3f} to {:.3f}) to {:.3f} ({:.3f} to {:.3f}), "
+                        "p = {:.2g}. A monotonic curve does not describe it.",
                         from.intensity, to.intensity, from.share, from.limits.lower, from.limits.upper, to.share,
                         to.limits.lower, to.limits.upper, found.p_monotone);
     }

@@ -14,7 +14,9 @@ struct StripeShare {
     std::size_t records = 0;
     double trials = 0, reached = 0;
     double share = 0;
-    Limits limits;       ///< of this stripe alone, by its records (`record_share_limits`)
+    /// By its records (`record_share_limits`). Below the first stripe with damage the upper limit is no greater than
+    /// that of any stronger stripe, and above the last stripe without survival likewise the lower one.
+    Limits limits;
     double monotone = 0; ///< share of the best non-decreasing curve (pooled adjacent violators)
     Limits band;         ///< contains all stripes of a non-decreasing truth at once, with the level
 };

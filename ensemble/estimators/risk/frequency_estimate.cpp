@@ -141,8 +141,9 @@ private:
         }
         for (const double v : values)
             square += (v - mean) * (v - mean);
-        if (!(square > 0)) // nothing at all comes from there
-            return {value, value};
+        if (!(square > 1e-20 * mean * mean)) // nothing at all comes from there, or records without any scatter
+            return {value > std::numeric_limits<double>::min() ? 0 : value,
+                    value > std::numeric_limits<double>::min() ? no_end : value};
         ParameterVector gradient(2);
         for (Eigen::Index j = 0; j < 2; ++j) {
             constexpr double step = 1e-5;
@@ -182,6 +183,17 @@ public:
         for (std::size_t g = 0; g < data.records; ++g)
             for (const FragilityRow& row : data.of_record(g))
                 own_[g][row.point] = row.reached / row.trials;
+        first_ = first_stripe_of(monotone_);
+        for (std::size_t j = 0; j < nodes_.size(); ++j) {
+            std::vector<double> at;
+            for (const auto& record : own_)
+                at.push_back(record[j]);
+            const Limits share = mean_limits(at, mean_share(j), 1);
+            low_.push_back(share.lower);
+            high_.push_back(std::min(share.upper, 1.0));
+        }
+        for (std::size_t j = first_; j-- > 0;) // weaker shaking has no greater probability than stronger shaking
+            high_[j] = std::min(high_[j], high_[j + 1]);
     }
 
     FrequencyEstimate estimate() const
@@ -191,12 +203,8 @@ public:
         fill(
             found, edges_of(data_, options_.parts), hazard_, [&](double from, double to) { return number(from, to); },
             [&](double from, double to) { return frequency(curves_.best, from, to); });
-        found.bounds = bounds();
-        std::size_t none = 0;
-        while (none < nodes_.size() && monotone_[none] == 0)
-            ++none;
-        if (none > 0)
-            found.unseen = number(-no_end, nodes_[none - 1]).fragility.upper;
+        found.bounds = steps(-no_end, no_end, monotone_, monotone_);
+        found.unseen = not_excluded(curves_.best, -no_end, no_end);
         return found;
     }
 
@@ -218,43 +226,62 @@ private:
         return sum;
     }
 
+    /// The frequency at P = 1 from the first stripe of the interval on.
+    double most_of(const HazardCurve& hazard, double from, double to) const
+    {
+        const std::vector<double> weights = hazard.node_weights(nodes_, from, to);
+        return std::accumulate(weights.begin() + static_cast<std::ptrdiff_t>(first_), weights.end(), 0.0);
+    }
+
+    /// What is not excluded of the stripes before it.
+    double not_excluded(const HazardCurve& hazard, double from, double to) const
+    {
+        const std::vector<double> weights = hazard.node_weights(nodes_, from, to);
+        return std::inner_product(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(first_), high_.begin(),
+                                  0.0);
+    }
+
     RiskNumber number(double from, double to) const
     {
         const std::vector<double> weights = curves_.best.node_weights(nodes_, from, to);
-        double most = 0;
-        for (const double w : weights)
-            most += w;
-        if (!(most > 0)) // there are no events
-            return combined(0, {0, 0}, std::nullopt);
+        const double most = most_of(curves_.best, from, to);
         std::vector<double> own; // frequency of each record
         double value = 0;
         for (const auto& shares : own_) {
             own.push_back(std::inner_product(weights.begin(), weights.end(), shares.begin(), 0.0));
             value += own.back() / static_cast<double>(own_.size());
         }
-        return combined(value, limits(own, value, most), curves_.spread([&](const HazardCurve& hazard) {
-            if (value > 0)
-                return frequency(hazard, from, to);
-            double events = 0;
-            for (const double w : hazard.node_weights(nodes_, from, to))
-                events += w;
-            return events;
+        Limits limits{0, not_excluded(curves_.best, from, to)};
+        if (most > 0)
+            limits = mean_limits(own, value, most);
+        if (most > 0 && separated()) {
+            const Limits any = steps(from, to, low_, high_);
+            limits = {std::min(limits.lower, any.lower), std::max(limits.upper, any.upper)};
+        }
+        return combined(value, limits, curves_.spread([&](const HazardCurve& hazard) {
+            return value > 0  ? frequency(hazard, from, to)
+                   : most > 0 ? most_of(hazard, from, to)
+                              : not_excluded(hazard, from, to);
         }));
     }
 
-    /// Of the mean of the records' own frequencies, each of which is at most `most`.
-    Limits limits(const std::vector<double>& own, double value, double most) const
+    /// Of the mean of numbers of the records, each of which is between 0 and `most`.
+    Limits mean_limits(const std::vector<double>& own, double value, double most) const
     {
         const auto n = static_cast<double>(own.size());
         if (own.size() < least_records)
             return {0, no_end};
-        double square = 0, deviation = 0;
+        double square = 0, deviation = 0, fourth = 0;
         for (const double y : own) {
+            const double away = (y - value) * (y - value);
             square += y * y;
-            deviation += (y - value) * (y - value);
+            deviation += away;
+            fourth += away * away;
         }
         const double effective = square > 0 ? n * value * n * value / square : 0;
-        if (effective >= static_cast<double>(least_records)) {
+        // a scatter that one record alone has, or none, is not that of the others
+        const bool scatter = deviation > 1e-20 * square && deviation * deviation >= 2 * fourth;
+        if (effective >= static_cast<double>(least_records) && scatter) {
             const double error = std::sqrt(deviation / (n * (n - 1))) / value;
             const double reach = student_quantile((1 + options_.level) / 2, effective - 1) * error;
             return {value * std::exp(-reach), value * std::exp(reach)};
@@ -266,21 +293,40 @@ private:
         return {std::min(value, most * share.lower), std::max(value, most * share.upper)};
     }
 
-    Limits bounds() const
+    /// Whether one stripe divides all that reached the state from all that did not: then nothing is known of the form
+    /// between two stripes.
+    bool separated() const
     {
+        std::size_t reached = 0, missed = nodes_.size();
+        while (reached < nodes_.size() && mean_share(reached) == 0)
+            ++reached;
+        while (missed > 0 && mean_share(missed - 1) == 1)
+            --missed;
+        return reached < nodes_.size() && missed > 0 && missed - 1 <= reached;
+    }
+
+    /// The frequency of events in [from, to] of steps through values at the stripes: the value of the stripe below, or
+    /// of the stripe above, and 1 above the last one.
+    Limits steps(double from, double to, const std::vector<double>& low, const std::vector<double>& high) const
+    {
+        const auto events = [&](double a, double b) {
+            a = std::max(a, from);
+            b = std::min(b, to);
+            return a < b ? curves_.best.frequency(a) - (std::isinf(b) ? 0 : curves_.best.frequency(b)) : 0;
+        };
         const std::size_t n = nodes_.size();
-        std::vector<double> events;
-        for (const double x : nodes_)
-            events.push_back(curves_.best.frequency(x));
-        Limits found{monotone_[n - 1] * events[n - 1], events[n - 1]};
+        const double above = events(nodes_[n - 1], no_end);
+        Limits found{low[n - 1] * above, above};
         for (std::size_t j = 0; j + 1 < n; ++j) {
-            found.lower += monotone_[j] * (events[j] - events[j + 1]);
-            found.upper += monotone_[j + 1] * (events[j] - events[j + 1]);
+            const double within = events(nodes_[j], nodes_[j + 1]);
+            found.lower += low[j] * within;
+            found.upper += j + 1 >= first_ ? high[j + 1] * within : 0;
         }
-        if (monotone_[0] > 0) {
+        if (monotone_[0] > 0 && from < nodes_[0]) {
             // at least from where the line of the estimate reaches 0
-            const double from = std::min(std::log(hazard_.intensity.front()), 2 * nodes_[0] - nodes_[1]);
-            found.upper += hazard_.unbounded ? no_end : monotone_[0] * (curves_.best.frequency(from) - events[0]);
+            const double begin =
+                hazard_.unbounded ? -no_end : std::min(std::log(hazard_.intensity.front()), 2 * nodes_[0] - nodes_[1]);
+            found.upper += std::isinf(std::max(begin, from)) ? no_end : high[0] * events(begin, nodes_[0]);
         }
         return found;
     }
@@ -290,7 +336,9 @@ private:
     const FrequencyOptions options_;
     HazardCurves curves_;
     std::vector<double> nodes_, monotone_; ///< (stripes)
+    std::vector<double> low_, high_;       ///< (stripes) limits of their shares
     std::vector<std::vector<double>> own_; ///< (records x stripes) shares
+    std::size_t first_ = 0;                ///< stripe of the interval
 };
 
 } // namespace
@@ -304,6 +352,14 @@ FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardMod
                                       const FrequencyOptions& options)
 {
     return LognormalFrequency(data, hazard, options).estimate();
+}
+
+std::size_t first_stripe_of(std::span<const double> monotone)
+{
+    std::size_t first = 0;
+    while (first + 1 < monotone.size() && monotone[first] == 0)
+        ++first;
+    return first;
 }
 
 std::vector<double> stripe_weights(const std::vector<double>& intensity, const HazardModel& hazard)

@@ -11,6 +11,7 @@
 #include "ensemble/estimators/risk/hazard.hpp"
 #include "ensemble/estimators/risk/risk_number.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,10 @@ struct FrequencyEstimate {
     /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity; else weaker
     /// events count from the hazard's first point on, or from where the estimate's line reaches 0.
     Limits bounds;
-    /// Of shares: the upper limit (of a central interval) of what comes from intensities up to the last stripe of those
-    /// at the lower end at which no run reached the state, by the bounded mean [1/year]. It is not part of the interval
-    /// of the frequency: a structure that cannot be damaged there would have it too. 0: there is no such stripe.
+    /// Of shares: what the runs do not exclude of the stripes below `first_stripe_of`, none of which reached the state
+    /// [1/year]: the upper limit of each one's share (of a central interval, and no greater than that of any stronger
+    /// stripe) times its events. It is in no interval of the frequency: a structure that cannot be damaged there has
+    /// it too. 0: there is no such stripe. A part of the frequency that lies there alone has it as its upper limit.
     double unseen = 0;
 };
 
@@ -60,6 +62,10 @@ struct FrequencyEstimate {
 FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
                                       const FrequencyOptions& options = {});
 
+/// The first stripe of the interval of a frequency: the first one with damage, or the last one where none has it.
+/// @param monotone (stripes >= 1) non-decreasing shares
+std::size_t first_stripe_of(std::span<const double> monotone);
+
 /// Weights w of the stripes [1/year]: the frequency by shares is sum_j w_j p_j, over all intensities and with the best
 /// estimate of the hazard (`HazardCurve::node_weights`).
 /// @param intensity (stripes >= 2) ascending, > 0
@@ -68,9 +74,12 @@ std::vector<double> stripe_weights(const std::vector<double>& intensity, const H
 /// The frequency is linear in the shares, so it is the mean over records of each one's own frequency y_g. A record
 /// without runs at a stripe takes the share of the others there. The interval is Student's of ln lambda by the scatter
 /// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records
-/// that the state is not reached under carry no information on the scatter). Where fewer than `least_records` records
-/// count so, there is no scatter to rely on: it is then that of a bounded mean (`record_share.hpp`), y_g between 0 and
-/// the frequency at P = 1, which holds with no damage at all, and is wide.
+/// under which the state is not reached do not show the scatter). Where fewer than `least_records` records count so, or
+/// where one record alone has all the scatter, it is that of a bounded mean (`record_share.hpp`), y_g between 0 and the
+/// frequency at P = 1 from `first_stripe_of` on, which holds with no damage at all, and is wide.
+///
+/// Where one stripe separates all runs that reached the state from all that did not, the interval also contains every
+/// curve that rises: steps through the limits of the stripes' shares (own choice).
 /// @param shares of the data   @pre two stripes at least
 FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                                   const FrequencyOptions& options = {});

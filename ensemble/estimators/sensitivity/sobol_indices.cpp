@@ -1,5 +1,6 @@
 #include "ensemble/estimators/sensitivity/sobol_indices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -165,6 +166,14 @@ double share(double part, double variance)
     return variance > 0 ? part / variance : std::nan("");
 }
 
+Estimate possible_share(const Estimate& e)
+{
+    const bool zero = e.lower == 0 && e.upper == 0; // of what never changed an outcome
+    if (std::isnan(e.value) || (!zero && e.upper <= 0) || e.lower >= 1)
+        return Estimate::undetermined();
+    return {std::clamp(e.value, 0.0, 1.0), std::clamp(e.lower, 0.0, 1.0), std::clamp(e.upper, 0.0, 1.0)};
+}
+
 } // namespace
 
 SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& options)
@@ -204,6 +213,15 @@ SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& o
         indices.of_mean.push_back({found[2 + 2 * k], found[3 + 2 * k]});
     for (std::size_t k = 0; k < with_rest; ++k)
         indices.of_value.push_back({found[2 + 2 * d + 2 * k], found[3 + 2 * d + 2 * k]});
+    return indices;
+}
+
+SobolIndices possible_shares(SobolIndices indices)
+{
+    indices.explained = possible_share(indices.explained);
+    for (auto* of : {&indices.of_mean, &indices.of_value})
+        for (FactorIndices& factor : *of)
+            factor = {possible_share(factor.first), possible_share(factor.total)};
     return indices;
 }
 

@@ -73,7 +73,12 @@ struct SobolIndices {
     std::vector<bool> acts;
 };
 
+/// Without bias: an estimate may lie below 0 or above 1.
 /// @throws std::invalid_argument if the number of values does not fit
 SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& options);
+
+/// The same as shares that are possible: estimates and intervals cut to [0, 1]. An interval keeps its coverage when
+/// what cannot be true is cut from it. Where nothing of it is left, the index is not determined.
+SobolIndices possible_shares(SobolIndices indices);
 
 } // namespace stylobate

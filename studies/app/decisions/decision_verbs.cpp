@@ -19,9 +19,10 @@ void DecisionVerbs::add_compare()
     compare->add_option("--level", compare_.level, "confidence of intervals and verdicts")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
-    auto* adaptive = compare->add_option("--adaptive", compare_.adaptive,
-                                         "at most so many pairs of each variant of a surface, in rounds, where the "
-                                         "difference is undecided (default: all pairs)");
+    auto* adaptive =
+        compare->add_option("--adaptive", compare_.adaptive,
+                            "largest number of pairs of each variant of a surface, run in rounds where the "
+                            "difference is undecided (default: all pairs)");
     compare
         ->add_option("--margin", compare_.margin,
                      "adaptive: a cell is decided, too, where its difference is shown to be smaller than this")
@@ -51,8 +52,10 @@ void DecisionVerbs::add_past()
 void DecisionVerbs::add_risk()
 {
     auto* risk = app_.add_subcommand(
-        "risk", "how often limit states are reached, and how likely over years: a fragility study over a hazard");
-    risk->add_option("RESULTS", results_, "results of a fragility study (HDF5)")->required();
+        "risk", "how often limit states are reached, and how likely over years: a fragility study over a hazard; of a "
+                "comparison of fragility studies also what the variants change");
+    risk->add_option("FILE", results_, "results of a fragility study, or a comparison of fragility studies (HDF5)")
+        ->required();
     risk->add_option("--hazard", risk_.hazard,
                      "hazard curve: a table (CSV), OpenQuake's CSV or NRML (several: mean and fractiles), or a "
                      "power law such as k0=1e-4,k=2.5,measure=pga_g,sigma_ln=0.5")
@@ -68,7 +71,7 @@ void DecisionVerbs::add_risk()
         ->capture_default_str();
     auto* sequences =
         risk->add_option("--sequences", risk_.sequences,
-                         "also simulate so many histories of the last of --years, with the damage carried along")
+                         "number of histories of the last of --years to simulate, with the damage carried along")
             ->check(CLI::Range(0LL, 10000000LL));
     risk->add_option("--threshold", risk_.threshold,
                      "their weakest earthquake, in the SI unit of the measure (default: by the results)")
@@ -79,7 +82,7 @@ void DecisionVerbs::add_risk()
     risk->add_option("--seed", risk_.seed, "seed of the histories")
         ->check(CLI::Range(0LL, 999999999999LL))
         ->needs(sequences);
-    risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the results' name with _risk.h5)");
+    risk->add_option("-o,--output", risk_.output, "the estimate (HDF5; default: the name of FILE with _risk.h5)");
     add_force(*risk, options_);
     add_set(*risk, options_);
     add_common(*risk, options_);

@@ -8,6 +8,10 @@
 #include "studies/app/console.hpp"
 #include "studies/app/file_kind.hpp"
 #include "studies/app/output_path.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/risk/risk_change.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/decisions/risk/sequences.hpp"
@@ -54,6 +58,41 @@ RiskOptions checked(const RiskCommandOptions& wanted)
     return options;
 }
 
+/// Histories are run again, which a comparison cannot: it has counts of realizations, and no realization.
+void check_no_sequences(const CommonOptions& options, const std::string& file, const RiskCommandOptions& wanted)
+{
+    if (wanted.sequences > 0)
+        throw InputError(
+            fmt::format("--sequences: {} is a comparison; histories are of one study.\n  Give its results: "
+                        "stylobate risk RESULTS.h5 --hazard HAZARD --sequences {}",
+                        file, wanted.sequences));
+    if (!options.set.empty())
+        throw InputError(fmt::format("--set {}: {} is a comparison and contains no study whose keys could be set",
+                                     options.set.front(), file));
+}
+
+int risk_of_change(const CommonOptions& options, const std::string& file, const std::string& output,
+                   const RiskCommandOptions& wanted)
+{
+    const RiskOptions asked = checked(wanted);
+    check_no_sequences(options, file, wanted);
+    const Comparison comparison = read_comparison(file);
+    check_has_risk(comparison, file);
+    const HazardModel hazard = read_hazard(wanted.hazard, comparison.measure, wanted.site);
+    AtomicFile::check(output);
+    RiskChange change = risk_change_of(comparison, file, hazard, asked);
+    change.comparison_file = std::filesystem::path(file).filename().string();
+    change.code_version = code_version();
+    write_risk_change(change, output);
+    if (options.json)
+        fmt::print("{}\n", risk_change_json(change).member("written", output).text());
+    else if (options.quiet)
+        fmt::print("{}", risk_change_text(change));
+    else
+        fmt::print("{}{}\n", risk_change_text(change), output);
+    return exit_done;
+}
+
 } // namespace
 
 int risk_command(const CommonOptions& options, const std::string& file, const RiskCommandOptions& wanted)
@@ -63,6 +102,8 @@ int risk_command(const CommonOptions& options, const std::string& file, const Ri
     check_output(file, output, options.force);
     for (const std::string& hazard : wanted.hazard)
         check_not_input(hazard, output);
+    if (recognise(file).kind == FileKind::comparison)
+        return risk_of_change(options, file, output, wanted);
     const RiskOptions asked = checked(wanted);
     const RunOptions run = options.run_options();
     const Results results(file, options.set);

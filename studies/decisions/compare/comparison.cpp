@@ -1,5 +1,7 @@
 #include "studies/decisions/compare/comparison.hpp"
 
+#include "studies/kinds/fragility/fragility.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,7 +81,9 @@ std::string Comparison::place(std::size_t cell) const
     if (!frequency_hz.empty())
         return fmt::format("{:.3g} Hz, {:.3g} m/s2", frequency_hz[cell / pga_m_s2.size()],
                            pga_m_s2[cell % pga_m_s2.size()]);
-    return intensity.empty() ? "all" : fmt::format("{} = {:.4g}", measure, intensity[cell]);
+    return intensity.empty()
+               ? "all"
+               : fmt::format("{} {:.3g} {}", short_measure(measure), intensity[cell], measure_unit(measure));
 }
 
 } // namespace stylobate

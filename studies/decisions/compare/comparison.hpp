@@ -45,6 +45,7 @@ struct LimitComparison {
     bool damage = true;   ///< whether more of it is worse
     std::vector<PlaceComparison> cells;
     PlaceComparison overall;
+    std::vector<PairedCounts> by_motion = {}; ///< (stripes x motions) of a fragility study; else empty
 
     ChangeVerdict verdict(const PlaceComparison& place) const;
     /// Cells that are named at the rate of false names: those where it is worse (or more), or better.
@@ -104,7 +105,7 @@ struct Comparison {
     std::vector<VariantComparison> variants;
 
     std::size_t cells() const;
-    /// "2.5 Hz, 4 m/s2", "pga_m_s2 = 3", "all".
+    /// "2.5 Hz, 4 m/s2", "PGA 3 m/s2", "all".
     std::string place(std::size_t cell) const;
 };
 

@@ -24,7 +24,7 @@ std::string over_all(const Comparison& c)
 
 std::string interval_text(const PairedDifference& d)
 {
-    return fmt::format("{:.3f} [{:.3f}, {:.3f}]", d.value, d.lower, d.upper);
+    return fmt::format("{:.3f} ({:.3f} to {:.3f})", d.value, d.lower, d.upper);
 }
 
 bool depends(const Comparison& c, const InputDependence& input)
@@ -106,9 +106,9 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
     case ChangeVerdict::more:
         return text + (limit.damage ? "It harms." : "It is more.");
     default:
-        return text + (all.largest() < 1
-                           ? fmt::format("No difference is shown; one larger than {:.3f} is excluded.", all.largest())
-                           : "No difference is shown, and none is excluded.");
+        return text + (all.largest() < 1 ? fmt::format("Undecided: {:+.1f} to {:+.1f} percentage points.",
+                                                       100 * all.lower, 100 * all.upper)
+                                         : "Undecided: no difference is excluded.");
     }
 }
 

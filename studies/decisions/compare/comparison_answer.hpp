@@ -1,5 +1,5 @@
 #pragma once
-/// What a comparison comes to, for a reader who decides about a monument: the answer in a sentence, what it hangs on,
+/// What a comparison comes to, for a reader who decides about a monument: the answer in a sentence, what it depends on,
 /// and what would change it.
 
 #include "studies/decisions/compare/comparison.hpp"

@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr SealedFormat format{"stylobate-comparison", "comparison", 1, 1, "compare again"};
+constexpr SealedFormat format{"stylobate-comparison", "comparison", 2, 1, "compare again"};
 constexpr char variant_table[] = "variant_"; ///< and its number
 
 Table general_table(const Comparison& c)
@@ -107,6 +107,45 @@ void read_places(const Table& table, const std::vector<PlaceComparison*>& places
     }
 }
 
+/// Pairs of each motion at each stripe, from which the change of a frequency is computed: (limit states x stripes x
+/// motions). Files of version 1 are without them.
+constexpr std::pair<const char*, std::uint64_t PairedCounts::*> motion_counts[] = {
+    {"motion_both", &PairedCounts::both},
+    {"motion_base_only", &PairedCounts::base_only},
+    {"motion_variant_only", &PairedCounts::variant_only},
+    {"motion_neither", &PairedCounts::neither}};
+
+void add_motions(Table& table, const std::vector<LimitComparison>& limits, std::size_t cells)
+{
+    const std::size_t motions = limits.front().by_motion.size() / cells;
+    if (motions == 0)
+        return;
+    for (const auto& [name, member] : motion_counts) {
+        std::vector<std::uint64_t> values;
+        for (const LimitComparison& limit : limits)
+            for (const PairedCounts& counts : limit.by_motion)
+                values.push_back(counts.*member);
+        table.add(name, std::move(values), {limits.size(), cells, motions});
+    }
+}
+
+void read_motions(const Table& table, std::vector<LimitComparison>& limits, std::size_t cells)
+{
+    if (!table.has(motion_counts[0].first))
+        return;
+    const Table::Shape shape = table.shape(motion_counts[0].first);
+    if (shape.size() != 3 || shape[0] != limits.size() || shape[1] != cells || shape[2] == 0)
+        table.refuse("its pairs of motions have another shape");
+    const std::size_t each = shape[1] * shape[2];
+    for (LimitComparison& limit : limits)
+        limit.by_motion.resize(each);
+    for (const auto& [name, member] : motion_counts) {
+        const std::vector<std::uint64_t>& values = table.counts(name, shape);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            limits[i / each].by_motion[i % each].*member = values[i];
+    }
+}
+
 void add_dependences(Table& table, const std::vector<InputDependence>& depends)
 {
     std::vector<std::string> inputs;
@@ -186,6 +225,8 @@ Table table_of(const VariantComparison& v, std::size_t number, std::size_t cells
     table.add("damage", damage);
     add_places(table, places, {limits, cells}, "");
     add_places(table, overall, {limits}, "overall_");
+    if (limits > 0)
+        add_motions(table, v.limits, cells);
     table.add("inputs", inputs);
     table.add("input_draws", draws);
     table.add("input_numbers", numbers);
@@ -212,7 +253,7 @@ VariantComparison variant_of(const Table& table, std::size_t cells)
         table.refuse("it has no limit state");
     table.counts("both", {names.size(), cells}); // as many places as there are numbers
     for (std::size_t i = 0; i < names.size(); ++i)
-        v.limits.push_back({names[i], describe[i], damage[i] != 0, std::vector<PlaceComparison>(cells), {}});
+        v.limits.push_back({names[i], describe[i], damage[i] != 0, std::vector<PlaceComparison>(cells), {}, {}});
     std::vector<PlaceComparison*> places, overall;
     for (LimitComparison& limit : v.limits) {
         for (PlaceComparison& place : limit.cells)
@@ -221,6 +262,7 @@ VariantComparison variant_of(const Table& table, std::size_t cells)
     }
     read_places(table, places, {names.size(), cells}, "");
     read_places(table, overall, {names.size()}, "overall_");
+    read_motions(table, v.limits, cells);
     const std::vector<std::string>& inputs = table.texts("inputs");
     const std::vector<std::int32_t>& draws = table.integers("input_draws", {inputs.size()});
     const std::vector<std::uint64_t>& numbers = table.counts("input_numbers", {inputs.size()});

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 std::string side_text(const Share& share)
 {
-    return fmt::format("{:.3f} [{:.3f}, {:.3f}]", share.probability, share.lower, share.upper);
+    return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
 }
 
 Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
@@ -55,8 +55,8 @@ public:
         page_.section("The answer");
         answers();
         structure();
-        page_.section("What it hangs on");
-        hangs_on();
+        page_.section("What the answer depends on");
+        dependence();
         page_.section("What changes");
         page_.paragraph(
             common_text(c_) +
@@ -121,7 +121,7 @@ private:
         });
     }
 
-    void hangs_on()
+    void dependence()
     {
         if (c_.motions > 0)
             page_.paragraph("Pairs share motions here, so no test by drawn quantity was made. How much the answer "
@@ -145,7 +145,8 @@ private:
             for (const InputDependence& input : variant.depends) {
                 std::vector<Html> row = {input.input};
                 for (const PairedDifference& third : input.found.thirds)
-                    row.emplace_back(fmt::format("{:+.3f} [{:+.3f}, {:+.3f}]", third.value, third.lower, third.upper));
+                    row.emplace_back(
+                        fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", third.value, third.lower, third.upper));
                 row.emplace_back(fmt::format("{:.2g}", input.p_adjusted));
                 table.rows.push_back(std::move(row));
             }
@@ -190,19 +191,18 @@ private:
     {
         for (const VariantComparison& variant : c_.variants) {
             HtmlTable table{"lrrrrl",
-                            {"limit state", "base", variant.name, "difference", "unpaired would need", "verdict"},
+                            {"limit state", "base", variant.name, "difference", "saved by pairing", "verdict"},
                             {},
                             fmt::format("{}: {} pairs", variant.name, variant.pairs)};
             if (variant.dropped > 0)
                 table.caption += fmt::format(", {} dropped as invalid in either", variant.dropped);
             for (const LimitComparison& limit : variant.limits)
-                table.rows.push_back(
-                    {limit.describe, side_text(limit.overall.base), side_text(limit.overall.variant),
-                     difference_text(limit.overall),
-                     std::isfinite(limit.overall.unpaired)
-                         ? fmt::format("{:.0f} ({:.1f} times)", limit.overall.unpaired, limit.overall.saving())
-                         : "unknown",
-                     verdict_tag(limit, limit.overall)});
+                table.rows.push_back({limit.describe, side_text(limit.overall.base), side_text(limit.overall.variant),
+                                      difference_text(limit.overall),
+                                      std::isfinite(limit.overall.unpaired)
+                                          ? fmt::format("a factor of {:.2g}", limit.overall.saving())
+                                          : "unknown",
+                                      verdict_tag(limit, limit.overall)});
             page_.table(table);
         }
     }

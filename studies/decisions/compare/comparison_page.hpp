@@ -9,7 +9,7 @@
 
 namespace stylobate {
 
-/// For a reader who decides: the answer in a sentence with its interval, the structure, what the answer hangs on and
+/// For a reader who decides: the answer in a sentence with its interval, the structure, what the answer depends on and
 /// what would change it; then what changes, where it harms, what is common, the studies and the commands. Where the map
 /// cannot be drawn the page has a message.
 /// @param file for names   @param title empty: by the base

@@ -15,7 +15,7 @@ constexpr std::size_t most_named = 10; ///< cells in a line of text
 
 std::string share_text(const Share& share)
 {
-    return fmt::format("{:.3f} [{:.3f}, {:.3f}]", share.probability, share.lower, share.upper);
+    return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
 }
 
 /// Cells of one direction: their number, and the largest differences.
@@ -159,14 +159,13 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
         const PlaceComparison& all = limit.overall;
         text += fmt::format("  {}: {} to {}, difference {}: {}\n", limit.name, share_text(all.base),
                             share_text(all.variant), difference_text(all), verdict_text(limit, all));
-        text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); without pairs each study would "
-                            "need {}\n",
-                            all.counts.discordant(), all.counts.base_only, all.counts.variant_only, unpaired_text(all));
+        text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); {}\n", all.counts.discordant(),
+                            all.counts.base_only, all.counts.variant_only, saving_text(all));
         if (limit.cells.size() > 1)
             text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
     }
     for (const std::string& dependence : dependence_texts(comparison, variant))
-        text += "  hangs on " + dependence + "\n";
+        text += "  depends on " + dependence + "\n";
     return text;
 }
 
@@ -175,19 +174,22 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place)
 {
     const ChangeVerdict verdict = limit.verdict(place);
-    return verdict == ChangeVerdict::open ? fmt::format("no difference larger than {:.3g} shown", place.largest())
-                                          : to_string(verdict);
+    return verdict == ChangeVerdict::open
+               ? fmt::format("undecided: {:+.1f} to {:+.1f} percentage points", 100 * place.lower, 100 * place.upper)
+               : to_string(verdict);
 }
 
 std::string difference_text(const PlaceComparison& place)
 {
-    return fmt::format("{:+.4f} [{:+.4f}, {:+.4f}]", place.difference, place.lower, place.upper);
+    return fmt::format("{:+.4f} ({:+.4f} to {:+.4f})", place.difference, place.lower, place.upper);
 }
 
-std::string unpaired_text(const PlaceComparison& place)
+std::string saving_text(const PlaceComparison& place)
 {
-    return std::isfinite(place.unpaired) ? fmt::format("{:.0f} ({:.1f} times as many)", place.unpaired, place.saving())
-                                         : std::string("a number that is not known");
+    if (!std::isfinite(place.unpaired))
+        return "what pairing saved is not known";
+    return place.saving() < 1.05 ? fmt::format("pairing saved nothing (a factor of {:.1f})", place.saving())
+                                 : fmt::format("pairing saved a factor of {:.2g}", place.saving());
 }
 
 std::string inputs_text(const VariantComparison& variant)

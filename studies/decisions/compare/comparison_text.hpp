@@ -14,12 +14,12 @@ Json comparison_json(const Comparison& comparison);
 /// A row for each variant, limit state and cell, and for all cells together.
 Table comparison_rows(const Comparison& comparison);
 
-/// "no difference larger than 0.03 shown", "better".
+/// "undecided: -0.7 to +4.0 percentage points", "better".
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place);
 /// "-0.043 [-0.060, -0.027]"
 std::string difference_text(const PlaceComparison& place);
-/// "5954 (5.2 times as many)", or that it is not known.
-std::string unpaired_text(const PlaceComparison& place);
+/// How many times as many realizations an unpaired comparison would need: "pairing saved a factor of 20".
+std::string saving_text(const PlaceComparison& place);
 /// "friction: same numbers; drum_offset: same quantiles".
 std::string inputs_text(const VariantComparison& variant);
 /// What names of cells mean: "Benjamini-Hochberg, false names at most 5 %".

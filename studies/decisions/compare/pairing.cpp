@@ -201,7 +201,7 @@ VariantComparison compare_sides(const StudySide& base, const std::vector<std::st
             continue;
         const std::vector<PairedCounts> counts =
             count_pairs(base, variant, i, static_cast<std::size_t>(same - variant.limits().begin()), layout);
-        LimitComparison limit{definition.name, definition.describe, definition.damage, {}, {}};
+        LimitComparison limit{definition.name, definition.describe, definition.damage, {}, {}, {}};
         std::vector<double> p;
         for (std::size_t cell = 0; cell < layout.cells; ++cell) {
             limit.cells.push_back(compare_place(std::span(counts).subspan(cell * groups, groups), layout));
@@ -211,6 +211,8 @@ VariantComparison compare_sides(const StudySide& base, const std::vector<std::st
         for (std::size_t cell = 0; cell < layout.cells; ++cell)
             limit.cells[cell].p_adjusted = adjusted[cell];
         limit.overall = compare_overall(counts, layout);
+        if (layout.groups > 0)
+            limit.by_motion = counts;
         found.limits.push_back(std::move(limit));
     }
     return found;

@@ -44,8 +44,9 @@ std::string risk_answer(const Risk& risk)
     const double years = risk.years.back();
     const RiskNumber p = probability_over(s.estimate.frequency, years);
     if (!(s.estimate.frequency.value > 0))
-        return fmt::format("No run of the study reached the limit state '{}'. Its probability in {:g} years is at most "
-                           "{:.3g} % ({:g} % interval from 0).",
+        return fmt::format("No run of the study reached the limit state '{}'. By shaking as strong as the strongest of "
+                           "the runs, or stronger, its probability in {:g} years is at most {:.3g} % ({:g} % interval "
+                           "from 0).",
                            s.meaning, years, 100 * p.total.upper, 100 * risk.level);
     return fmt::format(
         "In {:g} years the limit state '{}' is reached with a probability of {:.3g} % ({:.3g} to {:.3g}; "
@@ -60,19 +61,20 @@ std::string risk_grounds(const Risk& risk)
     if (!s.determined || !(s.estimate.frequency.value > 0))
         return {};
     const auto [low, high] = middle_of(s.estimate);
-    std::string text = fmt::format("Most of it (the middle 80 %) comes from these intensities, {}: {}. ",
-                                   describe_measure(risk.hazard.measure),
-                                   low > 0 && std::isinf(high) ? fmt::format("from {:.3g} on", low)
-                                   : low > 0                   ? fmt::format("from {:.3g} to {:.3g}", low, high)
-                                   : std::isinf(high)          ? std::string("all")
-                                                               : fmt::format("up to {:.3g}", high));
+    const std::string unit = measure_unit(risk.hazard.measure);
+    std::string text = fmt::format("At least 80 % of the risk comes from {}{}. ", short_measure(risk.hazard.measure),
+                                   low > 0 && std::isinf(high) ? fmt::format(" above {:.2g} {}", low, unit)
+                                   : low > 0          ? fmt::format(" between {:.2g} and {:.2g} {}", low, high, unit)
+                                   : std::isinf(high) ? std::string(" at all intensities")
+                                                      : fmt::format(" below {:.2g} {}", high, unit));
     const double part = s.estimate.frequency.fragility_part;
     if (risk.hazard.fractiles.empty())
         return text + "The interval is that of the fragility alone, since the hazard states no uncertainty.";
     if (!std::isfinite(part))
         return text + "The interval has no finite width, so its parts are not known; more motions in the study may "
                       "give one.";
-    text += fmt::format("{:.0f} % of the interval's squared width comes from the hazard, {:.0f} % from the fragility. ",
+    text += fmt::format("Of the uncertainty (the interval's squared width) {:.0f} % is due to the hazard and {:.0f} % "
+                        "due to the fragility. ",
                         100 * (1 - part), 100 * part);
     if (part > 1 - small_part)
         return text + "More motions in the study would narrow it; a better hazard curve hardly would.";

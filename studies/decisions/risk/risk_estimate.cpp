@@ -62,14 +62,21 @@ std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& haza
         if (form == FragilityForm::lognormal) {
             risk.estimate = lognormal_frequency(s.data, hazard, frequency);
             risk.fragility = curve_points(s);
-            risk.note = fits ? fmt::format("no lack of fit of the lognormal curve: p = {:.2g}", s.fit.p_value)
-                             : fmt::format("the lognormal curve does not fit: p = {:.2g}", s.fit.p_value);
+            risk.note =
+                fmt::format("by the lognormal curve, {} (p = {:.2g})",
+                            fits ? "of which no lack of fit was found" : "although it does not fit", s.fit.p_value);
         } else {
             risk.estimate = share_frequency(s.data, *s.stripes, hazard, frequency);
             risk.fragility = share_points(s);
-            risk.note = !has_lognormal(s) ? "there is no lognormal curve"
-                        : fits            ? "no form of a curve is assumed"
-                                          : fmt::format("the lognormal curve does not fit: p = {:.2g}", s.fit.p_value);
+            const std::string shares_of = "by the shares of the stripes";
+            risk.note = s.curve.maximum == Maximum::separated
+                            ? shares_of + ": the stripes separate, so there is no lognormal curve, and the interval "
+                                          "contains any curve between two stripes"
+                        : !has_lognormal(s) ? shares_of + ": there is no lognormal curve"
+                        : fits              ? shares_of + ", which assume no form of a curve"
+                                            : fmt::format("{} instead of the lognormal curve, which does not fit (p = "
+                                                                       "{:.2g})",
+                                                          shares_of, s.fit.p_value);
         }
         judge(risk, options.most_outside);
         risks.push_back(std::move(risk));
@@ -86,7 +93,7 @@ std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& haza
 void check_determined(const Risk& risk)
 {
     if (risk.states.empty())
-        throw InputError("no limit state has a curve or shares by stripe." +
+        throw InputError("no limit state has a curve, or shares at two intensities or more." +
                          (risk.says.empty() ? "" : "\n  " + risk.says.front()));
     const auto chosen = risk.chosen();
     if (std::none_of(chosen.begin(), chosen.end(), [](const StateRisk* s) { return s->determined; })) {

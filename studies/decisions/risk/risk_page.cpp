@@ -104,7 +104,7 @@ void add_result(const Risk& risk, HtmlPage& page)
         table.head.emplace_back(fmt::format("in {:g} years", years));
     }
     table.align += "r";
-    table.head.emplace_back("of the width, fragility");
+    table.head.emplace_back("uncertainty due to fragility");
     for (const StateRisk* s : risk.chosen()) {
         std::vector<Html> row{s->meaning, to_string(s->form)};
         if (s->determined) {
@@ -134,6 +134,11 @@ void add_parts(const Risk& risk, HtmlPage& page)
 {
     page.section("Contributing intensities");
     const StateRisk& s = risk.principal();
+    if (s.determined && s.estimate.unseen > 0)
+        page.note(
+            fmt::format("Not excluded by the runs at intensities where none reached the state, and in no interval "
+                        "of this page: {:.2g} a year.",
+                        s.estimate.unseen));
     if (!s.determined || !(s.estimate.frequency.value > 0)) {
         page.paragraph("The frequency of this limit state is not determined or 0: " + s.note);
         return;
@@ -142,19 +147,14 @@ void add_parts(const Risk& risk, HtmlPage& page)
         page.figure(figure_svg(figure, 200), figure.title);
     HtmlTable table{"lrl", {describe_measure(risk.hazard.measure), "share", "a year"}, {}, ""};
     for (const FrequencyPart& part : s.estimate.parts)
-        table.rows.push_back({range_text(part),
-                              fmt::format("{:.1f} %", 100 * part.frequency.value / s.estimate.frequency.value),
-                              frequency_text(part.frequency)});
+        table.rows.push_back(
+            {range_text(part), fmt::format("{:.1f} %", 100 * part.frequency.value / s.estimate.frequency.value),
+             part.frequency.value > 0 ? frequency_text(part.frequency) : std::string("no run reached it")});
     page.table(table);
     page.note(fmt::format("From outside of the range of the runs: {:.2g} % below, {:.2g} % above. From outside of the "
                           "hazard's points: {:.2g} %. Any curve that rises would give {} a year.",
                           100 * s.estimate.below, 100 * s.estimate.above, 100 * s.estimate.beyond_hazard,
                           bounds_text(s.estimate.bounds)));
-    if (s.estimate.unseen > 0)
-        page.note(
-            fmt::format("At the weakest intensities no run reached the state. With so many motions, {:.2g} a year "
-                        "from there is not excluded; it is not part of the intervals.",
-                        s.estimate.unseen));
 }
 
 void add_sequences(const SequenceRisk& s, HtmlPage& page)
@@ -202,7 +202,7 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string&
     page.section("Notes");
     std::vector<Html> notes;
     for (const StateRisk* s : risk.chosen())
-        notes.emplace_back(s->state + ": " + s->note);
+        notes.emplace_back(s->state + ": " + form_text(risk, *s));
     notes.insert(notes.end(), risk.says.begin(), risk.says.end());
     page.list(notes);
     page.section("Reproduction");

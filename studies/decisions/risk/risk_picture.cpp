@@ -64,12 +64,17 @@ void plot_risk(const Risk& risk, const std::string& name, const std::string& tit
     for (const FrequencyPart& p : s.estimate.parts)
         if (p.from > 0 && std::isfinite(p.to)) {
             const RiskNumber& f = p.frequency;
+            if (!(f.value > 0)) // no run reached the state there
+                continue;
             data += fmt::format("{} {} {} {} {} {}\n", std::sqrt(p.from * p.to), f.value, f.total.lower,
                                 std::isfinite(f.total.upper) ? f.total.upper : f.value, p.from, p.to);
-            if (f.value > 0) // what no run has shown may have limits far beyond
-                most = std::max(most, std::isfinite(f.total.upper) ? f.total.upper : f.value);
+            most = std::max(most, std::isfinite(f.total.upper) ? f.total.upper : f.value);
         }
     data += "EOD\n";
+    if (!(most > 0))
+        throw InputError(fmt::format("{}: no run of the study reached '{}' within its intensities, so there is nothing "
+                                     "to draw.",
+                                     picture.string(), s.state));
     const std::string said =
         fmt::format("{}: {} a year; bands and bars: {:g} % (fragility: {:g} %)", s.state,
                     frequency_text(s.estimate.frequency), 100 * risk.level, 100 * risk.fragility_level);

@@ -19,7 +19,7 @@ std::string table_text(const Risk& risk)
     std::string text = fmt::format("  {:<16} {:<10} {:<34}", "limit state", "fragility", "a year");
     for (const double years : risk.years)
         text += fmt::format(" {:<26}", fmt::format("in {:g} years", years));
-    text += " of the width, fragility\n";
+    text += " uncertainty due to fragility\n";
     for (const StateRisk* s : risk.chosen()) {
         text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form));
         if (!s->determined) {
@@ -37,14 +37,27 @@ std::string table_text(const Risk& risk)
     return text;
 }
 
+/// What the runs do not exclude where none reached the state: the only place that says so.
+std::string unseen_text(const FrequencyEstimate& e)
+{
+    return e.unseen > 0
+               ? fmt::format("  not excluded at intensities where no run reached it, and in no interval: {:.2g} "
+                             "a year\n",
+                             e.unseen)
+               : std::string();
+}
+
 /// Where the frequency of the principal limit state comes from.
 std::string parts_text(const Risk& risk)
 {
     const StateRisk& s = risk.principal();
     const FrequencyEstimate& e = s.estimate;
-    if (!s.determined || !(e.frequency.value > 0))
+    if (!s.determined)
         return {};
-    std::string text = fmt::format("Intensities that contribute to '{}', {}:\n", s.state, risk.hazard.measure);
+    if (!(e.frequency.value > 0))
+        return unseen_text(e);
+    std::string text = fmt::format("Intensities that contribute to '{}', {} in {}:\n", s.state,
+                                   short_measure(risk.hazard.measure), measure_unit(risk.hazard.measure));
     for (const FrequencyPart& part : e.parts)
         if (const double share = part.frequency.value / e.frequency.value; share >= 0.005)
             text += fmt::format("  {:<22} {:>4.0f} %   {} a year\n", range_text(part), 100 * share,
@@ -56,11 +69,7 @@ std::string parts_text(const Risk& risk)
                         s.form == FragilityForm::lognormal ? "and agrees with the fitted one within that range"
                                                            : "through the shares of the stripes",
                         bounds_text(e.bounds));
-    if (e.unseen > 0)
-        text += fmt::format("  from intensities at which no run reached it: none seen, {:.2g} a year not excluded; not "
-                            "in the intervals\n",
-                            e.unseen);
-    return text;
+    return text + unseen_text(e);
 }
 
 std::string sequence_text(const SequenceRisk& s)
@@ -180,13 +189,25 @@ std::string percent_text(double value, const Limits& limits)
 
 std::string bounds_text(const Limits& bounds)
 {
-    return std::isfinite(bounds.upper) ? fmt::format("{:.2g} to {:.2g}", bounds.lower, bounds.upper)
-                                       : fmt::format("at least {:.2g}", bounds.lower);
+    const std::string low = fmt::format("{:.2g}", bounds.lower), high = fmt::format("{:.2g}", bounds.upper);
+    return !std::isfinite(bounds.upper) ? "at least " + low : low == high ? low : low + " to " + high;
 }
 
 std::string frequency_text(const RiskNumber& number)
 {
     return fmt::format("{:.3g} ({:.3g} to {:.3g})", number.value, number.total.lower, number.total.upper);
+}
+
+std::string form_text(const Risk& risk, const StateRisk& state)
+{
+    std::string text = state.note;
+    for (const StateRisk& other : risk.states)
+        if (other.state == state.state && !other.chosen && other.determined)
+            text +=
+                fmt::format("; by {} it would be {} a year",
+                            other.form == FragilityForm::shares ? "the shares of the stripes" : "the lognormal curve",
+                            frequency_text(other.estimate.frequency));
+    return text;
 }
 
 std::string range_text(const FrequencyPart& part)
@@ -204,7 +225,7 @@ std::string risk_text(const Risk& risk)
     text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
     text += table_text(risk) + parts_text(risk);
     for (const StateRisk* s : risk.chosen())
-        text += fmt::format("{}: {}\n", s->state, s->note);
+        text += fmt::format("{}: {}\n", s->state, form_text(risk, *s));
     if (risk.sequences)
         text += sequence_text(*risk.sequences);
     for (const std::string& remark : risk.says)

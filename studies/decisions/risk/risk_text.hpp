@@ -24,6 +24,9 @@ std::string bounds_text(const Limits& bounds);
 /// "3.1e-05 (2.1e-05 to 4.4e-05)".
 std::string frequency_text(const RiskNumber& number);
 
+/// Why a state has its form of the fragility, and what the other one would give.
+std::string form_text(const Risk& risk, const StateRisk& state);
+
 /// "from 0.5 to 0.6", "below 0.5", "above 3".
 std::string range_text(const FrequencyPart& part);
 

@@ -206,6 +206,24 @@ void estimate(SequenceRisk& s, const std::vector<Ending>& endings)
     s.check_difference = difference_of({0, s.then_stood, s.then_fell, s.checked - s.then_fell - s.then_stood});
 }
 
+/// Passes on the progress without a share of collapses: a run is a whole history or one of its earthquakes, so that the
+/// share of the runs is not that of the histories.
+class WithoutShare : public Observer {
+public:
+    explicit WithoutShare(Observer& outer) : outer_(outer) {}
+    void progress(const Progress& progress) override
+    {
+        Progress shown = progress;
+        shown.share = shown.share_lower = shown.share_upper = std::nan("");
+        outer_.progress(shown);
+    }
+    void warn(const std::string& text) override { outer_.warn(text); }
+    bool stop_requested() override { return outer_.stop_requested(); }
+
+private:
+    Observer& outer_;
+};
+
 const StateRisk& collapse_of(const Risk& risk)
 {
     const StateRisk& s = risk.principal();
@@ -326,7 +344,8 @@ std::optional<SequenceRisk> simulate_sequences(const Results& results, const Ris
             rerun[job.history] = !invalid;
         }
     };
-    if (plan.total > 0 && run_ensemble(histories.experiment(), run, plan, observer).done < plan.total)
+    WithoutShare shown(observer);
+    if (plan.total > 0 && run_ensemble(histories.experiment(), run, plan, shown).done < plan.total)
         return std::nullopt;
     for (std::uint64_t h = 0; h < options.histories; ++h) {
         if (histories.events(h, s.threshold).size() == 1)

@@ -26,11 +26,12 @@ double over_years(double frequency)
 std::string answer_text(const SearchResult& r)
 {
     if (!r.is_frequency())
-        return fmt::format("smallest probability of {}: {:.4f} [{:.4f}, {:.4f}] at {:g} %, by the response surface of "
-                           "{} points\n",
-                           r.asked.minimise, r.value, r.lower, r.upper, 100 * r.level, r.points.size());
-    return fmt::format("smallest annual frequency of {}: {:.3g} [{:.3g}, {:.3g}] a year at {:g} %, by the response "
-                       "surface of {} points\n  in {:g} years: {:.3g} % [{:.3g}, {:.3g}]\n  by the best estimate of "
+        return fmt::format(
+            "smallest probability of {}: {:.4f} ({:.4f} to {:.4f}) at {:g} %, by the response surface of "
+            "{} points\n",
+            r.asked.minimise, r.value, r.lower, r.upper, 100 * r.level, r.points.size());
+    return fmt::format("smallest annual frequency of {}: {:.3g} ({:.3g} to {:.3g}) a year at {:g} %, by the response "
+                       "surface of {} points\n  in {:g} years: {:.3g} % ({:.3g} to {:.3g})\n  by the best estimate of "
                        "the hazard {}; the interval is of the motions\n",
                        r.asked.minimise, r.value, r.lower, r.upper, 100 * r.level, r.points.size(), years,
                        100 * over_years(r.value), 100 * over_years(r.lower), 100 * over_years(r.upper), r.asked.hazard);
@@ -41,23 +42,21 @@ std::string point_text(const SearchResult& r)
 {
     const SearchedPoint& point = r.points[r.best_point];
     if (!r.is_frequency())
-        return fmt::format("{:.4f} [{:.4f}, {:.4f}], base {:.4f} [{:.4f}, {:.4f}], difference {}",
+        return fmt::format("{:.4f} ({:.4f} to {:.4f}), base {:.4f} ({:.4f} to {:.4f}), difference {}",
                            point.share.probability, point.share.lower, point.share.upper, r.base.probability,
                            r.base.lower, r.base.upper, difference_text(r.change));
     const auto number = [](const RiskNumber& f) {
-        std::string text = fmt::format("{:.3g} [{:.3g}, {:.3g}]", f.value, f.fragility.lower, f.fragility.upper);
+        std::string text = fmt::format("{:.3g} ({:.3g} to {:.3g})", f.value, f.fragility.lower, f.fragility.upper);
         if (f.hazard.lower < f.hazard.upper)
-            text += fmt::format(" (with the hazard's uncertainty [{:.3g}, {:.3g}])", f.total.lower, f.total.upper);
+            text += fmt::format(" (with the hazard's uncertainty {:.3g} to {:.3g})", f.total.lower, f.total.upper);
         return text;
     };
-    std::string text = fmt::format("{} a year, base {}, difference {:+.3g} [{:+.3g}, {:+.3g}]", number(point.frequency),
-                                   number(r.base_frequency), r.frequency_change.value, r.frequency_change.lower,
-                                   r.frequency_change.upper);
+    std::string text = fmt::format("{} a year, base {}, difference {:+.3g} ({:+.3g} to {:+.3g})",
+                                   number(point.frequency), number(r.base_frequency), r.frequency_change.value,
+                                   r.frequency_change.lower, r.frequency_change.upper);
     if (r.unseen > 0)
-        text +=
-            fmt::format("\n    from intensities at which no run reached it: none seen, {:.3g} a year not excluded; not "
-                        "in the intervals",
-                        r.unseen);
+        text += fmt::format(
+            "\n    not excluded at intensities where no run reached it, and in no interval: {:.3g} a year", r.unseen);
     if (!r.outside.empty())
         text += "\n    " + r.outside;
     return text;

@@ -2,10 +2,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/tables/fragility_exchange.hpp"
+#include "io/tables/fragility_measure.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -38,6 +40,18 @@ std::string measure_of(const std::string& name)
 FragilityValue value_of(const CurveEstimate& e)
 {
     return {e.value, e.records.lower, e.records.upper};
+}
+
+/// In OpenQuake's unit of the measure.
+std::string median_bounds(const Limits& median, const std::string& measure)
+{
+    const double scale = per_si_unit(measure);
+    const char* const unit = openquake_unit(measure);
+    return median.lower > 0 && std::isfinite(median.upper)
+               ? fmt::format("median between {:.4g} and {:.4g} {}", scale * median.lower, scale * median.upper, unit)
+           : median.lower > 0            ? fmt::format("median above {:.4g} {}", scale * median.lower, unit)
+           : std::isfinite(median.upper) ? fmt::format("median below {:.4g} {}", scale * median.upper, unit)
+                                         : std::string("no bounds of the median");
 }
 
 FragilityFunction lognormal(const Fragility& f, const std::vector<const StateFragility*>& states)
@@ -107,7 +121,10 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
                 model.description += fmt::format("; the lognormal curves are omitted: {}", error.what());
             }
         } else {
-            model.description += "; not every limit state has a lognormal curve";
+            for (const StateFragility* s : states)
+                if (!(s->curve.maximum == Maximum::inside && s->curve.median.value > 0))
+                    model.description += fmt::format("; {}: no lognormal curve, {}", s->state.name,
+                                                     median_bounds(s->curve.median.records, measure_of(f.measure)));
         }
         if (!model.functions.empty())
             models.push_back(std::move(model));

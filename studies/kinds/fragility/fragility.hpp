@@ -73,5 +73,8 @@ std::string measure_of(const FragilitySpec& spec);
 
 /// "peak ground velocity [m/s]" of "pgv_m_s".
 std::string describe_measure(const std::string& name);
+/// "PGV" of "pgv_m_s", "Sa(1 s)" of "sa_1s_m_s2"; and "m/s".
+std::string short_measure(const std::string& name);
+std::string measure_unit(const std::string& name);
 
 } // namespace stylobate

@@ -28,6 +28,34 @@ std::string percent(double share)
     return fmt::format("{:.3g} %", 100 * share);
 }
 
+/// Whether there are bounds of the median where there is no curve.
+bool has_median_bounds(const StateFragility& s)
+{
+    const Limits& median = s.curve.median.records;
+    return !has_curve(s) && (median.lower > 0 || (median.upper > 0 && std::isfinite(median.upper)));
+}
+
+std::string median_bounds_text(const Limits& median)
+{
+    return median.lower > 0 && std::isfinite(median.upper)
+               ? fmt::format("between {} and {}", number(median.lower), number(median.upper))
+           : median.lower > 0 ? "above " + number(median.lower)
+                              : "below " + number(median.upper);
+}
+
+/// A part of the scatter: "76 % (73 to 79)"; of too few motions without an interval.
+std::string level_text(const DispersionShare& share, std::size_t records)
+{
+    if (records < least_records && std::isfinite(share.share))
+        return fmt::format("{:.0f} %", 100 * share.share);
+    if (!share.determined())
+        return "not determined";
+    const Limits& limits = share.share_limits;
+    return limits.upper == 0
+               ? "0 % (no two runs differed)"
+               : fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share, 100 * limits.lower, 100 * limits.upper);
+}
+
 Json limits_json(const CurveEstimate& e)
 {
     return Json::object()
@@ -58,7 +86,7 @@ std::vector<std::string> remarks(const StateFragility& s)
         all.push_back(s.stripes->says);
     if (s.resurrected > 0)
         all.push_back(fmt::format(
-            "{} of {} structures that reached it did not reach it at some stronger shaking by the same motion ({}).",
+            "{} of {} structures that reached it were spared by a stronger scaling of the same record ({}).",
             s.resurrected, s.reached_ever,
             percent(static_cast<double>(s.resurrected) / static_cast<double>(s.reached_ever))));
     return all;
@@ -77,13 +105,9 @@ std::string share_text(const DispersionShares& shares)
     std::string text;
     for (std::size_t l = 0; l < dispersion_levels; ++l) {
         const DispersionShare& share = shares.levels[l];
-        if (share.known && !std::isfinite(share.share_limits.lower))
-            text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", to_string(static_cast<DispersionLevel>(l)),
-                                100 * share.share);
-        else if (share.known)
-            text += fmt::format("{}{} {:.0f} % ({:.0f} to {:.0f})", text.empty() ? "" : ", ",
-                                to_string(static_cast<DispersionLevel>(l)), 100 * share.share,
-                                100 * share.share_limits.lower, 100 * share.share_limits.upper);
+        if (share.known)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(static_cast<DispersionLevel>(l)),
+                                level_text(share, shares.records));
     }
     return text;
 }
@@ -102,13 +126,15 @@ std::string fragility_text(const Fragility& f)
             text += fmt::format("; median {} ({}), dispersion {} ({})", number(s.curve.median.value),
                                 interval(s.curve.median.records), number(s.curve.dispersion.value),
                                 interval(s.curve.dispersion.records));
+        else if (has_median_bounds(s))
+            text += fmt::format("; no curve, median {}", median_bounds_text(s.curve.median.records));
         text += "\n";
         for (const std::string& remark : remarks(s))
             text += fmt::format("      {}\n", remark);
         if (s.state.kind == DamageState::Kind::collapse && s.shares)
             text += fmt::format("      scatter at a given intensity: {}\n", share_text(*s.shares));
     }
-    if (!f.measures.empty()) {
+    if (!f.measures.empty() && std::isfinite(f.measures.front().dispersion)) {
         const RankedMeasure& best = f.measures.front();
         text += fmt::format("  best intensity measure for the collapse: {}; dispersion {} ({})\n",
                             describe_measure(best.name), number(best.dispersion), interval(best.dispersion_limits));
@@ -136,6 +162,8 @@ Json state_json(const StateFragility& s)
         state.member("median", limits_json(s.curve.median))
             .member("dispersion", limits_json(s.curve.dispersion))
             .member("lack_of_fit_p", s.fit.p_value);
+    else // of any curve that does not fall
+        state.member("median", limits_json(s.curve.median));
     if (s.stripes) {
         state.member("monotone_p", s.stripes->p_monotone);
         Json stripes = Json::list();
@@ -237,7 +265,8 @@ void fragility_section(const Fragility& f, HtmlPage& page)
             row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
                                    number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
         else
-            row.insert(row.end(), {"no curve", "", "", ""});
+            row.insert(row.end(),
+                       {"no curve", has_median_bounds(s) ? median_bounds_text(s.curve.median.records) : "", "", ""});
         table.rows.push_back(std::move(row));
     }
     page.table(table);
@@ -266,11 +295,7 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         if (s.shares) {
             std::vector<Html> row = {s.state.describe};
             for (const DispersionShare& share : s.shares->levels)
-                row.push_back(share.known && f.different < least_records ? fmt::format("{:.0f} %", 100 * share.share)
-                              : share.known
-                                  ? fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share,
-                                                100 * share.share_limits.lower, 100 * share.share_limits.upper)
-                                  : std::string("with the left"));
+                row.push_back(share.known ? level_text(share, s.shares->records) : std::string("with the left"));
             shares.rows.push_back(std::move(row));
         }
     page.table(shares);
@@ -281,8 +306,12 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         return;
     page.heading("Intensity measures ranked by information on the collapse");
     HtmlTable ranks{
-        "lrrrrl", {"measure", "dispersion", "95 %", "information", "behind the best", "insufficient against"}, {}, ""};
+        "lrrrrl", {"measure", "dispersion", "95 %", "information", "behind the best", "still depends on"}, {}, ""};
     for (const RankedMeasure& m : f.measures) {
+        if (!std::isfinite(m.gain)) {
+            ranks.rows.push_back({describe_measure(m.name), "no curve", "", "", "", ""});
+            continue;
+        }
         std::string beside;
         const double level = 0.05 / static_cast<double>(std::max<std::size_t>(m.sufficiency.size(), 1));
         for (const Sufficiency& feature : m.sufficiency)
@@ -293,9 +322,9 @@ void fragility_section(const Fragility& f, HtmlPage& page)
     }
     page.table(ranks);
     page.note("Information: gain in log likelihood over the mean share, in nats per realization (one nat: 2.7 times as "
-              "probable). Behind the best: the difference with its 95 % interval, clustered by motion. A measure is "
-              "insufficient against a feature of the motions that still shifts the curve significantly (5 %, corrected "
-              "for all features).");
+              "probable). Behind the best: the difference with its 95 % interval, clustered by motion. The "
+              "outcome still depends on a feature of the motions that shifts the curve of the measure significantly "
+              "(5 %, corrected for all features).");
 }
 
 } // namespace stylobate

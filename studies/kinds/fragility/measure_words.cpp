@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace stylobate {
 
 std::string describe_measure(const std::string& name)
@@ -25,6 +27,23 @@ std::string describe_measure(const std::string& name)
     if (name.starts_with("sa_"))
         return fmt::format("spectral acceleration at {} s [m/s²]", name.substr(3, name.find("s_m") - 3));
     return name;
+}
+
+std::string short_measure(const std::string& name)
+{
+    for (const auto& [known, symbol] : {std::pair{"pga_m_s2", "PGA"},
+                                        {"pgv_m_s", "PGV"},
+                                        {"pgd_m", "PGD"},
+                                        {"arias_m_s", "Arias intensity"},
+                                        {"cav_m_s", "CAV"}})
+        if (name == known)
+            return symbol;
+    return name.starts_with("sa_") ? fmt::format("Sa({} s)", name.substr(3, name.find("s_m") - 3)) : name;
+}
+
+std::string measure_unit(const std::string& name)
+{
+    return name.ends_with("_m_s2") ? "m/s2" : name.ends_with("_m_s") ? "m/s" : name.ends_with("_m") ? "m" : "";
 }
 
 } // namespace stylobate

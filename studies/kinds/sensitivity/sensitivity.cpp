@@ -178,7 +178,7 @@ SensitivityTable SensitivityOutcomes::table() const
                 design.value.push_back(values(kept_[i], longest_s)[o]);
         std::vector<bool> here(factors);
         if (sobol) {
-            const SobolIndices found = sobol_indices(design, options);
+            const SobolIndices found = possible_shares(sobol_indices(design, options));
             append(table, found, rest);
             here = found.acts;
         } else {

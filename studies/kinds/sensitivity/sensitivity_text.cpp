@@ -18,8 +18,17 @@ namespace {
 std::string interval_text(const IntervalArray& of, std::size_t i)
 {
     if (std::isnan(of.value[i]))
-        return "–";
+        return "not determined";
     return fmt::format("{:.3g} ({:.3g} to {:.3g})", of.value[i], of.lower[i], of.upper[i]);
+}
+
+/// An index of a factor. The rest has no part in the mean over it.
+std::string index_text(const SensitivityTable& table, const SensitivityTable::Index& index, std::size_t outcome,
+                       std::size_t factor)
+{
+    if (table.factors[factor] == rest_name && !index.name.starts_with("value_"))
+        return "–";
+    return interval_text(index.of, outcome * table.factors.size() + factor);
 }
 
 std::string spoken(std::string name)
@@ -90,16 +99,22 @@ std::string too_few_rows(const SensitivityTable& table)
     const std::size_t n = table.factors.size();
     double width = 0;
     std::string widest_one, impossible;
+    const auto known = [&](const SensitivityTable::Index& index, std::size_t o) { // of any factor of the outcome
+        for (std::size_t k = 0; k < n; ++k)
+            if (!std::isnan(index.of.value[o * n + k]))
+                return true;
+        return false;
+    };
     for (const char* name : {"first", "total"})
         for (std::size_t o = 0; o < table.outcomes.size(); ++o)
             for (std::size_t k = 0; k < n; ++k) {
                 const SensitivityTable::Index* index = table.find(name);
                 const std::size_t i = o * n + k;
-                if (!index || !std::isfinite(index->of.upper[i]))
+                if (!index || table.factors[k] == rest_name || !known(*index, o))
                     continue;
                 const std::string which = fmt::format("the {} of {} ({})", heading(name), spoken(table.factors[k]),
                                                       spoken(table.outcomes[o]));
-                if (index->of.upper[i] < 0 && impossible.empty())
+                if (std::isnan(index->of.value[i]) && impossible.empty())
                     impossible = which;
                 if (index->of.upper[i] - index->of.lower[i] > width) {
                     width = index->of.upper[i] - index->of.lower[i];
@@ -108,16 +123,16 @@ std::string too_few_rows(const SensitivityTable& table)
             }
     if (impossible.empty() && width <= widest)
         return "";
-    // where only the place of an interval is wrong, half its width is asked for
+    // where nothing of an interval is possible, half its width is asked for
     const double times = std::max(std::pow(width / widest, 2), impossible.empty() ? 1.0 : 4.0);
     const double wanted = times * static_cast<double>(table.rows + table.invalid_rows);
     const double unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
     std::string text = "Too few samples: ";
     if (!impossible.empty())
-        text += fmt::format("the interval of {} lies below 0, outside the range of an index; ", impossible);
-    text += fmt::format("the widest interval, of {}, is {:.2g} wide. Raise sensitivity.samples to about {:.0f}.",
-                        widest_one, width, std::ceil(wanted / unit) * unit);
-    return text;
+        text += fmt::format("the interval of {} lies outside 0 to 1, so it is not determined; ", impossible);
+    if (width > 0)
+        text += fmt::format("the widest interval, of {}, is {:.2g} wide. ", widest_one, width);
+    return text + fmt::format("Raise sensitivity.samples to about {:.0f}.", std::ceil(wanted / unit) * unit);
 }
 
 std::string explanation(const SensitivityTable& table)
@@ -171,7 +186,7 @@ std::string sensitivity_text(const SensitivityTable& table)
         for (std::size_t k = 0; k < n; ++k) {
             rows.push_back({spoken(table.factors[k])});
             for (const SensitivityTable::Index& index : table.indices)
-                rows.back().push_back(interval_text(index.of, o * n + k));
+                rows.back().push_back(index_text(table, index, o, k));
         }
         text += in_columns(rows, "    ");
     }
@@ -214,8 +229,6 @@ Json sensitivity_json(const SensitivityTable& table)
 
 Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome)
 {
-    // an interval may be far wider than what the indices can be: it is cut there, its readings too
-    constexpr double least = -0.5, most = 1.6;
     const bool sobol = table.method == "sobol";
     Figure figure;
     figure.title = "Sensitivity of " + spoken(table.outcomes[outcome]);
@@ -227,11 +240,10 @@ Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome)
         FigureSeries bars{heading(index.name), SeriesKind::bars, {}, {}, {}, {}};
         for (std::size_t k = 0; k < n; ++k) {
             const std::size_t i = outcome * n + k;
-            const auto within = [&](double v) { return sobol && std::isfinite(v) ? std::clamp(v, least, most) : v; };
             bars.x.push_back(static_cast<double>(k));
-            bars.y.push_back(within(index.of.value[i]));
-            bars.low.push_back(within(index.of.lower[i]));
-            bars.high.push_back(within(index.of.upper[i]));
+            bars.y.push_back(index.of.value[i]);
+            bars.low.push_back(index.of.lower[i]);
+            bars.high.push_back(index.of.upper[i]);
         }
         figure.series.push_back(std::move(bars));
     }
@@ -244,8 +256,7 @@ void add_sensitivity(HtmlPage& page, const SensitivityTable& table)
     const std::size_t n = table.factors.size();
     for (std::size_t o = 0; o < table.outcomes.size(); ++o)
         page.figure(figure_svg(sensitivity_figure(table, o), 220),
-                    fmt::format("Indices of {}, with their intervals{}.", spoken(table.outcomes[o]),
-                                table.method == "sobol" ? " (cut at -0.5 and 1.6)" : ""));
+                    fmt::format("Indices of {}, with their intervals.", spoken(table.outcomes[o])));
     for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
         HtmlTable of{"l" + std::string(table.indices.size(), 'r'), {"factor"}, {}, ""};
         of.caption = fmt::format("{} ({}): {}", spoken(table.outcomes[o]), table.meanings[o], mean_text(table, o));
@@ -254,7 +265,7 @@ void add_sensitivity(HtmlPage& page, const SensitivityTable& table)
         for (std::size_t k = 0; k < n; ++k) {
             std::vector<Html> row = {spoken(table.factors[k])};
             for (const SensitivityTable::Index& index : table.indices)
-                row.emplace_back(interval_text(index.of, o * n + k));
+                row.emplace_back(index_text(table, index, o, k));
             of.rows.push_back(std::move(row));
         }
         page.table(of);

@@ -99,6 +99,58 @@ TEST(DispersionShares, IntervalsCover)
     }
 }
 
+/// Eight records, few runs of each: unbiased estimates of a variance that is 0 are negative in half of the cases.
+TEST(DispersionShares, SharesAndTheirIntervalsAreWithinTheWhole)
+{
+    int negative = 0, determined = 0, undetermined = 0;
+    for (std::uint64_t r = 0; r < 300; ++r) {
+        const DispersionShares shares = dispersion_shares(nested(11, r, 8, {0.5, 0.0, 0.4, 0.0}, true));
+        EXPECT_NEAR(sum_of_shares(shares), 1, 1e-12);
+        for (const DispersionShare& level : shares.levels) {
+            negative += level.variance < 0;
+            EXPECT_GE(level.share, 0);
+            EXPECT_LE(level.share, 1);
+            if (!level.determined()) {
+                ++undetermined;
+                EXPECT_TRUE(std::isinf(level.share_limits.lower) && std::isinf(level.share_limits.upper));
+                continue;
+            }
+            ++determined;
+            EXPECT_LE(level.share_limits.lower, level.share);
+            EXPECT_GE(level.share_limits.upper, level.share);
+        }
+    }
+    EXPECT_GT(negative, 100);
+    EXPECT_GT(determined, 300);
+    EXPECT_GT(undetermined, 10);
+}
+
+/// Two records with two structures each, responses 0 2 | 1 3: half the mean squared difference within the records is 2,
+/// between them 3 / 2, so that the record's variance is -1 / 2. The nearest possible ones have 0 for it.
+TEST(DispersionShares, TheNearestPossibleVariancesByHand)
+{
+    const DispersionShares shares =
+        dispersion_shares(std::vector<NestedRun>{{0, 0, 0, 0, 0}, {0, 1, 1, 0, 2}, {1, 0, 0, 0, 1}, {1, 1, 1, 0, 3}});
+    // pairs of different records: 0-1, 0-3, 2-1, 2-3: (1 + 9 + 1 + 1) / 4 / 2
+    EXPECT_NEAR(shares.total, 1.5, 1e-12);
+    EXPECT_NEAR(shares.levels[1].variance, 2, 1e-12);
+    EXPECT_NEAR(shares.levels[0].variance, -0.5, 1e-12);
+    EXPECT_NEAR(shares.levels[0].share, 0, 1e-12);
+    EXPECT_NEAR(shares.levels[1].share, 1, 1e-12);
+}
+
+TEST(DispersionShares, WithoutDispersionNoShareIsANumber)
+{
+    std::vector<NestedRun> runs = nested(12, 0, 20, {1, 1, 1, 1}, false);
+    for (NestedRun& run : runs)
+        run.response = 1;
+    const DispersionShares shares = dispersion_shares(runs);
+    for (const DispersionShare& level : shares.levels) {
+        EXPECT_TRUE(std::isnan(level.share));
+        EXPECT_FALSE(level.determined());
+    }
+}
+
 TEST(DispersionShares, StripesAreNotCompared)
 {
     auto runs = nested(5, 0, 30, {1, 0.5, 0.5, 0.5}, false);

@@ -238,6 +238,60 @@ TEST(FragilityCurve, SeparatedDataGiveBoundsAndNoCurve)
     EXPECT_TRUE(std::isinf(few.median.records.upper));
 }
 
+/// The search for the maximum used to end at a steep curve between two stripes, by rounding, with no width.
+TEST(FragilityCurve, TwoStripesThatSeparateHaveNoMaximum)
+{
+    for (const double upper : {0.12, 0.775, 6.0, 1e4}) {
+        const FragilityCurve curve = fragility_curve(stripes(20, {0.1, upper}, {0, 1}), {.at = {{0.1}, {upper}}});
+        EXPECT_EQ(curve.maximum, Maximum::separated) << upper;
+        EXPECT_TRUE(std::isnan(curve.median.value) && std::isnan(curve.dispersion.value)) << upper;
+        EXPECT_EQ(curve.median.records.lower, 0.1) << upper;
+        EXPECT_EQ(curve.median.records.upper, upper);
+        EXPECT_NE(joined(curve.says).find("The stripes separate"), std::string::npos) << joined(curve.says);
+    }
+    // a stripe that is reached in part between them: any share of it, a slope without end
+    for (const double share : {0.1, 0.5, 0.9}) {
+        const FragilityCurve curve = fragility_curve(stripes(20, {1, 2, 3}, {0, share, 1}), {});
+        EXPECT_EQ(curve.maximum, Maximum::separated) << share;
+        EXPECT_EQ(curve.median.records.lower, 1);
+        EXPECT_EQ(curve.median.records.upper, 3);
+    }
+    EXPECT_EQ(fragility_curve(stripes(20, {1, 2, 3, 4}, {0, 0.4, 0.6, 1}), {}).maximum, Maximum::inside);
+}
+
+TEST(FragilityCurve, WeakerShakingThatDamagesMoreBearsNoCurve)
+{
+    const FragilityCurve curve = fragility_curve(stripes(20, {1, 2}, {1, 0}), {.at = {{1.5}}});
+    EXPECT_EQ(curve.maximum, Maximum::separated);
+    EXPECT_LE(curve.median.records.lower, curve.median.records.upper);
+    EXPECT_LE(curve.at[0].probability.records.lower, curve.at[0].probability.records.upper);
+    EXPECT_NE(joined(curve.says).find("no curve that rises"), std::string::npos) << joined(curve.says);
+}
+
+/// Equal records (the same motion several times) show no scatter, and an interval without a width would be false.
+TEST(FragilityCurve, EqualRecordsHaveNoInterval)
+{
+    const FragilityCurve curve = fragility_curve(stripes(20, {1, 2, 3}, {0.2, 0.5, 0.7}), {});
+    EXPECT_EQ(curve.maximum, Maximum::inside);
+    EXPECT_EQ(curve.median.records.lower, 0);
+    EXPECT_TRUE(std::isinf(curve.median.records.upper));
+    EXPECT_NE(joined(curve.says).find("same outcomes"), std::string::npos) << joined(curve.says);
+}
+
+/// A slope that may be 0 bounds no median.
+TEST(FragilityCurve, ASlopeThatIsNotSignificantBoundsNoMedian)
+{
+    std::vector<FragilityRun> runs;
+    for (std::uint32_t g = 0; g < 20; ++g)
+        for (const double im : {1.0, 1.1, 1.2})
+            runs.push_back(run(g, im, (g * 7 + static_cast<std::uint32_t>(10 * im)) % 11 < 5 ? 1 : 0, 1));
+    const FragilityCurve curve = fragility_curve(grouped(runs), {});
+    ASSERT_EQ(curve.maximum, Maximum::inside);
+    ASSERT_LT(curve.coefficients[1].records.lower, 0);
+    EXPECT_EQ(curve.median.records.lower, 0);
+    EXPECT_TRUE(std::isinf(curve.median.records.upper));
+}
+
 TEST(FragilityCurve, SeparatedInTwoMeasures)
 {
     std::vector<FragilityRun> runs;
@@ -279,6 +333,8 @@ TEST(FragilityCurve, AShareThatFallsWithIntensityHasNoMedian)
     const FragilityCurve curve = fragility_curve(stripes(30, {1, 2, 3}, {0.8, 0.5, 0.3}), {});
     EXPECT_TRUE(std::isnan(curve.median.value));
     EXPECT_NE(joined(curve.says).find("does not grow"), std::string::npos);
+    const FragilityCurve at = fragility_curve(stripes(30, {1, 2, 3}, {0.8, 0.5, 0.3}), {.at = {{2}}});
+    EXPECT_TRUE(std::isnan(at.at[0].probability.value)) << "no curve is drawn";
 }
 
 TEST(FragilityData, RefusesWhatIsNoOutcome)

@@ -192,17 +192,75 @@ TEST(FrequencyEstimate, NoDamageHasAnUpperLimit)
     const FrequencyEstimate found = share_frequency(data, stripe_shares(data), power_law(1e-3, 2, 0.5));
     EXPECT_EQ(found.frequency.value, 0);
     EXPECT_EQ(found.frequency.total.lower, 0);
-    // the exact limit of none in thirty records, of all events that the weights count
-    double events = 0;
-    for (const double w :
-         best_curve(power_law(1e-3, 2)).node_weights({{std::log(0.5), 0, std::log(2.0)}}, -INFINITY, INFINITY))
-        events += w;
-    const double exact = (1 - std::pow(0.05, 1.0 / 30)) * events;
-    EXPECT_NEAR(found.frequency.fragility.upper / exact, 1, 1e-4);
-    EXPECT_NEAR(found.frequency.total.upper / exact, std::exp(0.5 * 1.6448536), 1e-3);
-    // of what is weaker than the last stripe, all of which shows nothing
-    EXPECT_GT(found.unseen, 0);
-    EXPECT_LT(found.unseen, found.frequency.fragility.upper);
+    // the exact limit of none in thirty records: of the events of the last stripe in the interval, of the others apart
+    const std::vector<double> w =
+        best_curve(power_law(1e-3, 2)).node_weights({{std::log(0.5), 0, std::log(2.0)}}, -INFINITY, INFINITY);
+    const double limit = 1 - std::pow(0.05, 1.0 / 30);
+    EXPECT_NEAR(found.frequency.fragility.upper / (limit * w[2]), 1, 1e-4);
+    EXPECT_NEAR(found.frequency.total.upper / (limit * w[2]), std::exp(0.5 * 1.6448536), 1e-3);
+    EXPECT_NEAR(found.unseen / (limit * (w[0] + w[1])), 1, 1e-4);
+}
+
+/// Thirty records at 1, 2 and 4 with the hazard 0.01 / im. At 1 none of 10 records reached it, at 2 none of 30, at 4
+/// each of 12 records with half of its runs.
+TEST(FrequencyEstimate, WhatIsNotExcludedIsMonotoneAndInNoInterval)
+{
+    std::vector<FragilityRun> runs;
+    for (std::uint32_t g = 0; g < 30; ++g) {
+        if (g < 10)
+            runs.push_back({g, {1.0}, 0, 4});
+        runs.push_back({g, {2.0}, 0, 4});
+        runs.push_back({g, {4.0}, g < 12 ? 2.0 + (g % 3) : 0.0, 4});
+    }
+    const FragilityData data = grouped(runs);
+    const StripeShares shares = stripe_shares(data, 0.9);
+    // alone the ten records would leave 1 - 0.05^(1/10); stronger shaking of thirty records leaves less
+    const double of_thirty = 1 - std::pow(0.05, 1.0 / 30);
+    EXPECT_NEAR(shares.stripes[1].limits.upper, of_thirty, 1e-6);
+    EXPECT_NEAR(shares.stripes[0].limits.upper, of_thirty, 1e-6);
+    const FrequencyEstimate found = share_frequency(data, shares, power_law(0.01, 1));
+    // node weights by hand, of lambda = 0.01 exp(-x), x = ln im: over one spacing s = ln 2 from a, the events are
+    // lambda(a) / 2, and their mean place is (1 - ln 2) / ln 2 of the spacing, as the integral of
+    // t exp(-t) over [0, s] is 1 - (1 + s) / 2
+    const double s = std::log(2.0), place = (1 - (1 + s) / 2) / s; // times lambda(a): the part of the upper node
+    const auto lambda = [](double im) { return 0.01 / im; };
+    const double w0 = place * lambda(0.5) + (0.5 - place) * lambda(1),
+                 w1 = place * lambda(1) + (0.5 - place) * lambda(2);
+    EXPECT_NEAR(found.unseen, of_thirty * (w0 + w1), 1e-6 * found.unseen);
+    // the interval counts the strongest stripe alone
+    const double w2 = place * lambda(2) + lambda(4);
+    EXPECT_NEAR(found.frequency.value, w2 * (12 * 0.75) / 30, 1e-12);
+    EXPECT_LT(found.frequency.fragility.upper, w2);
+    for (const FrequencyPart& part : found.parts)
+        if (part.to < 2)
+            EXPECT_EQ(part.frequency.value, 0);
+}
+
+/// Twenty records, none reached at 0.1 and all at 6: nothing is known of what lies between, and the interval says so.
+TEST(FrequencyEstimate, SeparatedStripesCarryWhatIsNotKnown)
+{
+    std::vector<FragilityRun> runs;
+    for (std::uint32_t g = 0; g < 20; ++g) {
+        runs.push_back({g, {0.1}, 0, 2});
+        runs.push_back({g, {6.0}, 2, 2});
+    }
+    const FragilityData data = grouped(runs);
+    const FrequencyEstimate found = share_frequency(data, stripe_shares(data), power_law(1e-3, 3));
+    // at most all events above 0.1; at least those above 6 with the exact limit of all of twenty records
+    EXPECT_NEAR(found.frequency.fragility.upper, 1e-3 * std::pow(0.1, -3), 1e-9);
+    EXPECT_NEAR(found.frequency.fragility.lower / (1e-3 * std::pow(6.0, -3) * std::pow(0.05, 1.0 / 20)), 1, 1e-4);
+    EXPECT_GT(found.frequency.value, found.frequency.fragility.lower);
+    EXPECT_LT(found.frequency.value, found.frequency.fragility.upper);
+    // records that are all alike at every stripe have no scatter, and yet an interval
+    std::vector<FragilityRun> alike;
+    for (std::uint32_t g = 0; g < 20; ++g)
+        for (const auto& [im, reached] : {std::pair{0.5, 1.0}, std::pair{1.0, 2.0}, std::pair{2.0, 3.0}})
+            alike.push_back({g, {im}, reached, 4});
+    const FragilityData equal = grouped(alike);
+    const RiskNumber same = share_frequency(equal, stripe_shares(equal), power_law(1e-3, 3)).frequency;
+    EXPECT_LT(same.fragility.lower, 0.99 * same.value);
+    EXPECT_GT(same.fragility.upper, 1.01 * same.value);
+    EXPECT_TRUE(std::isinf(lognormal_frequency(equal, power_law(1e-3, 3)).frequency.fragility.upper));
 }
 
 /// How often the intervals contain the truth, with both sources of error drawn anew.

@@ -9,12 +9,34 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace stylobate;
 using namespace stylobate::testing;
 
 namespace {
+
+TEST(SobolIndices, SharesAreCutToWhatIsPossible)
+{
+    const double none = std::nan("");
+    SobolIndices found{{0.4, 0.3, 0.5}, {1.02, 0.9, 1.1}, {{{-0.05, -0.1, 0.01}, {0.94, 0.85, 1.04}}}, {}, {true}};
+    found.of_mean.push_back({{-0.3, -0.4, -0.01}, {0, 0, 0}});
+    found.of_mean.push_back({{none, none, none}, {1.2, 1.1, 1.3}});
+    const SobolIndices cut = possible_shares(found);
+    const auto is = [](const Estimate& e, double value, double lower, double upper) {
+        EXPECT_EQ(e.value, value);
+        EXPECT_EQ(e.lower, lower);
+        EXPECT_EQ(e.upper, upper);
+    };
+    is(cut.mean, 0.4, 0.3, 0.5);
+    is(cut.explained, 1, 0.9, 1);
+    is(cut.of_mean[0].first, 0, 0, 0.01);
+    is(cut.of_mean[0].total, 0.94, 0.85, 1);
+    is(cut.of_mean[1].total, 0, 0, 0);
+    for (const Estimate& e : {cut.of_mean[1].first, cut.of_mean[2].first, cut.of_mean[2].total})
+        EXPECT_TRUE(std::isnan(e.value) && std::isnan(e.lower) && std::isnan(e.upper));
+}
 
 /// How often intervals hold the truth, one count for each index: first indices, then total ones.
 struct Coverage {

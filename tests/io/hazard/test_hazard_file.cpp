@@ -74,6 +74,29 @@ TEST_F(HazardFile, PowerLawInItsUnit)
     EXPECT_EQ(read_hazard({"k0=1e-4,k=2.5,measure=sa_0.5s"}, "sa_0.5s_m_s2").measure, "sa_0.5s_m_s2");
 }
 
+/// OpenQuake's hazard library has PGA and SA in g, PGV in cm/s, PGD in cm, IA in m/s and CAV in g s.
+TEST_F(HazardFile, MeasuresOfOpenQuakeAreInItsUnits)
+{
+    const struct {
+        const char *openquake, *own;
+        double si; ///< one of its unit
+    } measures[] = {{"PGA", "pga_m_s2", 9.80665}, {"SA(0.5)", "sa_0.5s_m_s2", 9.80665},
+                    {"PGV", "pgv_m_s", 0.01},     {"PGD", "pgd_m", 0.01},
+                    {"IA", "arias_m_s", 1},       {"CAV", "cav_m_s", 9.80665}};
+    for (const auto& measure : measures) {
+        const std::string text =
+            std::string("#,,,\"generated_by='OpenQuake engine 3.16', kind='mean', investigation_time=1.0, imt='") +
+            measure.openquake + "'\"\nlon,lat,depth,poe-0.1000000,poe-0.2000000\n1,2,0,0.2,0.1\n";
+        const HazardModel hazard = read_hazard({file(text)}, measure.own);
+        EXPECT_NEAR(hazard.intensity[0], 0.1 * measure.si, 1e-12) << measure.openquake;
+        EXPECT_NEAR(hazard.intensity[1], 0.2 * measure.si, 1e-12) << measure.openquake;
+    }
+    // 1 m/s = 0.10197 g s
+    EXPECT_NEAR(read_hazard({file("cav_g_s,annual_frequency\n0.10197162,1e-2\n1,1e-3\n")}, "cav_m_s").intensity[0], 1,
+                1e-7);
+    EXPECT_NEAR(read_hazard({"k0=1e-3,k=2,measure=cav_g_s"}, "cav_m_s").intensity[0], 9.80665, 1e-12);
+}
+
 TEST_F(HazardFile, PowerLawRefusals)
 {
     for (const auto& [given, what] : std::initializer_list<std::pair<const char*, const char*>>{

@@ -109,10 +109,31 @@ TEST(FragilityExchange, MeanAndDeviationAreWhatOpenQuakeTurnsBack)
     EXPECT_NEAR(mean * mean / std::sqrt(stddev * stddev + mean * mean), 4.1 / 9.80665, 1e-12);
 }
 
+/// One SI unit of each measure as an intensity, in the unit of OpenQuake's hazard library; and read back.
+TEST(FragilityExchange, MeasuresAreInOpenQuakesUnits)
+{
+    const struct {
+        const char *measure, *unit;
+        double value; ///< of one SI unit
+    } measures[] = {{"PGA", "g", 1 / 9.80665}, {"SA(1.0)", "g", 1 / 9.80665}, {"PGV", "cm/s", 100}, {"PGD", "cm", 100},
+                    {"IA", "m/s", 1},          {"CAV", "g s", 0.101971621}};
+    for (const auto& [measure, unit, value] : measures) {
+        FragilityModel one = model();
+        one.functions.erase(one.functions.begin());
+        one.functions[0].measure = measure;
+        const std::string text = fragility_nrml(one);
+        EXPECT_NE(text.find(std::string("intensities in ") + unit + " "), std::string::npos) << text;
+        const std::size_t at = text.find('>', text.find("<imls")) + 1;
+        EXPECT_NEAR(std::strtod(text.c_str() + at, nullptr), value, 1e-8) << measure;
+        const TextFile file(text);
+        EXPECT_NEAR(read_fragility_nrml(file.path()).functions[0].intensity[0], 1, 1e-12) << measure;
+    }
+}
+
 TEST(FragilityExchange, NrmlKeepsTheSchemaAndTheIntervals)
 {
     const std::string text = fragility_nrml(model());
-    EXPECT_NE(text.find("dispersion 0.4 [0.31, 0.55]"), std::string::npos) << text;
+    EXPECT_NE(text.find("dispersion 0.4 (0.31 to 0.55)"), std::string::npos) << text;
     if (std::system("xmllint --version >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "xmllint (libxml2-utils) is not installed";
     const TextFile file(text);

@@ -3,6 +3,7 @@
 
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/risk/risk.hpp"
+#include "studies/decisions/risk/risk_change.hpp"
 
 #include <cmath>
 #include <limits>
@@ -59,9 +60,11 @@ inline Comparison sample_comparison(bool of_motions)
         v.inputs = {{"friction", CommonDraws::same, 3}, {"tilt", CommonDraws::variant_only, 1}};
         v.notes = {"structure.columns differs"};
         for (const char* limit : {"collapse", "peak_0.35"}) {
-            LimitComparison state{limit, "what it is", true, {}, sample_place(30, 10)};
+            LimitComparison state{limit, "what it is", true, {}, sample_place(30, 10), {}};
             for (std::size_t cell = 0; cell < c.cells(); ++cell)
                 state.cells.push_back(sample_place(40 - 30 * cell, 10 * cell));
+            for (std::size_t i = 0; of_motions && i < c.cells() * c.motions; ++i)
+                state.by_motion.push_back({i % 4, 3 - i % 3, i % 3, 1});
             v.limits.push_back(state);
         }
         if (!of_motions)
@@ -82,6 +85,45 @@ inline RiskNumber sample_risk_number(double value)
     n.hazard = {value / 1.5, value * 3};
     n.fragility_part = 0.4;
     return n;
+}
+
+inline RiskChange sample_risk_change()
+{
+    RiskChange change;
+    change.comparison_file = "column_comparison.h5";
+    change.title = "A column";
+    change.base_name = "column";
+    change.code_version = "1.0";
+    change.hazard.source = "hazard.csv";
+    change.hazard.measure = "pgv_m_s";
+    change.hazard.intensity = {0.05, 0.5, 5};
+    change.hazard.frequency = {0.1, 1e-3, 1e-5};
+    change.years = {50, 100};
+    change.intensity = {0.3, 0.6, 1.2};
+    change.motions = 20;
+    change.says = {"A note."};
+    for (const char* name : {"dowels", "tendon"}) {
+        VariantChange variant{name, std::string(name) + ".h5", {}};
+        for (const bool determined : {true, false}) {
+            StateChange s;
+            s.state = determined ? "collapse" : "peak_0.35";
+            s.meaning = "what it is";
+            s.determined = determined;
+            s.note = "why";
+            s.base = sample_risk_number(1e-3);
+            s.variant = sample_risk_number(7e-4);
+            s.base_unseen = 1e-5;
+            s.variant_unseen = 2e-5;
+            s.frequency = {-3e-4, {-4e-4, -2e-4}, {-6e-4, -1e-4}};
+            s.ratio = {0.7, {0.6, 0.8}, {0.6, std::numeric_limits<double>::infinity()}};
+            s.probability = {{-0.01, {-0.02, -0.005}, {-0.03, -0.004}}, {-0.02, {-0.04, -0.01}, {-0.06, -0.01}}};
+            s.base_share = {0, 0.4, 0.9};
+            s.variant_share = {0, 0.3, 0.8};
+            variant.states.push_back(s);
+        }
+        change.variants.push_back(variant);
+    }
+    return change;
 }
 
 inline SequenceRisk sample_sequences()

@@ -27,7 +27,7 @@ PlaceComparison place(double base, double variant, double lower, double upper, d
     return all;
 }
 
-/// Two cells, in the second of which the variant harms; its gain hangs on the friction.
+/// Two cells, in the second of which the variant harms; its gain depends on the friction.
 Comparison comparison(double lower, double upper)
 {
     Comparison c;
@@ -54,10 +54,9 @@ TEST(ComparisonAnswer, IsOneSentenceWithItsIntervalAndItsVerdict)
     const Comparison better = comparison(-0.2, -0.05), open = comparison(-0.2, 0.05), worse = comparison(0.01, 0.3);
     EXPECT_EQ(answer_text(better, better.variants.front()),
               "With dowels the probability of collapse is 0.400 instead of 0.500 over the 2 cells of the study, each "
-              "with the same weight: a difference of -0.1000 [-0.2000, -0.0500] at 95 %. It helps.");
-    EXPECT_TRUE(answer_text(open, open.variants.front())
-                    .ends_with("No difference is shown; one larger than 0.200 is "
-                               "excluded."));
+              "with the same weight: a difference of -0.1000 (-0.2000 to -0.0500) at 95 %. It helps.");
+    EXPECT_TRUE(
+        answer_text(open, open.variants.front()).ends_with("at 95 %. Undecided: -20.0 to +5.0 percentage points."));
     EXPECT_TRUE(answer_text(worse, worse.variants.front()).ends_with("It harms."));
     Comparison empty = better;
     empty.variants.front().limits.front().overall.counts = {};
@@ -73,12 +72,12 @@ TEST(ComparisonAnswer, NamesWhereItHarmsAndWhatWouldChangeIt)
 
     const std::vector<std::string> hangs = dependence_texts(c, dowels);
     ASSERT_EQ(hangs.size(), 1U) << "the tilt does not count";
-    EXPECT_EQ(hangs.front(), "friction: the difference is -0.200 [-0.300, -0.100] at friction below 0.65, and 0.020 "
-                             "[-0.100, 0.100] at friction above 0.71 (adjusted p = 2e-05).");
+    EXPECT_EQ(hangs.front(), "friction: the difference is -0.200 (-0.300 to -0.100) at friction below 0.65, and 0.020 "
+                             "(-0.100 to 0.100) at friction above 0.71 (adjusted p = 2e-05).");
 
     const std::vector<std::string> changes = what_would_change_it(c, dowels);
     ASSERT_EQ(changes.size(), 2U);
-    EXPECT_EQ(changes.front(), "friction above 0.71: no difference is shown, 0.020 [-0.100, 0.100].");
+    EXPECT_EQ(changes.front(), "friction above 0.71: no difference is shown, 0.020 (-0.100 to 0.100).");
     EXPECT_EQ(changes.back(), harm_text(c, dowels));
 }
 
@@ -132,7 +131,7 @@ TEST(ComparisonAnswer, AThirdWithTheOtherSignIsNamed)
     Comparison c = comparison(-0.2, -0.05);
     c.variants.front().depends.front().found.thirds[1] = {0.1, 0.01, 0.2};
     EXPECT_EQ(what_would_change_it(c, c.variants.front()).front(),
-              "friction from 0.65 to 0.71: the difference has the other sign, 0.100 [0.010, 0.200].");
+              "friction from 0.65 to 0.71: the difference has the other sign, 0.100 (0.010 to 0.200).");
 }
 
 TEST(ComparisonAnswer, OfMotionsSpeaksOfMotions)
@@ -142,11 +141,13 @@ TEST(ComparisonAnswer, OfMotionsSpeaksOfMotions)
     c.adjustment = "holm";
     c.frequency_hz = c.pga_m_s2 = {};
     c.intensity = {1, 2};
+    c.measure = "sa_0.5s_m_s2";
     c.motions = 20;
     VariantComparison& dowels = c.variants.front();
     dowels.limits.front().describe = "a block falls"; // of a damage state: a clause, no noun
     dowels.depends.clear();
     EXPECT_TRUE(answer_text(c, dowels).starts_with("With dowels the probability of collapse is"));
+    EXPECT_EQ(c.place(0), "Sa(0.5 s) 1 m/s2");
     EXPECT_NE(answer_text(c, dowels).find("over 20 motions at 2 intensities: a difference"), std::string::npos);
     EXPECT_TRUE(harm_text(c, dowels).starts_with("It harms in 1 of 2 intensities (Holm")) << harm_text(c, dowels);
     EXPECT_EQ(what_would_change_it(c, dowels).back(),
@@ -155,7 +156,20 @@ TEST(ComparisonAnswer, OfMotionsSpeaksOfMotions)
     dowels.limits.front().cells.pop_back();
     EXPECT_NE(answer_text(c, dowels).find("over 20 motions: a difference"), std::string::npos);
     dowels.limits.front().overall.upper = 1; // one motion alone shows nothing
-    EXPECT_TRUE(answer_text(c, dowels).ends_with("No difference is shown, and none is excluded."));
+    EXPECT_TRUE(answer_text(c, dowels).ends_with("Undecided: no difference is excluded."));
+}
+
+TEST(ComparisonAnswer, SaysWhatPairingSaved)
+{
+    Comparison c = comparison(-0.2, 0.05);
+    PlaceComparison& all = c.variants.front().limits.front().overall;
+    all.unpaired = 20.2 * static_cast<double>(all.counts.pairs());
+    EXPECT_EQ(saving_text(all), "pairing saved a factor of 20");
+    all.unpaired = 0.6 * static_cast<double>(all.counts.pairs());
+    EXPECT_EQ(saving_text(all), "pairing saved nothing (a factor of 0.6)");
+    all.unpaired = std::nan("");
+    EXPECT_EQ(saving_text(all), "what pairing saved is not known");
+    EXPECT_EQ(verdict_text(c.variants.front().limits.front(), all), "undecided: -20.0 to +5.0 percentage points");
 }
 
 TEST(ComparisonAnswer, WithoutPairsNothingIsSaid)

@@ -6,6 +6,8 @@
 #include "studies/app/file_kind.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
@@ -91,10 +93,83 @@ TEST_F(DecisionFiles, AComparisonReadsBackEqual)
         write_comparison(comparison, file);
         const Comparison read = read_comparison(file);
         EXPECT_EQ(comparison_text(read), comparison_text(comparison));
+        for (std::size_t limit = 0; limit < 2; ++limit)
+            EXPECT_EQ(read.variants[1].limits[limit].by_motion, comparison.variants[1].limits[limit].by_motion);
         EXPECT_EQ(recognise(file).kind, FileKind::comparison);
         write_comparison(read, folder / "again.h5");
         EXPECT_EQ(bytes_in(folder / "again.h5"), bytes_in(file));
     }
+}
+
+TEST_F(DecisionFiles, ARiskOfAComparisonReadsBackEqual)
+{
+    const RiskChange change = sample_risk_change();
+    write_risk_change(change, file);
+    const RiskChange read = read_risk_change(file);
+    EXPECT_EQ(risk_change_text(read), risk_change_text(change));
+    EXPECT_EQ(risk_change_json(read).text(), risk_change_json(change).text());
+    EXPECT_EQ(risk_change_csv(read), risk_change_csv(change));
+    EXPECT_EQ(recognise(file).kind, FileKind::risk);
+    EXPECT_EQ(recognise(file).detail, risk_of_comparison);
+    write_risk_change(read, folder / "again.h5");
+    EXPECT_EQ(bytes_in(folder / "again.h5"), bytes_in(file));
+    expect_damage_is_found([](const fs::path& path) { read_risk_change(path); });
+
+    const std::string text = risk_change_text(change);
+    EXPECT_NE(text.find("collapse (what it is): lower\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("change -2 (-6 to -1) percentage points"), std::string::npos) << text;
+    EXPECT_NE(text.find("ratio not determined"), std::string::npos) << text;
+    EXPECT_NE(text.find("peak_0.35 (what it is): not determined\n    why\n"), std::string::npos) << text;
+    const std::string answer = risk_change_answer(change, change.variants[0]);
+    // 1 - exp(-0.1) and 1 - exp(-0.07)
+    EXPECT_NE(answer.find("a probability of 9.52 % (3.28 to 33) in column and of 6.76 % (2.31 to 24.4) with dowels: a "
+                          "change of -2 (-6 to -1) percentage points (90 % interval). The risk is lower."),
+              std::string::npos)
+        << answer;
+}
+
+/// Damage may be written with a valid seal: what has no meaning is refused.
+TEST_F(DecisionFiles, ARiskOfAComparisonWithoutMeaningIsRefused)
+{
+    const auto refused = [&](const auto& edit, const char* why) {
+        RiskChange change = sample_risk_change();
+        edit(change);
+        write_risk_change(change, file);
+        const std::string message = refusal_of([&] { read_risk_change(file); });
+        EXPECT_NE(message.find(why), std::string::npos) << message;
+    };
+    refused([](RiskChange& c) { c.years = {50, NAN}; }, "its years");
+    refused([](RiskChange& c) { c.level = 0; }, "the level of its intervals");
+    refused([](RiskChange& c) { c.variants[1].states.clear(); }, "a variant has no limit state");
+    refused([](RiskChange& c) { c.variants.clear(); }, "its variants are no list");
+    refused([](RiskChange& c) { c.hazard.frequency[1] = 1; }, "its hazard is none");
+}
+
+TEST_F(DecisionFiles, OnlyComparisonsOfFragilityStudiesHaveARisk)
+{
+    HazardModel hazard = sample_risk_change().hazard;
+    hazard.measure = "pgv_m_s";
+    const auto refusal = [&](const Comparison& comparison, const RiskOptions& options = {}) {
+        return refusal_of([&] { risk_change_of(comparison, "c.h5", hazard, options); });
+    };
+    EXPECT_NE(refusal(sample_comparison(false)).find("is a comparison of studies of kind 'surface'"),
+              std::string::npos);
+    Comparison cloud = sample_comparison(true);
+    cloud.intensity.clear();
+    EXPECT_NE(refusal(cloud).find("compares clouds"), std::string::npos);
+    Comparison old = sample_comparison(true);
+    for (LimitComparison& limit : old.variants[0].limits)
+        limit.by_motion.clear();
+    EXPECT_NE(refusal(old).find("Compare the results again"), std::string::npos) << refusal(old);
+    RiskOptions options;
+    options.state = "colapse";
+    EXPECT_NE(refusal(sample_comparison(true), options).find("Did you mean collapse?"), std::string::npos);
+    options.state = "collapse";
+    options.most_outside = 1;
+    const RiskChange change = risk_change_of(sample_comparison(true), "c.h5", hazard, options);
+    ASSERT_EQ(change.variants.size(), 2U);
+    ASSERT_EQ(change.variants[0].states.size(), 1U);
+    EXPECT_EQ(change.variants[0].states[0].probability.size(), 2U);
 }
 
 TEST_F(DecisionFiles, EveryChangedByteOfARiskEstimateIsFound)

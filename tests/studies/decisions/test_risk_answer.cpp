@@ -62,8 +62,9 @@ TEST(RiskAnswer, OfNoFallIsItsUpperLimit)
 {
     Risk none = risk(0.2);
     none.states.front().estimate.frequency = number(0, 0, 1e-3, std::nan(""));
-    EXPECT_EQ(risk_answer(none), "No run of the study reached the limit state 'a block falls'. Its probability in 100 "
-                                 "years is at most 9.52 % (90 % interval from 0).");
+    EXPECT_EQ(risk_answer(none), "No run of the study reached the limit state 'a block falls'. By shaking as strong as "
+                                 "the strongest of the runs, or stronger, its probability in 100 years is at most 9.52 "
+                                 "% (90 % interval from 0).");
     EXPECT_EQ(risk_grounds(none), "");
 }
 
@@ -71,11 +72,12 @@ TEST(RiskAnswer, SaysWhereItComesFromAndWhatWouldNarrowIt)
 {
     const std::string by_hazard = risk_grounds(risk(0.2)), by_fragility = risk_grounds(risk(0.8)),
                       by_both = risk_grounds(risk(0.4));
-    EXPECT_NE(by_hazard.find("from 1 to 4"), std::string::npos) << by_hazard;
-    EXPECT_NE(
-        by_hazard.find(
-            "80 % of the interval's squared width comes from the hazard, 20 % from the fragility. A better hazard"),
-        std::string::npos)
+    EXPECT_NE(by_hazard.find("At least 80 % of the risk comes from PGV between 1 and 4 m/s. "), std::string::npos)
+        << by_hazard;
+    EXPECT_NE(by_hazard.find("Of the uncertainty (the interval's squared width) 80 % is due to the hazard and 20 % due "
+                             "to the fragility. A "
+                             "better hazard"),
+              std::string::npos)
         << by_hazard;
     EXPECT_NE(by_hazard.find("more motions hardly would"), std::string::npos) << by_hazard;
     EXPECT_NE(by_fragility.find("More motions in the study would narrow it; a better hazard curve hardly"),
@@ -94,13 +96,13 @@ TEST(RiskAnswer, NamesTheMiddleOfTheIntensities)
         for (std::size_t i = 0; i < shares.size(); ++i)
             r.states.front().estimate.parts[i].frequency.value = 1e-3 * shares[i];
         const std::string text = risk_grounds(r);
-        const std::size_t colon = text.find(": ") + 2;
-        return text.substr(colon, text.find(". ", colon) - colon);
+        const std::size_t from = text.find("comes from ") + 11;
+        return text.substr(from, text.find(". ", from) - from);
     };
-    EXPECT_EQ(where({0.05, 0.6, 0.3, 0.05}), "from 1 to 4");
-    EXPECT_EQ(where({0.2, 0.5, 0.3, 0}), "up to 4");
-    EXPECT_EQ(where({0.05, 0.05, 0.7, 0.2}), "from 2 on");
-    EXPECT_EQ(where({0.2, 0.3, 0.3, 0.2}), "all");
+    EXPECT_EQ(where({0.05, 0.6, 0.3, 0.05}), "PGV between 1 and 4 m/s");
+    EXPECT_EQ(where({0.2, 0.5, 0.3, 0}), "PGV below 4 m/s");
+    EXPECT_EQ(where({0.05, 0.05, 0.7, 0.2}), "PGV above 2 m/s");
+    EXPECT_EQ(where({0.2, 0.3, 0.3, 0.2}), "PGV at all intensities");
 }
 
 } // namespace

@@ -1,10 +1,11 @@
-/// What is told and drawn of indices: columns that do not collide, too few samples, bars that are not cut.
+/// What is told and drawn of indices: columns that do not collide, too few samples, indices that are not determined.
 
 #include "io/plots/plot_sensitivity.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -94,17 +95,22 @@ TEST(SensitivityText, TooFewSamplesAreSaid)
     const std::string wide = remarks_of(table_of(-0.1, 0.3));
     EXPECT_NE(wide.find("Raise sensitivity.samples to about 800."), std::string::npos) << wide;
     EXPECT_NE(wide.find("normal stiffness of every joint"), std::string::npos) << wide;
-    // no index lies there
-    const std::string below = remarks_of(table_of(-0.421, -0.0145));
-    EXPECT_NE(below.find("lies below 0"), std::string::npos) << below;
-    EXPECT_NE(below.find("samples to about 830."), std::string::npos) << below;
-    EXPECT_NE(remarks_of(table_of(-0.03, -0.01)).find("samples to about 800."), std::string::npos);
+    // nothing of an interval was possible: the index is not determined
+    SensitivityTable table = table_of(0.1, 0.2);
+    table.indices[0].of.value[1] = table.indices[0].of.lower[1] = table.indices[0].of.upper[1] = std::nan("");
+    const std::string outside = remarks_of(table);
+    EXPECT_NE(
+        outside.find("the interval of the first index of normal stiffness of every joint (collapse) lies outside 0 "
+                     "to 1, so it is not determined"),
+        std::string::npos)
+        << outside;
+    EXPECT_NE(outside.find("samples to about 800."), std::string::npos) << outside;
+    EXPECT_NE(sensitivity_text(table).find("not determined"), std::string::npos);
 }
 
-/// Intervals that differ beyond -0.1 and 1.1 only, where the axis used to end.
+/// Intervals that reach the ends of the axis, 0 and 1.
 TEST_F(SensitivityPicture, IntervalsAreNotCut)
 {
-    EXPECT_NE(drawn(-0.4, 1), drawn(-0.2, 1.2));
-    EXPECT_NE(drawn(-0.2, 1.3), drawn(-0.2, 1.2));
-    EXPECT_NE(drawn(-0.5, 1.6), drawn(-2, 3.1)) << "arrows where the axis ends";
+    EXPECT_NE(drawn(0, 1), drawn(0.02, 1));
+    EXPECT_NE(drawn(0, 1), drawn(0, 0.98));
 }

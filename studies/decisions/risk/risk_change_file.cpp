@@ -1,0 +1,214 @@
+#include "studies/decisions/risk/risk_change_file.hpp"
+
+#include "io/sealed/table_file.hpp"
+#include "io/tables/csv.hpp"
+#include "studies/decisions/risk/risk_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr SealedFormat format{"stylobate-risk-change", "risk estimate of a comparison", 1, 1, "compute it again"};
+
+Table general_table(const RiskChange& change)
+{
+    Table table("risk_change");
+    table.set("title", change.title);
+    table.set("comparison_file", change.comparison_file);
+    table.set("base", change.base_name);
+    table.set("level", change.level);
+    table.set("most_outside", change.most_outside);
+    table.set("motions", change.motions);
+    table.set("code_version", change.code_version);
+    std::vector<std::string> names, results;
+    for (const VariantChange& variant : change.variants) {
+        names.push_back(variant.name);
+        results.push_back(variant.results);
+    }
+    table.add("variants", std::move(names));
+    table.add("variant_results", std::move(results));
+    table.add("years", change.years, {change.years.size()}, "year");
+    table.add("intensity", change.intensity);
+    table.add("notes", change.says);
+    return table;
+}
+
+/// NAME, and its limits by the motions and by motions and hazard.
+void add_change(Table& table, const std::string& name, const std::vector<ChangeNumber>& numbers,
+                const Table::Shape& shape, const std::string& unit)
+{
+    const auto column = [&](const char* ending, auto&& of) {
+        std::vector<double> values;
+        for (const ChangeNumber& n : numbers)
+            values.push_back(of(n));
+        table.add(name + ending, std::move(values), shape, unit);
+    };
+    column("", [](const ChangeNumber& n) { return n.value; });
+    column("_lower", [](const ChangeNumber& n) { return n.total.lower; });
+    column("_upper", [](const ChangeNumber& n) { return n.total.upper; });
+    column("_fragility_lower", [](const ChangeNumber& n) { return n.fragility.lower; });
+    column("_fragility_upper", [](const ChangeNumber& n) { return n.fragility.upper; });
+}
+
+std::vector<ChangeNumber> changes_of(const Table& table, const std::string& name, const Table::Shape& shape)
+{
+    const auto &value = table.numbers(name, shape), &lower = table.numbers(name + "_lower", shape),
+               &upper = table.numbers(name + "_upper", shape),
+               &fragility_lower = table.numbers(name + "_fragility_lower", shape),
+               &fragility_upper = table.numbers(name + "_fragility_upper", shape);
+    std::vector<ChangeNumber> numbers;
+    for (std::size_t i = 0; i < value.size(); ++i)
+        numbers.push_back({value[i], {fragility_lower[i], fragility_upper[i]}, {lower[i], upper[i]}});
+    return numbers;
+}
+
+/// A row for each limit state of each variant.
+Table states_table(const RiskChange& change)
+{
+    std::vector<std::int32_t> variant, damage, determined;
+    std::vector<std::string> names, states, meanings, notes, verdicts;
+    std::vector<RiskNumber> base, other;
+    std::vector<double> base_unseen, variant_unseen, base_share, variant_share;
+    std::vector<ChangeNumber> frequency, ratio, probability;
+    for (std::size_t v = 0; v < change.variants.size(); ++v)
+        for (const StateChange& s : change.variants[v].states) {
+            variant.push_back(static_cast<std::int32_t>(v));
+            names.push_back(change.variants[v].name);
+            states.push_back(s.state);
+            meanings.push_back(s.meaning);
+            notes.push_back(s.note);
+            verdicts.emplace_back(s.verdict());
+            damage.push_back(s.damage);
+            determined.push_back(s.determined);
+            base.push_back(s.base);
+            other.push_back(s.variant);
+            base_unseen.push_back(s.base_unseen);
+            variant_unseen.push_back(s.variant_unseen);
+            frequency.push_back(s.frequency);
+            ratio.push_back(s.ratio);
+            probability.insert(probability.end(), s.probability.begin(), s.probability.end());
+            base_share.insert(base_share.end(), s.base_share.begin(), s.base_share.end());
+            variant_share.insert(variant_share.end(), s.variant_share.begin(), s.variant_share.end());
+        }
+    const std::size_t n = states.size();
+    Table table("changes");
+    table.add("variant", std::move(variant), {n});
+    table.add("variant_name", std::move(names));
+    table.add("state", std::move(states));
+    table.add("meaning", std::move(meanings));
+    table.add("damage", std::move(damage), {n});
+    table.add("determined", std::move(determined), {n});
+    table.add("verdict", std::move(verdicts));
+    add_numbers(table, "base_annual_frequency", base);
+    add_numbers(table, "variant_annual_frequency", other);
+    add_change(table, "change", frequency, {n}, "1/year");
+    add_change(table, "ratio", ratio, {n}, "");
+    add_change(table, "probability_change", probability, {n, change.years.size()}, "");
+    table.add("base_unseen_annual_frequency", std::move(base_unseen), {n}, "1/year");
+    table.add("variant_unseen_annual_frequency", std::move(variant_unseen), {n}, "1/year");
+    table.add("base_share", std::move(base_share), {n, change.intensity.size()});
+    table.add("variant_share", std::move(variant_share), {n, change.intensity.size()});
+    table.add("note", std::move(notes));
+    return table;
+}
+
+void read_states(const Table& table, RiskChange& change)
+{
+    const Table::Shape shape = table.shape("state");
+    const std::vector<std::string>&names = table.texts("state"), &meanings = table.texts("meaning"),
+          &notes = table.texts("note");
+    if (meanings.size() != names.size() || notes.size() != names.size())
+        table.refuse("its lists of states differ in length");
+    const std::size_t n = names.size(), years = change.years.size(), stripes = change.intensity.size();
+    const auto &variant = table.integers("variant", shape), &damage = table.integers("damage", shape),
+               &determined = table.integers("determined", shape);
+    const auto base = numbers_of(table, "base_annual_frequency", shape),
+               other = numbers_of(table, "variant_annual_frequency", shape);
+    const auto frequency = changes_of(table, "change", shape), ratio = changes_of(table, "ratio", shape),
+               probability = changes_of(table, "probability_change", {n, years});
+    const auto &base_unseen = table.numbers("base_unseen_annual_frequency", shape),
+               &variant_unseen = table.numbers("variant_unseen_annual_frequency", shape),
+               &base_share = table.numbers("base_share", {n, stripes}),
+               &variant_share = table.numbers("variant_share", {n, stripes});
+    const auto part = [](const auto& values, std::size_t row, std::size_t width) {
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
+        return std::vector(begin, begin + static_cast<std::ptrdiff_t>(width));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (variant[i] < 0 || static_cast<std::size_t>(variant[i]) >= change.variants.size())
+            table.refuse("a row is of no variant");
+        change.variants[static_cast<std::size_t>(variant[i])].states.push_back(
+            {names[i], meanings[i], damage[i] != 0, determined[i] != 0, notes[i], base[i], other[i], base_unseen[i],
+             variant_unseen[i], frequency[i], ratio[i], part(probability, i, years), part(base_share, i, stripes),
+             part(variant_share, i, stripes)});
+    }
+    for (const VariantChange& v : change.variants)
+        if (v.states.empty())
+            table.refuse("a variant has no limit state");
+}
+
+} // namespace
+
+std::vector<Table> tables_of(const RiskChange& change)
+{
+    return {general_table(change), hazard_table(change.hazard), states_table(change)};
+}
+
+RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file)
+{
+    const Table missing("risk_change", file);
+    const auto named = [&](const char* name) -> const Table& {
+        const auto found = std::ranges::find(tables, name, &Table::name);
+        if (found == tables.end())
+            missing.refuse(fmt::format("the table {} is missing", name));
+        return *found;
+    };
+    const Table& general = named("risk_change");
+    RiskChange change;
+    change.title = general.text("title");
+    change.comparison_file = general.text("comparison_file");
+    change.base_name = general.text("base");
+    change.level = general.number("level");
+    change.most_outside = general.number("most_outside");
+    change.motions = general.count("motions");
+    change.code_version = general.text("code_version");
+    change.says = general.texts("notes");
+    change.years = general.numbers("years", general.shape("years"));
+    change.intensity = general.numbers("intensity", general.shape("intensity"));
+    if (!(change.level > 0 && change.level < 1))
+        general.refuse("the level of its intervals is not between 0 and 1");
+    if (change.years.empty() || !std::ranges::all_of(change.years, [](double y) { return y > 0 && std::isfinite(y); }))
+        general.refuse("its years are not above 0 and finite");
+    if (change.intensity.size() < 2)
+        general.refuse("it has fewer than two intensities");
+    const std::vector<std::string>&names = general.texts("variants"), &results = general.texts("variant_results");
+    if (names.empty() || results.size() != names.size())
+        general.refuse("its variants are no list");
+    for (std::size_t i = 0; i < names.size(); ++i)
+        change.variants.push_back({names[i], results[i], {}});
+    change.hazard = hazard_of(named("hazard"));
+    read_states(named("changes"), change);
+    return change;
+}
+
+void write_risk_change(const RiskChange& change, const std::filesystem::path& file)
+{
+    write_table_file(file, format, change.code_version, tables_of(change));
+}
+
+RiskChange read_risk_change(const std::filesystem::path& file)
+{
+    return risk_change_from(read_table_file(file, format), file.string());
+}
+
+std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change)
+{
+    return {{"hazard.csv", csv_text(hazard_table(change.hazard))}, {"changes.csv", csv_text(states_table(change))}};
+}
+
+} // namespace stylobate

@@ -1,0 +1,231 @@
+#include "studies/decisions/risk/risk_change_text.hpp"
+
+#include "studies/decisions/risk/risk_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+std::string change_text(const ChangeNumber& n)
+{
+    return fmt::format("{:+.3g} ({:+.3g} to {:+.3g})", n.value, n.total.lower, n.total.upper);
+}
+
+/// Of probabilities, in percentage points.
+std::string points_text(const ChangeNumber& n)
+{
+    return fmt::format("{:+.3g} ({:+.3g} to {:+.3g}) percentage points", 100 * n.value, 100 * n.total.lower,
+                       100 * n.total.upper);
+}
+
+std::string ratio_text(const ChangeNumber& n)
+{
+    return n.value > 0 && std::isfinite(n.total.upper)
+               ? fmt::format("{:.3g} ({:.3g} to {:.3g})", n.value, n.total.lower, n.total.upper)
+               : std::string("not determined");
+}
+
+std::string over_text(const RiskNumber& frequency, double years)
+{
+    const RiskNumber p = probability_over(frequency, years);
+    return percent_text(p.value, p.total);
+}
+
+std::string state_text(const RiskChange& change, const VariantChange& variant, const StateChange& s)
+{
+    std::string text = fmt::format("  {} ({}): {}\n", s.state, s.meaning, s.verdict());
+    if (!s.determined)
+        return text + "    " + s.note + "\n";
+    text += fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
+                        frequency_text(s.base), variant.name, frequency_text(s.variant), change_text(s.frequency),
+                        ratio_text(s.ratio));
+    for (std::size_t i = 0; i < change.years.size(); ++i)
+        text += fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
+                            change.base_name, over_text(s.base, change.years[i]), variant.name,
+                            over_text(s.variant, change.years[i]), points_text(s.probability[i]));
+    if (s.base_unseen > 0 || s.variant_unseen > 0)
+        text += fmt::format("    not excluded where no run reached it, and in no interval: {} {:.2g} a year, {} {:.2g} "
+                            "a year\n",
+                            change.base_name, s.base_unseen, variant.name, s.variant_unseen);
+    if (!s.note.empty())
+        text += "    " + s.note + "\n";
+    return text;
+}
+
+std::string intervals_text(const RiskChange& change)
+{
+    return fmt::format("Both structures meet the same {} motions. Intervals are of the motions{}; a motion is drawn "
+                       "with all its realizations of both structures, so that the pairs are kept. Frequencies are by "
+                       "the shares of the stripes in both structures.",
+                       change.motions, change.hazard.fractiles.empty() ? "" : " and the hazard");
+}
+
+Json json_of(const ChangeNumber& n)
+{
+    return Json::object()
+        .member("value", n.value)
+        .member("lower", n.total.lower)
+        .member("upper", n.total.upper)
+        .member("fragility_lower", n.fragility.lower)
+        .member("fragility_upper", n.fragility.upper);
+}
+
+Json json_of(const RiskNumber& n)
+{
+    return Json::object().member("value", n.value).member("lower", n.total.lower).member("upper", n.total.upper);
+}
+
+Json json_of(const StateChange& s, const std::vector<double>& years)
+{
+    Json json = Json::object();
+    json.member("state", s.state)
+        .member("limit_state", s.meaning)
+        .member("determined", s.determined)
+        .member("verdict", s.verdict())
+        .member("note", s.note);
+    if (!s.determined)
+        return json;
+    json.member("base_1_year", json_of(s.base))
+        .member("variant_1_year", json_of(s.variant))
+        .member("change_1_year", json_of(s.frequency))
+        .member("ratio", json_of(s.ratio))
+        .member("base_unseen_1_year", s.base_unseen)
+        .member("variant_unseen_1_year", s.variant_unseen);
+    Json over = Json::list();
+    for (std::size_t i = 0; i < years.size(); ++i)
+        over.item(Json::object()
+                      .member("years", years[i])
+                      .member("base", json_of(probability_over(s.base, years[i])))
+                      .member("variant", json_of(probability_over(s.variant, years[i])))
+                      .member("change", json_of(s.probability[i])));
+    return json.member("over_years", over);
+}
+
+} // namespace
+
+std::string risk_change_text(const RiskChange& change)
+{
+    std::string text = fmt::format("{}: change of risk by {} and the hazard {}{}, {:g} % intervals\n", change.title,
+                                   change.comparison_file, change.hazard.source,
+                                   change.hazard.site.empty() ? "" : " at " + change.hazard.site, 100 * change.level);
+    text += intervals_text(change) + "\nEach earthquake meets the structure as new; years are of a Poisson process.\n";
+    for (const VariantChange& variant : change.variants) {
+        text += variant.name + "\n";
+        for (const StateChange& s : variant.states)
+            text += state_text(change, variant, s);
+    }
+    for (const std::string& remark : change.says)
+        text += "note: " + remark + "\n";
+    return text;
+}
+
+Json risk_change_json(const RiskChange& change)
+{
+    Json variants = Json::list();
+    for (const VariantChange& variant : change.variants) {
+        Json states = Json::list();
+        for (const StateChange& s : variant.states)
+            states.item(json_of(s, change.years));
+        variants.item(
+            Json::object().member("name", variant.name).member("results", variant.results).member("states", states));
+    }
+    return Json::object()
+        .member("comparison", change.comparison_file)
+        .member("base", change.base_name)
+        .member("hazard", change.hazard.source)
+        .member("site", change.hazard.site)
+        .member("measure", change.hazard.measure)
+        .member("level", change.level)
+        .member("motions", change.motions)
+        .member("variants", variants)
+        .member("notes", Json::list(change.says));
+}
+
+std::string risk_change_answer(const RiskChange& change, const VariantChange& variant)
+{
+    const StateChange& s = variant.principal();
+    if (!s.determined)
+        return fmt::format("What {} changes of the limit state '{}' is not determined. {}", variant.name, s.meaning,
+                           s.note);
+    const double years = change.years.back();
+    const std::string verdict = s.verdict();
+    return fmt::format("In {:g} years the limit state '{}' is reached with a probability of {} in {} and of {} with "
+                       "{}: a change of {} ({:g} % interval). {}",
+                       years, s.meaning, over_text(s.base, years), change.base_name, over_text(s.variant, years),
+                       variant.name, points_text(s.probability.back()), 100 * change.level,
+                       verdict == "undecided" ? "The sign of the change is undecided."
+                                              : "The risk is " + verdict + ".");
+}
+
+HtmlPage risk_change_page(const RiskChange& change, const std::string& file, const std::string& title)
+{
+    HtmlPage page(title.empty() ? "Change of risk: " + change.title : title,
+                  fmt::format("Comparison {}, hazard {}{}. Made by stylobate {}.", change.comparison_file,
+                              change.hazard.source, change.hazard.site.empty() ? "" : " at " + change.hazard.site,
+                              change.code_version));
+    page.section("The answer");
+    for (const VariantChange& variant : change.variants) {
+        const StateChange& s = variant.principal();
+        const std::string verdict = s.verdict();
+        page.box(verdict == (s.damage ? "lower" : "higher")   ? "good"
+                 : verdict == (s.damage ? "higher" : "lower") ? "bad"
+                                                              : "warn",
+                 variant.name, risk_change_answer(change, variant));
+    }
+    page.section("Result");
+    page.paragraph(intervals_text(change) +
+                   " Each earthquake meets the structure as new; years are of a Poisson process.");
+    for (const VariantChange& variant : change.variants) {
+        HtmlTable table{"llll",
+                        {"limit state", "a year, " + change.base_name, "a year, " + variant.name, "change a year"},
+                        {},
+                        variant.name};
+        for (const double years : change.years) {
+            table.align += "l";
+            table.head.emplace_back(fmt::format("change in {:g} years", years));
+        }
+        table.align += "l";
+        table.head.emplace_back("risk");
+        for (const StateChange& s : variant.states) {
+            std::vector<Html> row{s.meaning};
+            if (s.determined) {
+                row.emplace_back(frequency_text(s.base));
+                row.emplace_back(frequency_text(s.variant));
+                row.emplace_back(change_text(s.frequency));
+                for (const ChangeNumber& p : s.probability)
+                    row.emplace_back(points_text(p));
+            }
+            row.resize(table.head.size() - 1);
+            row.emplace_back(s.verdict());
+            table.rows.push_back(std::move(row));
+        }
+        page.table(table);
+    }
+    std::vector<Html> notes;
+    for (const VariantChange& variant : change.variants)
+        for (const StateChange& s : variant.states) {
+            if (!s.note.empty())
+                notes.emplace_back(fmt::format("{}, {}: {}", variant.name, s.state, s.note));
+            if (s.determined && (s.base_unseen > 0 || s.variant_unseen > 0))
+                notes.emplace_back(fmt::format("{}, {}: not excluded at intensities where no run reached it, and in no "
+                                               "interval: {:.2g} a year in {}, {:.2g} with {}.",
+                                               variant.name, s.state, s.base_unseen, change.base_name, s.variant_unseen,
+                                               variant.name));
+        }
+    notes.insert(notes.end(), change.says.begin(), change.says.end());
+    if (!notes.empty()) {
+        page.section("Notes");
+        page.list(notes);
+    }
+    page.section("Reproduction");
+    page.facts({{"This estimate", std::filesystem::path(file).filename().string()},
+                {"Comparison", change.comparison_file},
+                {"Hazard", change.hazard.source}});
+    return page;
+}
+
+} // namespace stylobate

@@ -1,0 +1,167 @@
+/// The change of a frequency by pairs: by hand, against Student's interval, without any change, and its coverage.
+
+#include "ensemble/estimators/risk/frequency_change.hpp"
+#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stylobate {
+namespace {
+
+HazardModel law(double k0, double k, double sigma_ln = 0)
+{
+    HazardModel hazard;
+    hazard.measure = "pga_m_s2";
+    hazard.intensity = {1, 10};
+    hazard.frequency = {k0, k0 * std::pow(10, -k)};
+    hazard.unbounded = true;
+    if (sigma_ln > 0)
+        for (const double p : {0.05, 0.95}) {
+            const double factor = std::exp(sigma_ln * normal_quantile(p));
+            hazard.fractiles.push_back({p, {k0 * factor, k0 * factor * std::pow(10, -k)}});
+        }
+    return hazard;
+}
+
+/// At 1 and 2, `n` motions of ten pairs. @param base, variant of a motion and stripe, how many of ten
+template <class Base, class Variant>
+PairedStripes pairs_of(std::size_t n, Base&& base, Variant&& variant)
+{
+    PairedStripes pairs;
+    pairs.intensity = {1, 2};
+    pairs.motions = n;
+    for (std::size_t g = 0; g < n; ++g)
+        for (std::size_t j = 0; j < 2; ++j) {
+            pairs.trials.push_back(10);
+            pairs.base.push_back(base(g, j));
+            pairs.variant.push_back(variant(g, j));
+        }
+    return pairs;
+}
+
+/// Weights of the stripes 1 and 2 under 0.01 / im, by hand (`test_frequency_estimate.cpp` has the integrals).
+struct Weights {
+    double first, second;
+};
+Weights weights()
+{
+    const double s = std::log(2.0), place = (1 - (1 + s) / 2) / s;
+    return {place * 0.02 + (0.5 - place) * 0.01, place * 0.01 + 0.005};
+}
+
+TEST(FrequencyChange, IsTheMeanOfTheMotionsOwnChanges)
+{
+    // motion g reaches it in 2 + g % 3 of ten at 1 and in 6 + g % 4 at 2; the variant in one less, and in two less
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 6.0 + g % 4; };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1.0 : 1.0 + g % 2); };
+    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1), {.years = {100}});
+    const Weights w = weights();
+    const double b = w.first * 0.3 + w.second * 0.75, v = w.first * 0.2 + w.second * 0.6;
+    EXPECT_NEAR(found.base.frequency.value, b, 1e-12);
+    EXPECT_NEAR(found.variant.frequency.value, v, 1e-12);
+    EXPECT_NEAR(found.frequency.value, v - b, 1e-12);
+    EXPECT_NEAR(found.ratio.value, v / b, 1e-12);
+    EXPECT_NEAR(found.probability[0].value, std::exp(-100 * b) - std::exp(-100 * v), 1e-12);
+    // half of the motions have d = -(w1 + w2) / 10, half -(w1 + 2 w2) / 10: Student's interval with the effective
+    // number of motions
+    double sum = 0, square = 0;
+    for (const double d : {w.first + w.second, w.first + 2 * w.second}) {
+        sum += 12 * d / 10;
+        square += 12 * d * d / 100;
+    }
+    const double error = w.second / 20 / std::sqrt(23.0);
+    const double reach = student_quantile(0.95, sum * sum / square - 1) * error;
+    EXPECT_FALSE(found.few);
+    EXPECT_NEAR((found.frequency.fragility.upper - found.frequency.value) / reach, 1, 0.12);
+    EXPECT_NEAR((found.frequency.value - found.frequency.fragility.lower) / reach, 1, 0.12);
+    EXPECT_LT(found.frequency.fragility.upper, 0) << "pairs show it";
+    // the intervals of the two by themselves overlap
+    EXPECT_GT(found.variant.frequency.fragility.upper, found.base.frequency.fragility.lower);
+    EXPECT_EQ(found.frequency.fragility.lower, found.frequency.total.lower) << "a hazard without fractiles";
+}
+
+/// What is not known of the hazard makes both frequencies larger or smaller, and hardly changes their ratio.
+TEST(FrequencyChange, TheHazardIsCommonToBoth)
+{
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 6.0 + g % 4; };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1.0 : 1.0 + g % 2); };
+    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1, 0.5), {});
+    const double value = found.frequency.value;
+    EXPECT_NEAR(found.frequency.total.lower / value, std::exp(0.5 * 1.6449), 0.15);
+    EXPECT_NEAR(found.frequency.total.upper / value, std::exp(-0.5 * 1.6449), 0.05);
+    EXPECT_NEAR(found.ratio.total.lower, found.ratio.fragility.lower, 1e-9);
+    EXPECT_NEAR(found.ratio.total.upper, found.ratio.fragility.upper, 1e-9);
+}
+
+TEST(FrequencyChange, WithoutAChangeTheLimitsAreThoseOfAFurtherMotion)
+{
+    const auto same = [](std::size_t g, std::size_t j) { return j == 0 ? 0.0 : 3.0 + g % 4; };
+    const FrequencyChange found =
+        frequency_change(pairs_of(20, same, same), law(0.01, 1), {.years = {100}, .draws = 20000});
+    EXPECT_TRUE(found.few);
+    EXPECT_EQ(found.frequency.value, 0);
+    // the upper quantile of W0 / (W0 + ... + W20) is 1 - 0.05^(1/20); it counts from the first stripe with damage on
+    const double most = (1 - std::pow(0.05, 1.0 / 20)) * weights().second;
+    EXPECT_NEAR(found.frequency.fragility.upper / most, 1, 0.05);
+    EXPECT_NEAR(found.frequency.fragility.lower / most, -1, 0.05);
+    EXPECT_LT(found.probability[0].total.lower, 0);
+    EXPECT_GT(found.probability[0].total.upper, 0);
+    EXPECT_GT(found.base.unseen, 0);
+}
+
+TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
+{
+    const auto base = [](std::size_t, std::size_t j) { return j == 0 ? 0.0 : 10.0; };
+    const FrequencyChange found = frequency_change(pairs_of(20, base, base), law(0.01, 1), {.years = {100}});
+    EXPECT_LT(found.frequency.fragility.lower, -0.004) << "0.005 events a year lie between the stripes";
+    EXPECT_GT(found.frequency.fragility.upper, 0.004);
+}
+
+TEST(FrequencyChange, FewMotionsGiveNoInterval)
+{
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 8.0; };
+    const auto variant = [](std::size_t, std::size_t j) { return j == 0 ? 1.0 : 7.0; };
+    const FrequencyChange found = frequency_change(pairs_of(5, base, variant), law(0.01, 1), {});
+    EXPECT_TRUE(std::isinf(found.frequency.total.upper) && std::isinf(found.frequency.total.lower));
+    EXPECT_EQ(found.probability[0].total.upper, 1);
+}
+
+/// 20 motions whose own shares vary; the variant has a lower one under each. 300 repeats: the standard error of a
+/// coverage of 0.9 is 0.017, and four of them are allowed below it.
+TEST(FrequencyChangeStatistics, IntervalsContainTheTruth)
+{
+    const Weights w = weights();
+    int covered = 0, better = 0;
+    const int repeats = 300;
+    for (std::uint64_t r = 0; r < repeats; ++r) {
+        PairedStripes pairs;
+        pairs.intensity = {1, 2};
+        pairs.motions = 20;
+        for (std::uint64_t g = 0; g < 20; ++g) {
+            const double p = 0.6 * uniform01(5, 100 * r + g, Stream::virtual_specimen, 0); // its mean is 0.3
+            for (const std::uint64_t j : {0, 1}) {
+                double b = 0, v = 0;
+                for (std::uint64_t i = 0; i < 10; ++i) {
+                    const double u = uniform01(5, 100 * r + g, Stream::virtual_specimen, 1 + 10 * j + i);
+                    b += u < p + 0.3 * static_cast<double>(j);
+                    v += u < 0.8 * (p + 0.3 * static_cast<double>(j));
+                }
+                pairs.trials.push_back(10);
+                pairs.base.push_back(b);
+                pairs.variant.push_back(v);
+            }
+        }
+        const FrequencyChange found = frequency_change(pairs, law(0.01, 1), {.years = {100}, .draws = 500});
+        const double truth = -0.2 * (w.first * 0.3 + w.second * 0.6);
+        covered += found.frequency.fragility.lower <= truth && truth <= found.frequency.fragility.upper;
+        better += found.frequency.fragility.upper < 0;
+    }
+    EXPECT_GT(covered / double(repeats), 0.9 - 4 * 0.017);
+    EXPECT_GT(better / double(repeats), 0.9);
+}
+
+} // namespace
+} // namespace stylobate
