@@ -26,6 +26,11 @@ HazardModel law(double k0, double k, double sigma_ln = 0)
     return hazard;
 }
 
+double part(std::size_t g, std::size_t of)
+{
+    return static_cast<double>(g % of);
+}
+
 /// At 1 and 2, `n` motions of ten pairs. @param base, variant of a motion and stripe, how many of ten
 template <class Base, class Variant>
 PairedStripes pairs_of(std::size_t n, Base&& base, Variant&& variant)
@@ -55,8 +60,8 @@ Weights weights()
 TEST(FrequencyChange, IsTheMeanOfTheMotionsOwnChanges)
 {
     // motion g reaches it in 2 + g % 3 of ten at 1 and in 6 + g % 4 at 2; the variant in one less, and in two less
-    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 6.0 + g % 4; };
-    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1.0 : 1.0 + g % 2); };
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1 : 1 + part(g, 2)); };
     const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1), {.years = {100}});
     const Weights w = weights();
     const double b = w.first * 0.3 + w.second * 0.75, v = w.first * 0.2 + w.second * 0.6;
@@ -78,16 +83,16 @@ TEST(FrequencyChange, IsTheMeanOfTheMotionsOwnChanges)
     EXPECT_NEAR((found.frequency.fragility.upper - found.frequency.value) / reach, 1, 0.12);
     EXPECT_NEAR((found.frequency.value - found.frequency.fragility.lower) / reach, 1, 0.12);
     EXPECT_LT(found.frequency.fragility.upper, 0) << "pairs show it";
-    // the intervals of the two by themselves overlap
-    EXPECT_GT(found.variant.frequency.fragility.upper, found.base.frequency.fragility.lower);
+    const auto width = [](const Limits& l) { return l.upper - l.lower; };
+    EXPECT_LT(width(found.frequency.fragility), 0.5 * width(found.base.frequency.fragility));
     EXPECT_EQ(found.frequency.fragility.lower, found.frequency.total.lower) << "a hazard without fractiles";
 }
 
 /// What is not known of the hazard makes both frequencies larger or smaller, and hardly changes their ratio.
 TEST(FrequencyChange, TheHazardIsCommonToBoth)
 {
-    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 6.0 + g % 4; };
-    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1.0 : 1.0 + g % 2); };
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1 : 1 + part(g, 2)); };
     const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1, 0.5), {});
     const double value = found.frequency.value;
     EXPECT_NEAR(found.frequency.total.lower / value, std::exp(0.5 * 1.6449), 0.15);
@@ -98,18 +103,17 @@ TEST(FrequencyChange, TheHazardIsCommonToBoth)
 
 TEST(FrequencyChange, WithoutAChangeTheLimitsAreThoseOfAFurtherMotion)
 {
-    const auto same = [](std::size_t g, std::size_t j) { return j == 0 ? 0.0 : 3.0 + g % 4; };
+    const auto same = [](std::size_t g, std::size_t j) { return j == 0 ? part(g, 2) : 3 + part(g, 4); };
     const FrequencyChange found =
         frequency_change(pairs_of(20, same, same), law(0.01, 1), {.years = {100}, .draws = 20000});
     EXPECT_TRUE(found.few);
     EXPECT_EQ(found.frequency.value, 0);
     // the upper quantile of W0 / (W0 + ... + W20) is 1 - 0.05^(1/20); it counts from the first stripe with damage on
-    const double most = (1 - std::pow(0.05, 1.0 / 20)) * weights().second;
+    const double most = (1 - std::pow(0.05, 1.0 / 20)) * (weights().first + weights().second);
     EXPECT_NEAR(found.frequency.fragility.upper / most, 1, 0.05);
     EXPECT_NEAR(found.frequency.fragility.lower / most, -1, 0.05);
     EXPECT_LT(found.probability[0].total.lower, 0);
     EXPECT_GT(found.probability[0].total.upper, 0);
-    EXPECT_GT(found.base.unseen, 0);
 }
 
 TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
@@ -122,7 +126,7 @@ TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
 
 TEST(FrequencyChange, FewMotionsGiveNoInterval)
 {
-    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2.0 + g % 3 : 8.0; };
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 8; };
     const auto variant = [](std::size_t, std::size_t j) { return j == 0 ? 1.0 : 7.0; };
     const FrequencyChange found = frequency_change(pairs_of(5, base, variant), law(0.01, 1), {});
     EXPECT_TRUE(std::isinf(found.frequency.total.upper) && std::isinf(found.frequency.total.lower));

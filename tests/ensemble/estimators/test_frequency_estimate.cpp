@@ -230,10 +230,11 @@ TEST(FrequencyEstimate, WhatIsNotExcludedIsMonotoneAndInNoInterval)
     // the interval counts the strongest stripe alone
     const double w2 = place * lambda(2) + lambda(4);
     EXPECT_NEAR(found.frequency.value, w2 * (12 * 0.75) / 30, 1e-12);
-    EXPECT_LT(found.frequency.fragility.upper, w2);
+    // reached at the strongest stripe alone, the stripes separate: a curve may rise at once above 2, and no lower
+    EXPECT_GT(found.frequency.fragility.upper, found.frequency.value);
+    EXPECT_LT(found.frequency.fragility.upper, lambda(2));
     for (const FrequencyPart& part : found.parts)
-        if (part.to < 2)
-            EXPECT_EQ(part.frequency.value, 0);
+        EXPECT_TRUE(part.to > 2 || part.frequency.value == 0);
 }
 
 /// Twenty records, none reached at 0.1 and all at 6: nothing is known of what lies between, and the interval says so.
