@@ -3,7 +3,10 @@
 
 #include "tests/program/program.hpp"
 
+#include "ensemble/model/observer.hpp"
 #include "io/store/result_store.hpp"
+#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/sequences.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -220,6 +223,154 @@ TEST_F(RiskProgram, NothingIsComparedWithWhatIsNotDetermined)
     EXPECT_NE(ended.out.find("\"closed_form\": {\"value\": null"), std::string::npos) << ended.out;
     EXPECT_NE(run(Words{"info", "f_risk.h5"}).out.find("by the fragility, new in each:     not determined"),
               std::string::npos);
+}
+
+/// The same study with less friction, compared with the base; what it changes at a site, counted here from the rows.
+TEST_F(RiskProgram, TheChangeOfAComparisonIsThatOfTheRows)
+{
+    std::vector<std::string> smoother = risk_settings;
+    smoother.emplace_back("contact.friction=0.45");
+    ASSERT_EQ(run(ProgramRun{.arguments = run_words(risk_study, smoother, {"-o", "s.h5", "--quiet"})}).status, 0);
+    ASSERT_EQ(run(Words{"compare", "f.h5", "s.h5", "-o", "c.h5", "--quiet"}).status, 0);
+    EXPECT_NE(run(Words{"info", "c.h5"}).out.find("stylobate risk c.h5 --hazard HAZARD"), std::string::npos);
+    const Ended ended =
+        run(Words{"risk", "c.h5", "--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.5", "--years", "100", "--json"});
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    const JsonValue json = json_of(ended);
+    ASSERT_EQ(json["variants"].items.size(), 1U);
+
+    // shares of the stripes
+    std::vector<double> trials(6), base(6), variant(6), im(6);
+    const auto a = ResultReader(folder / "f.h5").rows(), b = ResultReader(folder / "s.h5").rows();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_EQ(a[i].index, b[i].index);
+        const std::size_t j = a[i].cell % 6;
+        trials[j] += 1;
+        base[j] += a[i].outcome.state == State::collapsed;
+        variant[j] += b[i].outcome.state == State::collapsed;
+        im[j] = 0.3 * std::pow(2.5 / 0.3, static_cast<double>(j) / 5);
+    }
+    // of P that is linear in x = ln im between the stripes, -d lambda = 3e-3 exp(-3 x) dx, by small steps
+    const auto frequency = [&](const std::vector<double>& reached) {
+        const double spacing = std::log(im[1] / im[0]), end = std::log(im[5]);
+        double sum = 1e-3 * std::exp(-3 * end) * reached[5] / trials[5];
+        const int steps = 60000;
+        for (int i = 0; i < steps; ++i) {
+            const double x = std::log(im[0]) - spacing + (i + 0.5) / steps * 6 * spacing;
+            const double place = (x - std::log(im[0])) / spacing;
+            const int j = static_cast<int>(std::floor(place));
+            const auto share = [&](int k) {
+                return k < 0 ? 0 : reached[static_cast<std::size_t>(k)] / trials[static_cast<std::size_t>(k)];
+            };
+            const double p = share(j) + (place - j) * (share(std::min(j + 1, 5)) - share(j));
+            sum += p * 3e-3 * std::exp(-3 * x) * 6 * spacing / steps;
+        }
+        return sum;
+    };
+    const double of_base = frequency(base), of_variant = frequency(variant);
+    bool seen = false;
+    for (const JsonValue& state : json["variants"].items[0]["states"].items) {
+        if (state["state"].text != "collapse")
+            continue;
+        seen = true;
+        EXPECT_NEAR(state["base_1_year"]["value"].number / of_base, 1, 1e-5);
+        EXPECT_NEAR(state["variant_1_year"]["value"].number / of_variant, 1, 1e-5);
+        const JsonValue& change = state["change_1_year"];
+        EXPECT_NEAR(change["value"].number, of_variant - of_base, 1e-5 * of_base);
+        EXPECT_LE(change["lower"].number, change["fragility_lower"].number);
+        EXPECT_GE(change["upper"].number, change["value"].number);
+        const JsonValue& over = state["over_years"].items[0]["change"];
+        EXPECT_NEAR(over["value"].number, std::exp(-100 * of_base) - std::exp(-100 * of_variant), 1e-5);
+        EXPECT_LE(over["lower"].number, over["value"].number);
+        EXPECT_GE(over["upper"].number, over["value"].number);
+        // pairs: the change is known better than either frequency
+        EXPECT_LT(change["fragility_upper"].number - change["fragility_lower"].number,
+                  state["base_1_year"]["upper"].number - state["base_1_year"]["lower"].number);
+    }
+    EXPECT_TRUE(seen);
+
+    // what reads the file
+    const Ended info = run(Words{"info", "c_risk.h5"});
+    EXPECT_NE(info.out.find("a risk estimate of a comparison"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("percentage points"), std::string::npos) << info.out;
+    ASSERT_EQ(run(Words{"report", "c_risk.h5"}).status, 0);
+    EXPECT_NE(read_bytes(folder / "c_risk.html").find("In 100 years the limit state"), std::string::npos);
+    EXPECT_EQ(run(Words{"export", "c_risk.h5", "--to", "svg"}).status, 0);
+    EXPECT_TRUE(fs::exists(folder / "c_risk.svg"));
+    EXPECT_EQ(run(Words{"export", "c_risk.h5", "--to", "csv"}).status, 0);
+    EXPECT_EQ(count_of(read_bytes(folder / "c_risk_csv/changes.csv"), "\n"),
+              1 + json["variants"].items[0]["states"].items.size());
+    // the same bytes again
+    const std::string bytes = read_bytes(folder / "c_risk.h5");
+    ASSERT_EQ(run(Words{"risk", "c.h5", "--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.5", "--years", "100", "--force",
+                        "--quiet"})
+                  .status,
+              0);
+    EXPECT_EQ(read_bytes(folder / "c_risk.h5"), bytes);
+    expect_refused(Words{"risk", "c.h5", "--hazard", "k0=1e-3,k=3,measure=pga_g", "-o", "x.h5"},
+                   {"the hazard is of pga_m_s2, the study of pgv_m_s"});
+    expect_refused(Words{"risk", "c.h5", "--hazard", "k0=1e-3,k=3,measure=pgv", "--sequences", "9", "-o", "x.h5"},
+                   {"--sequences: c.h5 is a comparison", "Give its results"});
+    expect_refused(Words{"risk", "c.h5", "--hazard", "k0=1e-3,k=3,measure=pgv", "--state", "colapse", "-o", "x.h5"},
+                   {"--state colapse", "Did you mean collapse"});
+    expect_refused(Words{"export", "c_risk.h5", "--to", "svg", "--limit", "colapse", "-o", "y.svg"},
+                   {"--limit colapse: no limit state of c.h5"});
+}
+
+/// Two stripes far apart: none falls at the lower one and all fall at the upper one.
+TEST_F(RiskProgram, SeparatedStripesHaveARangeAndNoCurve)
+{
+    const std::vector<std::string> apart = {
+        "study.realizations=2",
+        "fragility.contacts=1",
+        "fragility.twins=1",
+        "fragility.motions=15",
+        "perturbation.pulse_frequency.sigma_ln=0.01",
+        "perturbation.pulse_gamma.to=1.1",
+        "perturbation.phase.from=1.5",
+        "perturbation.phase.to=1.6",
+        "study.allow=[\"pga\"]",
+        "fragility.intensity={measure=\"pgv\",from=0.12,to=5.5,count=2,spacing=\"log\"}"};
+    const Ended ran = run(ProgramRun{.arguments = run_words(risk_study, apart, {"-o", "sep.h5"})});
+    ASSERT_EQ(ran.status, 0) << testing::PrintToString(ran);
+    EXPECT_NE(ran.out.find("30 of 60; no curve, median between 0.12 and 5.5"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("The stripes separate"), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.out.find("nan"), std::string::npos) << ran.out;
+    const Ended told =
+        run(Words{"risk", "sep.h5", "--hazard", "k0=1e-3,k=3,measure=pgv", "--state", "collapse", "--json"});
+    ASSERT_EQ(told.status, 0) << testing::PrintToString(told);
+    const JsonValue& frequency = state_of(json_of(told), "collapse", "shares")["frequency_1_year"];
+    EXPECT_NEAR(frequency["upper"].number, 1e-3 * std::pow(0.12, -3), 1e-9); // all events above 0.12 m/s
+    EXPECT_LT(frequency["lower"].number, 1e-3 * std::pow(5.5, -3));
+    ASSERT_EQ(run(Words{"export", "sep.h5", "--to", "nrml"}).status, 0);
+    const std::string nrml = read_bytes(folder / "sep_nrml/peak.xml");
+    EXPECT_NE(nrml.find("collapse: no lognormal curve, median between 12 and 550 cm/s"), std::string::npos) << nrml;
+    EXPECT_EQ(nrml.find("logncdf"), std::string::npos);
+}
+
+/// A run of the histories is a whole history or one of its earthquakes: its share is not that of the histories.
+TEST_F(RiskProgram, HistoriesShowNoShareWhileTheyRun)
+{
+    ASSERT_EQ(risk({"--hazard", "k0=1e-3,k=3,measure=pgv", "--quiet"}).status, 0);
+    struct Seen : Observer {
+        void progress(const Progress& p) override
+        {
+            ++calls;
+            shares += !std::isnan(p.share);
+        }
+        int calls = 0, shares = 0;
+    } seen;
+    const Results results((folder / "f.h5").string(), {});
+    SequenceOptions options;
+    options.histories = 60;
+    options.threshold = 0.5;
+    options.pause_s = 5;
+    RunOptions two;
+    two.threads = 2;
+    ASSERT_TRUE(simulate_sequences(results, read_risk(folder / "f_risk.h5"), options, two, seen));
+    EXPECT_GT(seen.calls, 0);
+    EXPECT_EQ(seen.shares, 0);
 }
 
 TEST_F(RiskProgram, Refusals)
