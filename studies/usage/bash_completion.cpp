@@ -24,6 +24,7 @@ constexpr FileWord file_words[] = {
     {"", "RESULTS", "h5"},
     {"", "MEASURED", "h5 csv"},
     {"report", "FILE", "h5"},
+    {"risk", "FILE", "h5"},
     {"", "FILE", "*"},
     {"report", "--output", "html"},
     {"new", "--output", "toml"},

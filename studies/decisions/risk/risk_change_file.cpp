@@ -13,9 +13,10 @@ namespace stylobate {
 
 namespace {
 
-constexpr SealedFormat format{"stylobate-risk-change", "risk estimate of a comparison", 1, 1, "compute it again"};
+constexpr SealedFormat change_format{"stylobate-risk-change", "risk estimate of a comparison", 1, 1,
+                                     "compute it again"};
 
-Table general_table(const RiskChange& change)
+Table change_table(const RiskChange& change)
 {
     Table table("risk_change");
     table.set("title", change.title);
@@ -68,7 +69,7 @@ std::vector<ChangeNumber> changes_of(const Table& table, const std::string& name
 }
 
 /// A row for each limit state of each variant.
-Table states_table(const RiskChange& change)
+Table changes_table(const RiskChange& change)
 {
     std::vector<std::int32_t> variant, damage, determined;
     std::vector<std::string> names, states, meanings, notes, verdicts;
@@ -156,7 +157,7 @@ void read_states(const Table& table, RiskChange& change)
 
 std::vector<Table> tables_of(const RiskChange& change)
 {
-    return {general_table(change), hazard_table(change.hazard), states_table(change)};
+    return {change_table(change), hazard_table(change.hazard), changes_table(change)};
 }
 
 RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file)
@@ -198,17 +199,17 @@ RiskChange risk_change_from(const std::vector<Table>& tables, const std::string&
 
 void write_risk_change(const RiskChange& change, const std::filesystem::path& file)
 {
-    write_table_file(file, format, change.code_version, tables_of(change));
+    write_table_file(file, change_format, change.code_version, tables_of(change));
 }
 
 RiskChange read_risk_change(const std::filesystem::path& file)
 {
-    return risk_change_from(read_table_file(file, format), file.string());
+    return risk_change_from(read_table_file(file, change_format), file.string());
 }
 
 std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change)
 {
-    return {{"hazard.csv", csv_text(hazard_table(change.hazard))}, {"changes.csv", csv_text(states_table(change))}};
+    return {{"hazard.csv", csv_text(hazard_table(change.hazard))}, {"changes.csv", csv_text(changes_table(change))}};
 }
 
 } // namespace stylobate

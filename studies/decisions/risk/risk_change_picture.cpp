@@ -11,7 +11,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"};
+constexpr std::array variant_colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"};
 
 const StateChange& state_named(const RiskChange& change, const VariantChange& variant, const std::string& name)
 {
@@ -45,7 +45,7 @@ void plot_risk_change(const RiskChange& change, const std::string& state, const 
     const auto line = [](const std::string& block, std::size_t colour, const std::string& name) {
         return fmt::format("${} using 1:2 with linespoints linecolor rgb '{}' linewidth 2 pointtype 7 pointsize 0.8 "
                            "title {}",
-                           block, colours[colour % colours.size()], gnuplot_text(name));
+                           block, variant_colours[colour % variant_colours.size()], gnuplot_text(name));
     };
     std::string curves = line("base", 0, change.base_name);
     for (std::size_t v = 0; v < change.variants.size(); ++v) {

@@ -74,7 +74,7 @@ Json json_of(const ChangeNumber& n)
         .member("fragility_upper", n.fragility.upper);
 }
 
-Json json_of(const RiskNumber& n)
+Json limits_json(const RiskNumber& n)
 {
     return Json::object().member("value", n.value).member("lower", n.total.lower).member("upper", n.total.upper);
 }
@@ -89,8 +89,8 @@ Json json_of(const StateChange& s, const std::vector<double>& years)
         .member("note", s.note);
     if (!s.determined)
         return json;
-    json.member("base_1_year", json_of(s.base))
-        .member("variant_1_year", json_of(s.variant))
+    json.member("base_1_year", limits_json(s.base))
+        .member("variant_1_year", limits_json(s.variant))
         .member("change_1_year", json_of(s.frequency))
         .member("ratio", json_of(s.ratio))
         .member("base_unseen_1_year", s.base_unseen)
@@ -99,8 +99,8 @@ Json json_of(const StateChange& s, const std::vector<double>& years)
     for (std::size_t i = 0; i < years.size(); ++i)
         over.item(Json::object()
                       .member("years", years[i])
-                      .member("base", json_of(probability_over(s.base, years[i])))
-                      .member("variant", json_of(probability_over(s.variant, years[i])))
+                      .member("base", limits_json(probability_over(s.base, years[i])))
+                      .member("variant", limits_json(probability_over(s.variant, years[i])))
                       .member("change", json_of(s.probability[i])));
     return json.member("over_years", over);
 }
