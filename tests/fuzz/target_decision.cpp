@@ -9,6 +9,8 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/risk/risk_answer.hpp"
+#include "studies/decisions/risk/risk_change_file.hpp"
+#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
@@ -23,12 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class What { comparison, risk, risk_change };
+
 struct Original {
     std::vector<Table> tables;
     std::string bytes;
     std::vector<Hdf5Object> objects;
     std::uint64_t block = 0; ///< of the seal
-    bool risk = false;       ///< else a comparison
+    What what = What::comparison;
 };
 
 const std::vector<Original>& originals()
@@ -39,8 +43,8 @@ const std::vector<Original>& originals()
         for (const bool risk : {false, true})
             for (const bool other : {false, true}) {
                 Original& original = made.emplace_back();
-                original.risk = risk;
                 if (risk) {
+                    original.what = What::risk;
                     original.tables = tables_of(sample_risk(other));
                     write_risk(sample_risk(other), file);
                 } else {
@@ -48,9 +52,17 @@ const std::vector<Original>& originals()
                     write_comparison(sample_comparison(other), file);
                 }
                 original.bytes = file_content(file);
-                original.objects = objects_in(file);
-                original.block = original.bytes.find("\x89HDF\r\n\x1a\n");
             }
+        Original& change = made.emplace_back();
+        change.what = What::risk_change;
+        change.tables = tables_of(sample_risk_change());
+        write_risk_change(sample_risk_change(), file);
+        change.bytes = file_content(file);
+        for (Original& original : made) {
+            write_file(file, original.bytes);
+            original.objects = objects_in(file);
+            original.block = original.bytes.find("\x89HDF\r\n\x1a\n");
+        }
         return made;
     }();
     return all;
@@ -83,6 +95,18 @@ void tell(const Risk& risk)
     risk_grounds(risk);
 }
 
+void tell(const RiskChange& change)
+{
+    promise(!change.variants.empty() && !change.years.empty(), "a change of risk has no variant or no years");
+    risk_change_text(change);
+    risk_change_json(change);
+    risk_change_csv(change);
+    for (const VariantChange& variant : change.variants) {
+        promise(!variant.states.empty(), "a variant has no limit state");
+        risk_change_answer(change, variant);
+    }
+}
+
 /// What was read is told, written, read and written again: both files have the same bytes.
 template <class Read, class Write>
 Verdict judge_file(const fs::path& file, const Read& read, const Write& write)
@@ -105,8 +129,9 @@ Verdict judge_file(const fs::path& file, const Read& read, const Write& write)
 
 Verdict judge_file(const Original& original, const fs::path& file)
 {
-    return original.risk ? judge_file(file, read_risk, write_risk)
-                         : judge_file(file, read_comparison, write_comparison);
+    return original.what == What::risk          ? judge_file(file, read_risk, write_risk)
+           : original.what == What::risk_change ? judge_file(file, read_risk_change, write_risk_change)
+                                                : judge_file(file, read_comparison, write_comparison);
 }
 
 /// As `judge_file`, without the file between.
@@ -131,7 +156,9 @@ Verdict judge_tables(const std::vector<Table>& tables, const Read& read)
 Verdict judge_tables(const Original& original, ByteSource& recipe)
 {
     const std::vector<Table> tables = edited_tables(original.tables, recipe);
-    return original.risk ? judge_tables(tables, risk_from) : judge_tables(tables, comparison_from);
+    return original.what == What::risk          ? judge_tables(tables, risk_from)
+           : original.what == What::risk_change ? judge_tables(tables, risk_change_from)
+                                                : judge_tables(tables, comparison_from);
 }
 
 /// Bytes of the file as it was written: changed, cut, or more behind the end.
