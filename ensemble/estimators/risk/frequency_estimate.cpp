@@ -204,7 +204,7 @@ public:
             found, edges_of(data_, options_.parts), hazard_, [&](double from, double to) { return number(from, to); },
             [&](double from, double to) { return frequency(curves_.best, from, to); });
         found.bounds = steps(-no_end, no_end, monotone_, monotone_);
-        found.unseen = not_excluded(curves_.best, -no_end, no_end);
+        found.unseen = not_excluded(curves_.best, nodes_.front(), no_end); // weaker shaking was not run
         return found;
     }
 

@@ -48,7 +48,7 @@ struct FrequencyEstimate {
     /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity; else weaker
     /// events count from the hazard's first point on, or from where the estimate's line reaches 0.
     Limits bounds;
-    /// Of shares: what the runs do not exclude of the stripes below `first_stripe_of`, none of which reached the state
+    /// Of shares: what the runs do not exclude from the first stripe to `first_stripe_of`, where none reached the state
     /// [1/year]: the upper limit of each one's share (of a central interval, and no greater than that of any stronger
     /// stripe) times its events. It is in no interval of the frequency: a structure that cannot be damaged there has
     /// it too. 0: there is no such stripe. A part of the frequency that lies there alone has it as its upper limit.
