@@ -69,8 +69,7 @@ public:
             limits();
         else
             nothing_is_known();
-        if (separated(&Two::base) || separated(&Two::variant))
-            widen();
+        widen(separated(&Two::base), separated(&Two::variant));
         return std::move(found_);
     }
 
@@ -235,22 +234,44 @@ private:
         return reached < stripes_ && missed > 0 && missed - 1 <= reached;
     }
 
-    /// To the extremes of the two intervals.
-    void widen()
+    /// By what is not known of the form of one structure's curve, or of both: the distances of its limits from its
+    /// value are joined with those of the draws, at the root of the sum of their squares (as in `risk_number.hpp`).
+    void widen(bool base, bool variant)
     {
-        const RiskNumber &base = found_.base.frequency, &variant = found_.variant.frequency;
+        if (!base && !variant)
+            return;
+        const RiskNumber &b = found_.base.frequency, &v = found_.variant.frequency;
         for (const auto& [of, in] : {std::pair{&RiskNumber::fragility, &ChangeNumber::fragility},
                                      {&RiskNumber::total, &ChangeNumber::total}}) {
-            const Limits &a = base.*of, &b = variant.*of;
-            const auto hull = [&](ChangeNumber& number, double lower, double upper) {
-                (number.*in).lower = std::min((number.*in).lower, lower);
-                (number.*in).upper = std::max((number.*in).upper, upper);
+            const Limits &of_base = b.*of, &of_variant = v.*of;
+            // distances are taken on a scale of the frequencies
+            const auto join = [&](ChangeNumber& number, auto&& scale) {
+                const auto distance = [&](bool counts, double from, double to) {
+                    return counts ? scale(to) - scale(from) : 0;
+                };
+                Limits& l = number.*in;
+                l.upper =
+                    number.value + std::hypot(l.upper - number.value, distance(variant, v.value, of_variant.upper),
+                                              distance(base, of_base.lower, b.value));
+                l.lower =
+                    number.value - std::hypot(number.value - l.lower, distance(variant, of_variant.lower, v.value),
+                                              distance(base, b.value, of_base.upper));
             };
-            hull(found_.frequency, b.lower - a.upper, b.upper - a.lower);
-            hull(found_.ratio, b.lower / a.upper, a.lower > 0 ? b.upper / a.lower : no_end);
-            for (std::size_t i = 0; i < options_.years.size(); ++i)
-                hull(found_.probability[i], over({a.upper, b.lower}, options_.years[i]),
-                     over({a.lower, b.upper}, options_.years[i]));
+            join(found_.frequency, [](double f) { return f; });
+            for (std::size_t i = 0; i < options_.years.size(); ++i) {
+                ChangeNumber& p = found_.probability[i];
+                join(p, [years = options_.years[i]](double f) { return -std::expm1(-f * years); });
+                p.*in = {std::max((p.*in).lower, -1.0), std::min((p.*in).upper, 1.0)};
+            }
+            if (!(found_.ratio.value > 0 && of_base.lower > 0 && of_variant.lower > 0)) {
+                found_.ratio.*in = {0, no_end};
+                continue;
+            }
+            Limits& ratio = found_.ratio.*in;
+            ChangeNumber log{std::log(found_.ratio.value), {}, {}};
+            log.*in = {std::log(ratio.lower), std::log(ratio.upper)};
+            join(log, [](double f) { return std::log(f); });
+            ratio = {std::exp((log.*in).lower), std::exp((log.*in).upper)};
         }
     }
 

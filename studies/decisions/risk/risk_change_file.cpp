@@ -74,8 +74,8 @@ Table changes_table(const RiskChange& change)
     std::vector<std::int32_t> variant, damage, determined;
     std::vector<std::string> names, states, meanings, notes, verdicts;
     std::vector<RiskNumber> base, other;
-    std::vector<double> base_unseen, variant_unseen, base_share, variant_share;
-    std::vector<ChangeNumber> frequency, ratio, probability;
+    std::vector<double> base_unseen, variant_unseen;
+    std::vector<ChangeNumber> frequency, ratio;
     for (std::size_t v = 0; v < change.variants.size(); ++v)
         for (const StateChange& s : change.variants[v].states) {
             variant.push_back(static_cast<std::int32_t>(v));
@@ -92,9 +92,6 @@ Table changes_table(const RiskChange& change)
             variant_unseen.push_back(s.variant_unseen);
             frequency.push_back(s.frequency);
             ratio.push_back(s.ratio);
-            probability.insert(probability.end(), s.probability.begin(), s.probability.end());
-            base_share.insert(base_share.end(), s.base_share.begin(), s.base_share.end());
-            variant_share.insert(variant_share.end(), s.variant_share.begin(), s.variant_share.end());
         }
     const std::size_t n = states.size();
     Table table("changes");
@@ -109,16 +106,61 @@ Table changes_table(const RiskChange& change)
     add_numbers(table, "variant_annual_frequency", other);
     add_change(table, "change", frequency, {n}, "1/year");
     add_change(table, "ratio", ratio, {n}, "");
-    add_change(table, "probability_change", probability, {n, change.years.size()}, "");
     table.add("base_unseen_annual_frequency", std::move(base_unseen), {n}, "1/year");
     table.add("variant_unseen_annual_frequency", std::move(variant_unseen), {n}, "1/year");
-    table.add("base_share", std::move(base_share), {n, change.intensity.size()});
-    table.add("variant_share", std::move(variant_share), {n, change.intensity.size()});
     table.add("note", std::move(notes));
     return table;
 }
 
-void read_states(const Table& table, RiskChange& change)
+/// Rows of `changes`, each with all of its years or stripes.
+std::vector<std::int32_t> rows_of(std::size_t rows, std::size_t each)
+{
+    std::vector<std::int32_t> all;
+    for (std::size_t i = 0; i < rows * each; ++i)
+        all.push_back(static_cast<std::int32_t>(i / each));
+    return all;
+}
+
+Table years_table(const RiskChange& change)
+{
+    std::vector<double> years;
+    std::vector<ChangeNumber> probability;
+    std::size_t rows = 0;
+    for (const VariantChange& variant : change.variants)
+        for (const StateChange& s : variant.states) {
+            ++rows;
+            years.insert(years.end(), change.years.begin(), change.years.end());
+            probability.insert(probability.end(), s.probability.begin(), s.probability.end());
+        }
+    Table table("over_years");
+    const Table::Shape shape{years.size()};
+    table.add("row", rows_of(rows, change.years.size()), shape);
+    table.add("years", std::move(years), shape, "year");
+    add_change(table, "probability_change", probability, shape, "");
+    return table;
+}
+
+Table shares_table(const RiskChange& change)
+{
+    std::vector<double> intensity, base, variant;
+    std::size_t rows = 0;
+    for (const VariantChange& v : change.variants)
+        for (const StateChange& s : v.states) {
+            ++rows;
+            intensity.insert(intensity.end(), change.intensity.begin(), change.intensity.end());
+            base.insert(base.end(), s.base_share.begin(), s.base_share.end());
+            variant.insert(variant.end(), s.variant_share.begin(), s.variant_share.end());
+        }
+    Table table("shares");
+    const Table::Shape shape{intensity.size()};
+    table.add("row", rows_of(rows, change.intensity.size()), shape);
+    table.add("intensity_" + change.hazard.measure, std::move(intensity), shape);
+    table.add("base_share", std::move(base), shape);
+    table.add("variant_share", std::move(variant), shape);
+    return table;
+}
+
+void read_states(const Table& table, const Table& over_years, const Table& shares, RiskChange& change)
 {
     const Table::Shape shape = table.shape("state");
     const std::vector<std::string>&names = table.texts("state"), &meanings = table.texts("meaning"),
@@ -131,11 +173,11 @@ void read_states(const Table& table, RiskChange& change)
     const auto base = numbers_of(table, "base_annual_frequency", shape),
                other = numbers_of(table, "variant_annual_frequency", shape);
     const auto frequency = changes_of(table, "change", shape), ratio = changes_of(table, "ratio", shape),
-               probability = changes_of(table, "probability_change", {n, years});
+               probability = changes_of(over_years, "probability_change", {n * years});
     const auto &base_unseen = table.numbers("base_unseen_annual_frequency", shape),
                &variant_unseen = table.numbers("variant_unseen_annual_frequency", shape),
-               &base_share = table.numbers("base_share", {n, stripes}),
-               &variant_share = table.numbers("variant_share", {n, stripes});
+               &base_share = shares.numbers("base_share", {n * stripes}),
+               &variant_share = shares.numbers("variant_share", {n * stripes});
     const auto part = [](const auto& values, std::size_t row, std::size_t width) {
         const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
         return std::vector(begin, begin + static_cast<std::ptrdiff_t>(width));
@@ -157,7 +199,8 @@ void read_states(const Table& table, RiskChange& change)
 
 std::vector<Table> tables_of(const RiskChange& change)
 {
-    return {change_table(change), hazard_table(change.hazard), changes_table(change)};
+    return {change_table(change), hazard_table(change.hazard), changes_table(change), years_table(change),
+            shares_table(change)};
 }
 
 RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file)
@@ -193,7 +236,7 @@ RiskChange risk_change_from(const std::vector<Table>& tables, const std::string&
     for (std::size_t i = 0; i < names.size(); ++i)
         change.variants.push_back({names[i], results[i], {}});
     change.hazard = hazard_of(named("hazard"));
-    read_states(named("changes"), change);
+    read_states(named("changes"), named("over_years"), named("shares"), change);
     return change;
 }
 
@@ -209,7 +252,10 @@ RiskChange read_risk_change(const std::filesystem::path& file)
 
 std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change)
 {
-    return {{"hazard.csv", csv_text(hazard_table(change.hazard))}, {"changes.csv", csv_text(changes_table(change))}};
+    return {{"hazard.csv", csv_text(hazard_table(change.hazard))},
+            {"changes.csv", csv_text(changes_table(change))},
+            {"over_years.csv", csv_text(years_table(change))},
+            {"shares.csv", csv_text(shares_table(change))}};
 }
 
 } // namespace stylobate
