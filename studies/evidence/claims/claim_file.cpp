@@ -138,7 +138,7 @@ Criterion read_criterion(const KeyReader& keys)
         c.measure = read_measure(keys);
     read_window(keys, "pga_m_s2", c.pga);
     if (c.kind == Criterion::Kind::bound) {
-        const stylobate::Range any{-1e300, 1e300, false, "", 0};
+        const stylobate::Range any{-1e300, 1e300, false};
         c.at_least = keys.maybe_number("at_least", any);
         c.at_most = keys.maybe_number("at_most", any);
         if (!c.at_least && !c.at_most)
@@ -152,10 +152,11 @@ Criterion read_criterion(const KeyReader& keys)
         keys.refuse("direction", "is for the order of levels; a trend falls or rises");
     if (c.kind == Criterion::Kind::order || c.kind == Criterion::Kind::same)
         c.along = keys.text("along");
-    c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
+    c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", from_percent}, 0);
     if (c.margin > 0 && (c.kind != Criterion::Kind::order || c.way == Way::either))
         keys.refuse("margin", "is for an order that falls or rises");
-    c.tolerance = keys.number_or("tolerance", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", 0.01}, 0);
+    c.tolerance =
+        keys.number_or("tolerance", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", from_percent}, 0);
     if (c.tolerance > 0 && c.kind != Criterion::Kind::trend)
         keys.refuse("tolerance", "is for a trend");
     c.within_pga = keys.boolean_or("within_pga", false);
@@ -267,7 +268,7 @@ Figure read_figure(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     read_window(keys, "pga_m_s2", figure.pga);
     figure.only = strings(keys, "only");
     check_words(keys, "only", axes, figure.only);
-    figure.line = keys.maybe_number("line", {-1e300, 1e300, false, "", 0});
+    figure.line = keys.maybe_number("line", {-1e300, 1e300, false});
     figure.line_label = keys.text_or_empty("line_label");
     return figure;
 }
