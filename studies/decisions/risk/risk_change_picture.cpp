@@ -61,7 +61,8 @@ void plot_risk_change(const RiskChange& change, const std::string& state, const 
         throw InputError(fmt::format("{}: no change of '{}' is determined, so none is drawn.\n  {}", picture.string(),
                                      first.state, first.note));
     const std::string said =
-        fmt::format("{} · {} motions · bars: {:g} %", first.meaning, change.motions, 100 * change.level);
+        fmt::format("{} · {} motions · below: change of the probability in {:g} years, bars: {:g} %", first.meaning,
+                    change.motions, change.years.back(), 100 * change.level);
     const std::string script =
         data + changes + "EOD\n" + gnuplot_heading(title, said) +
         "set lmargin at screen 0.14\nset rmargin at screen 0.97\nset border 3 linewidth 0.8\nset tics out nomirror\n"
@@ -75,8 +76,7 @@ void plot_risk_change(const RiskChange& change, const std::string& state, const 
         "set bmargin at screen 0.12\nset autoscale y\nset ytics auto\nunset xlabel\n" +
         fmt::format("set xrange [-0.6:{}]\nset xtics ({})\nset ylabel {} offset 0.5,0\nset xzeroaxis linewidth 1 "
                     "linecolor rgb '#333333' linetype 1\n",
-                    static_cast<double>(change.variants.size()) - 0.4, tics,
-                    gnuplot_text(fmt::format("change in {:g} years [%-points]", change.years.back()))) +
+                    static_cast<double>(change.variants.size()) - 0.4, tics, gnuplot_text("change [%-points]")) +
         "plot $changes using 1:2:3:4 with yerrorbars linecolor rgb '#333333' linewidth 1.5 pointtype 7 pointsize 1.2\n"
         "unset multiplot\n";
     run_gnuplot(script, PictureSize{}, picture);
