@@ -82,8 +82,9 @@ std::optional<double> first_return(const Study& study)
         return std::atan2(-x, y);
     };
     double least = 0;
-    while (!set.done(0)) {
-        set.advance();
+    constexpr int between = 4; // steps between two looks: those of rigid contacts are long
+    for (int k = 0; !set.done(0); k = (k + between) % chunk_steps) {
+        set.advance(k, k + between);
         least = std::min(least, lean(set.snapshot(0)));
     }
     if (!set.outcome(0) || set.outcome(0)->state == State::collapsed || set.outcome(0)->state == State::invalid)

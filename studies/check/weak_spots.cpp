@@ -339,9 +339,8 @@ Found hardly_damped(const Subject& s)
                             text.empty() ? "" : " ", mode.frequency_hz, 100 * mode.damping_ratio);
     const bool centroid =
         s.study().contact.form == ContactForm::area && s.study().contact.damping == DampingAt::centroid;
-    return spot(text, centroid ? "Give contact.damping = \"ends\" (with a normal_damping_ratio of 0.3 to 0.5 an impact "
-                                 "takes nearly what it takes on rigid contacts), or contact.form = \"rigid\"."
-                               : "Give a contact.normal_damping_ratio of 0.3 to 0.5, or contact.form = \"rigid\".");
+    return spot(text, fmt::format("Give {}a normal_damping_ratio of up to 0.5, or contact.form = \"rigid\".",
+                                  centroid ? "contact.damping = \"ends\" and " : ""));
 }
 
 /// Whether the results of a study have residual displacements.
