@@ -160,7 +160,12 @@ std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
         bool known = false;
         for (std::size_t k = 0; k < table.factors.size(); ++k)
             known = known || !std::isnan(table.indices[1].of.value[o * table.factors.size() + k]);
-        if (!known)
+        if (std::isnan(table.mean.value[o])) // (nothing is known of it)
+            remarks.push_back(
+                fmt::format("{}: not determined, because in nearly every row of the design a structure still "
+                            "moved at the end. Give excitation.tail_s = \"rest\", or more damping.",
+                            spoken(table.outcomes[o])));
+        else if (!known)
             remarks.push_back(fmt::format("{}: its {} not significantly different from zero, so it cannot be divided "
                                           "among the factors. More rows, or a shaking at which it varies, may help.",
                                           spoken(table.outcomes[o]),
