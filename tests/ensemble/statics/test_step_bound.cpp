@@ -228,7 +228,7 @@ TEST(FirstMode, DampingOfTheSpecimens)
         Column column = with(spec, K_N, 0.1);
         EXPECT_LT(first_mode(make(column)).damping_ratio, 2e-4);
         column.ends = true;
-        EXPECT_NEAR(first_mode(make(column)).damping_ratio, 0.0114, 2e-4) << K_N;
+        EXPECT_NEAR(first_mode(make(column)).damping_ratio, 0.0114, 3e-4) << K_N;
     }
 }
 
