@@ -137,8 +137,7 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
                             "Remove it: the motions and their intensities are given by [fragility].");
 }
 
-/// A number, or one of the words; without it the default of the kind of study. (`read_study` knows what else it
-/// depends on.)
+/// A number, or one of the words; without it the default of the kind of study.
 void read_tail(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
 {
     const TomlValue* tail = keys.find(excitation_keys::tail.name);

@@ -353,8 +353,6 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
             top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
         study.fragility = read_fragility(top.table(fragility_keys::table), keys, study.excitation, study.realizations);
         list_records(top.table(fragility_keys::table), folder, study.allows("pga"), *study.fragility);
-        if (study.fragility->residual_limits.empty() && !top.table(excitation_keys::table).has(excitation_keys::tail))
-            study.excitation.tail = Tail::structure;
         if (study.sampling != Sampling::independent)
             keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
     }

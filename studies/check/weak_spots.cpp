@@ -346,8 +346,7 @@ Found hardly_damped(const Subject& s)
 /// Whether the results of a study have residual displacements.
 bool reports_residuals(const Study& study)
 {
-    return study.kind == StudyKind::single || study.sensitivity ||
-           (study.fragility && !study.fragility->residual_limits.empty());
+    return study.kind == StudyKind::single || study.sensitivity || study.fragility;
 }
 
 Found still_moving(const Subject& s)

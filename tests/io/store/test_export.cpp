@@ -113,7 +113,7 @@ TEST_F(Export, RealizationsReadBackBitByBit)
     write_csv(folder / "out put", header, rows, SurfaceTable{});
     EXPECT_FALSE(fs::exists(folder / "out put" / "surface.csv"));
     auto table = read_csv(folder / "out put" / "realizations.csv");
-    ASSERT_EQ(table.size(), 4 + 4 + 28 + 2U);
+    ASSERT_EQ(table.size(), 4 + 4 + 29 + 2U);
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const ResultRow& row = rows[r];
         const Outcome& o = row.outcome;

@@ -232,7 +232,7 @@ std::string as_version_1(std::string bytes)
         return value;
     };
     const auto set = [&](std::size_t at, std::uint32_t value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
-    EXPECT_EQ(number(16), 4U);
+    EXPECT_EQ(number(16), 5U);
     set(16, 1);
     const std::size_t end = number(20) - 4;
     set(end, crc32_of(std::as_bytes(std::span(bytes)).first(end)));

@@ -394,6 +394,7 @@ TEST_F(ResultStore, ChecksumIsTheDocumentedOne)
     column([&](const ResultRow& r) { append(time_in_file(r.outcome.collapse_time_s)); });
     column([&](const ResultRow& r) { append(r.outcome.first_collapse_block); });
     column([&](const ResultRow& r) { append(r.outcome.fallen_blocks); });
+    column([&](const ResultRow& r) { append(r.outcome.at_rest); });
     column([&](const ResultRow& r) { append(r.outcome.unseated_block); });
     column([&](const ResultRow& r) { append(time_in_file(r.outcome.unseating_time_s)); });
     column([&](const ResultRow& r) { append(time_in_file(r.outcome.total_collapse_time_s)); });
@@ -534,7 +535,7 @@ TEST_F(ResultStore, IsAsLargeAsItsRows)
         add_rows(*writer, 0, total);
         writer->finish(nullptr);
     }
-    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 3 * 4 + 22 * 8 + 8 + 3 * 8; // 32 + inputs + outcome + fall times
+    const std::uint64_t row = 4 * 8 + 5 * 8 + 2 + 4 * 4 + 22 * 8 + 8 + 3 * 8; // 32 + inputs + outcome + fall times
     EXPECT_GE(fs::file_size(file), row * total);
     EXPECT_LE(fs::file_size(file), row * total + 60000); // names, units and scales
 }

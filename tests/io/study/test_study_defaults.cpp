@@ -244,7 +244,6 @@ TEST(StudyDefaults, TailsLastUntilRestWhereResidualsAreCounted)
               std::string::npos)
         << study.text;
     EXPECT_EQ(parse_study(study.text, "again").excitation.tail, Tail::rest);
-    EXPECT_EQ(column({"fragility.residual_limits=[]"}).excitation.tail, Tail::structure);
     EXPECT_EQ(column({"excitation.tail_s=\"structure\""}).excitation.tail, Tail::structure);
     EXPECT_EQ(column({"excitation.tail_s=3"}).excitation.tail_s, 3);
     EXPECT_EQ(read_study(root / "studies/inputs/sensitivity_column.toml").excitation.tail, Tail::rest);
