@@ -114,6 +114,33 @@ std::vector<std::string> checked_words(const CLI::App& app, int argc, char** arg
     return words;
 }
 
+/// The numbers that an option takes, by CLI11's name of its type; empty: no number, or CLI11 names its range.
+std::string range_of(const CLI::Option& option)
+{
+    const std::string type = option.get_type_name();
+    if (type.find(" in [") != std::string::npos)
+        return "";
+    return type.starts_with("UINT")    ? "whole number in [0, 18446744073709551615]"
+           : type.starts_with("INT")   ? "whole number in [-9223372036854775808, 9223372036854775807]"
+           : type.starts_with("FLOAT") ? "number"
+                                       : "";
+}
+
+/// CLI11 takes the nearest number of 64 bits for a whole number beyond them. @throws InputError for such a one
+void check_range(const std::string& name, const CLI::Option& option, const std::string& value)
+{
+    const std::string range = range_of(option);
+    if (!range.starts_with("whole"))
+        return;
+    errno = 0;
+    if (option.get_type_name().starts_with("U"))
+        std::strtoull(value.c_str(), nullptr, 0);
+    else
+        std::strtoll(value.c_str(), nullptr, 0);
+    if (errno == ERANGE)
+        throw InputError(fmt::format("{} = {} is not a {}.", name, value, range));
+}
+
 /// CLI11 reports an unknown option only where nothing else is missing, and never the one that was meant.
 /// @throws InputError at the first word that has the form of an option and is none of the app's or of the verb's
 void check_options(const CLI::App& app, const std::vector<std::string>& words)
@@ -132,7 +159,12 @@ void check_options(const CLI::App& app, const std::vector<std::string>& words)
         const CLI::Option* option = one_dash ? nullptr : verb.get_option_no_throw(name);
         if (option != nullptr) {
             const bool attached = is_long ? word.size() > name.size() : word.size() > 2;
-            i += option->get_type_size_max() > 0 && !attached; // its value, whatever it looks like
+            if (option->get_type_size_max() <= 0)
+                continue;
+            if (attached)
+                check_range(name, *option, word.substr(name.size() + (is_long ? 1 : 0)));
+            else if (++i < words.size()) // its value, whatever it looks like
+                check_range(name, *option, words[i]);
             continue;
         }
         std::vector<std::string> known;
@@ -156,11 +188,7 @@ std::string with_range(std::string what, const CLI::App& verb)
         return what;
     const std::string name = what.substr(before.size(), equals - before.size());
     const CLI::Option* option = verb.get_option_no_throw(name);
-    const std::string type = option != nullptr ? option->get_type_name() : "";
-    const std::string range = type.starts_with("UINT")  ? "whole number in [0, 18446744073709551615]"
-                              : type.starts_with("INT") ? "whole number in [-9223372036854775808, 9223372036854775807]"
-                              : type.starts_with("FLOAT") ? "number"
-                                                          : "";
+    const std::string range = option != nullptr ? range_of(*option) : "";
     return range.empty() ? what : fmt::format("{} is not a {}.", what.substr(before.size()), range);
 }
 
