@@ -126,18 +126,20 @@ std::string range_of(const CLI::Option& option)
                                        : "";
 }
 
-/// CLI11 takes the nearest number of 64 bits for a whole number beyond them. @throws InputError for such a one
+/// CLI11 takes the nearest number of 64 bits for a whole number beyond them, and -1 for 2^64 - 1.
+/// @throws InputError for such a one
 void check_range(const std::string& name, const CLI::Option& option, const std::string& value)
 {
     const std::string range = range_of(option);
     if (!range.starts_with("whole"))
         return;
+    const bool is_unsigned = option.get_type_name().starts_with("U");
     errno = 0;
-    if (option.get_type_name().starts_with("U"))
+    if (is_unsigned)
         std::strtoull(value.c_str(), nullptr, 0);
     else
         std::strtoll(value.c_str(), nullptr, 0);
-    if (errno == ERANGE)
+    if (errno == ERANGE || (is_unsigned && value.starts_with('-')))
         throw InputError(fmt::format("{} = {} is not a {}.", name, value, range));
 }
 
