@@ -6,6 +6,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "io/study/study_accuracy.hpp"
 #include "studies/check/trial_order.hpp"
+#include "studies/experiment/motions.hpp"
 
 #include <fmt/format.h>
 
@@ -123,11 +124,13 @@ Found wide_interval(const Subject& s)
 {
     const Study& study = s.study();
     constexpr double wide = 0.2, wanted = 0.1;
-    const std::optional<std::uint64_t> n = counted_trials(study);
+    std::optional<std::uint64_t> n = counted_trials(study);
+    if (study.fragility) // equal motions count once
+        n = motion_groups(study, motion_table(*s.loaded.experiment().motions().drawn)).groups;
     if (!n || worst_half_width(*n) <= wide)
         return std::nullopt;
     return spot(fmt::format("{} {} leave a probability near 1/2 open by ±{:.2f} (95 %, Jeffreys).", *n,
-                            study.fragility ? "motions"
+                            study.fragility ? "different motions"
                             : study.surface ? "realizations in each cell"
                                             : "realizations",
                             worst_half_width(*n)),
