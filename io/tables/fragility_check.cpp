@@ -27,7 +27,8 @@ void check_value(const FragilityFunction& function, const std::string& what, con
         refuse(function, fmt::format("{} = {} is outside [{}, {}].\n  Where an estimate has no curve, export its "
                                      "bounds as a discrete function.",
                                      what, value.value, least, most));
-    if (!(value.lower <= value.value && value.value <= value.upper))
+    const bool no_interval = std::isnan(value.lower) && std::isnan(value.upper); // too few motions
+    if (!no_interval && !(value.lower <= value.value && value.value <= value.upper))
         refuse(function,
                fmt::format("{} = {} is outside its interval [{}, {}].", what, value.value, value.lower, value.upper));
 }

@@ -164,7 +164,8 @@ TEST_F(FragilityProgram, FewMotionsHaveNoInterval)
         ASSERT_EQ(run(std::vector<std::string>{"report", "few.h5", "-o", "few.html"}).status, 0);
         const std::string page = bytes("few.html");
         EXPECT_NE(page.find("too few for an interval over motions"), std::string::npos);
-        EXPECT_EQ(page.find("nan"), std::string::npos) << page.substr(page.find("nan") - 200, 400);
+        for (const char* no_number : {"nan to", ">nan", "nan %", "(nan"})
+            EXPECT_EQ(page.find(no_number), std::string::npos) << no_number;
         EXPECT_EQ(run(std::vector<std::string>{"export", "few.h5", "--to", "nrml"}).status, 0);
         EXPECT_EQ(run(std::vector<std::string>{"export", "few.h5", "--to", "png"}).status, 0);
         EXPECT_EQ(run(std::vector<std::string>{"verify-file", "few.h5"}).status, 0);

@@ -116,10 +116,9 @@ std::string share_text(const DispersionShares& shares)
 
 std::string fragility_text(const Fragility& f)
 {
-    std::string text =
-        fmt::format("  {}; intensity: {}; in brackets: {}\n", design_text(f), describe_measure(f.measure),
-                    f.different < least_records ? "no intervals, as the motions are too few"
-                                                : "95 % intervals, clustered by motion");
+    std::string text = fmt::format("  {}; intensity: {}; {}\n", design_text(f), describe_measure(f.measure),
+                                   f.different < least_records ? "no intervals, as the motions are too few"
+                                                               : "in brackets: 95 % intervals, clustered by motion");
     for (const StateFragility& s : f.states) {
         text += fmt::format("  {:<16} {:>6} of {}", s.state.name, s.curve.reached, s.curve.trials);
         if (has_curve(s))

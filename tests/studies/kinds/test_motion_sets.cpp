@@ -8,6 +8,7 @@
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/motions.hpp"
+#include "studies/kinds/fragility/exchange.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
 
@@ -264,6 +265,9 @@ TEST_F(MotionSets, FewMotionsGiveSharesWithoutIntervals)
         EXPECT_EQ(text.find("too few for an interval over motions") == std::string::npos, interval) << text;
         EXPECT_EQ(json.find("too few for an interval over motions") == std::string::npos, interval) << json;
         EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+
+        for (const char* format : {"nrml", "json", "csv"})
+            EXPECT_NO_THROW(model_files(fragility_models(f, "few"), format)) << format << ", " << count;
 
         LimitCounts counts(3, motion_groups(loaded.study(), loaded.result_header().motions));
         counts.add(ResultRow{});
