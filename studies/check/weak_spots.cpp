@@ -48,6 +48,40 @@ WeakSpot spot(std::string text, std::string todo)
     return {"", std::move(text), std::move(todo)};
 }
 
+/// The strongest of the shaking [m/s2].
+double strongest_m_s2(const Subject& s)
+{
+    if (s.study().surface) {
+        const Axis& axis = s.study().surface->pga_m_s2;
+        return std::max(axis.from, axis.to);
+    }
+    double pga = 0;
+    for (const Realization& r : s.sample(64))
+        pga = std::max(pga, r.pga_m_s2);
+    return pga;
+}
+
+/// Below the limit of statics no rigid block moves, whatever the history of the shaking. (A rare event is one of the
+/// drawn structures, not of the nominal one.)
+Found below_limit(const Subject& s)
+{
+    const Study& study = s.study();
+    if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
+        study.vertical || study.rare)
+        return std::nullopt;
+    const std::optional<StaticLimit>& limit = s.limit;
+    const double pga = strongest_m_s2(s);
+    if (s.doubts_of("weak_shaking")) // that the number may be in g
+        return std::nullopt;
+    if (!limit || pga >= limit->limit_m_s2)
+        return std::nullopt;
+    return spot(fmt::format("The strongest shaking has {:.4g} m/s2. Rigid blocks of this structure begin to move at "
+                            "{:.4g} m/s2 (static limit; g B / H for a column that rocks): what moves below is the "
+                            "compliance of the beds.",
+                            pga, limit->limit_m_s2),
+                fmt::format("Extend the shaking beyond {:.3g} m/s2, about twice the limit.", 2 * limit->limit_m_s2));
+}
+
 Found slides_first(const Subject& s)
 {
     const std::optional<StaticLimit>& limit = s.limit;
@@ -381,7 +415,8 @@ struct Look {
     const char* name;
     Found (*find)(const Subject&);
 };
-constexpr std::array looks = {Look{"slides_first", slides_first},
+constexpr std::array looks = {Look{"below_limit", below_limit},
+                              Look{"slides_first", slides_first},
                               Look{"one_outcome", one_outcome},
                               Look{"coarse_axis", coarse_axis},
                               Look{"wide_interval", wide_interval},

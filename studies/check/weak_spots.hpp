@@ -17,7 +17,7 @@
 namespace stylobate {
 
 struct WeakSpot {
-    std::string name; ///< "wide_interval"
+    std::string name; ///< "below_limit"
     std::string text; ///< what and why, with its figures: sentences
     std::string todo; ///< a sentence
 };

@@ -128,18 +128,17 @@ TEST_F(LibraryCheck, DrawsAsTheProgramDoes)
 
 TEST_F(LibraryCheck, OfAMotionOfOnesOwn)
 {
-    const auto warned = [](double amplitude_m_s2) {
+    const auto weak = [](double amplitude_m_s2) {
         api::Study study = api::Study::from_file(inputs + "free_rocking.toml");
         const auto sway = [&](double t) { return amplitude_m_s2 * std::sin(2 * std::numbers::pi * 3 * t); };
         study.set("initial={ tilt_rad = 0.0 }");
-        return api::check(api::Experiment(study, sway, 0.005, 4), {.trial_seconds = 0})->warnings();
+        return api::check(api::Experiment(study, sway, 0.005, 4), {.trial_seconds = 0})->weak_spots();
     };
-    const auto weak = [](const std::vector<std::string>& warnings) {
-        return std::any_of(warnings.begin(), warnings.end(),
-                           [](const std::string& w) { return w.find("weak_shaking") != std::string::npos; });
-    };
-    EXPECT_TRUE(weak(warned(0.01)));
-    EXPECT_FALSE(weak(warned(8)));
+    const std::vector<api::WeakSpot> spots = weak(0.01);
+    ASSERT_FALSE(spots.empty());
+    EXPECT_EQ(spots.front().name, "below_limit");
+    for (const api::WeakSpot& spot : weak(8))
+        EXPECT_NE(spot.name, "below_limit");
 }
 
 /// What is stopped here would else take longer than a test may.
