@@ -1,6 +1,7 @@
 #include "ensemble/statics/step_bound.hpp"
 
 #include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/full_contact.hpp"
 #include "ensemble/statics/reinforcement.hpp"
 
 #include <Eigen/Dense>
@@ -16,9 +17,8 @@
 namespace stylobate {
 namespace {
 
-// Beds that stiffen with their load, and dashpots that do, are taken at this multiple of the load at rest; what softens
-// with it at the second one.
-constexpr double bound_load = 10, least_load = 0.01;
+// What softens with the load is taken at this multiple of the load at rest, what stiffens at `bound_load`.
+constexpr double least_load = 0.01;
 // The form `points` carries what strikes a face at a few of its points, at many times the load at rest, and grows
 // stiffer the deeper they go: of 2048 realizations of the small-scale column 25 flew apart with steps for 10 times it,
 // none did with steps for 85 times (kernels/THEORY.md, section 6).
@@ -29,69 +29,6 @@ double stiffest_load(const Realization& r, const Joint& bed)
     if (bed.extension.force_exponent < 1) // it is stiffest where it is least pressed
         return least_load;
     return r.form == ContactForm::points ? points_load : bound_load;
-}
-
-/// A joint at full contact in the reference stack.
-struct FullContact {
-    double chord = 0;   ///< length of the contact [m]
-    double x = 0;       ///< its centre [m]
-    double k_n = 0;     ///< normal stiffness [N/m]
-    double k_theta = 0; ///< rotational stiffness about the centre [N m]
-    double k_t = 0;     ///< tangential stiffness [N/m]
-    double c_n = 0;     ///< normal dashpots [N s/m]
-    double c_theta = 0; ///< their moment about the centre per rate of rotation [N m s]
-    double c_t = 0;     ///< tangential dashpot [N s/m]
-};
-
-FullContact full_contact(const std::vector<Block>& blocks, const Joint& joint)
-{
-    const Block& a = blocks[static_cast<std::size_t>(joint.lower)];
-    const Block& b = blocks[static_cast<std::size_t>(joint.upper)];
-    const double left = std::max(a.x_m - a.half_width_m, b.x_m - b.half_width_m);
-    const double right = std::min(a.x_m + a.half_width_m, b.x_m + b.half_width_m);
-    assert(right > left && "the blocks of a joint lie on each other");
-    const double chord = right - left;
-    return {chord,
-            (left + right) / 2,
-            joint.normal_stiffness_n_m2 * chord,
-            joint.normal_stiffness_n_m2 * chord * chord * chord / 12,
-            joint.tangential_stiffness_n_m,
-            joint.normal_damping_n_s_m,
-            0,
-            joint.tangential_damping_n_s_m};
-}
-
-/// The same with the realization's form and extensions, about a load of `times` that at rest.
-FullContact extended_contact(const Realization& r, int bed, double times)
-{
-    const Joint& joint = r.joints[static_cast<std::size_t>(bed)];
-    const JointExtension& e = joint.extension;
-    FullContact contact = full_contact(r.blocks, joint);
-    const JointReinforcement& held = joint.reinforcement;
-    const double L = contact.chord, load = times * bed_force_n(r, bed);
-    const BedLaw law = bed_law(r, bed);
-    const double area = law.area(load);
-    double tangent = (1 + law.exponent) * load / (area * law.K_n); // of the force over that of the linear law
-    if (r.form == ContactForm::points)                             // pressure rho d^1.5
-        tangent *= 1.5 * std::cbrt(area / L * law.faces.per_root_depth * law.faces.per_root_depth);
-    const double spread = r.form == ContactForm::two_corner ? 4 : 12;
-    contact.k_n *= tangent;
-    contact.k_theta = contact.k_n * L * L / spread;
-    contact.k_t += e.dowel_stiffness_n_m + held.bearing_n_m + held.bearing_per_m * load;
-    contact.c_t += held.bearing_n_s_m;
-    if (held.hold_n > 0) {
-        contact.k_n += 2 * held.hold_stiffness_n_m;
-        contact.k_theta += 2 * held.hold_stiffness_n_m * held.hold_spread_m * held.hold_spread_m;
-    }
-    const double length = joint.damping_chord_m > 0 ? joint.damping_chord_m : face_length_m(r, bed);
-    const double C = joint.normal_damping_n_s_m;
-    if (r.form != ContactForm::area)
-        contact.c_theta = C * L * L / spread;
-    else
-        contact.c_theta = e.face_damping * C * L / length * L * L / 4;
-    contact.c_n = C * std::max(1.0, joint.damping_chord_m > 0 ? L / length : 1.0) +
-                  e.rate_s_m * std::min(times, bound_load) * bed_force_n(r, bed);
-    return contact;
 }
 
 /// How the faces move against each other at a point of the contact when one block moves by (x, y, theta).
