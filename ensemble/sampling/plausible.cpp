@@ -1,9 +1,6 @@
 #include "ensemble/sampling/plausible.hpp"
 
 #include "ensemble/model/structure.hpp"
-#include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/limit_analysis.hpp"
-#include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +11,6 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <stdexcept>
 
 namespace stylobate {
 namespace {
@@ -27,17 +23,6 @@ constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
 /// Spectral accelerations are about 2.5 times the peak of the ground (plateau of the elastic spectrum of EN
 /// 1998-1:2004).
 constexpr double spectral_amplification = 2.5;
-
-/// The structure on its beds, without shaking and without anything drawn.
-Realization still_realization(const Study& study)
-{
-    Study still;
-    still.structure = study.structure;
-    still.contact = study.contact;
-    still.excitation.kind = ExcitationKind::none;
-    still.excitation.duration_s = 1;
-    return Sampler(still, nullptr).realization(0);
-}
 
 using Finding = std::optional<Doubt>;
 struct Subject {
@@ -565,61 +550,6 @@ std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts)
         }
     }
     return all;
-}
-
-std::vector<double> static_sinkage_m(const Study& study)
-{
-    const Layout layout = lay_out(study.structure);
-    const double ground = std::numeric_limits<double>::infinity();
-    std::vector<double> carried(layout.blocks.size(), 0.0); // weight on top of each block
-    std::vector<int> seats(layout.blocks.size(), 0);
-    for (const PlacedBed& bed : layout.beds)
-        ++seats[static_cast<std::size_t>(bed.upper)];
-    std::vector<double> sinkage(layout.beds.size());
-    for (std::size_t i = layout.beds.size(); i-- > 0;) { // from the epistyles down
-        const PlacedBed& bed = layout.beds[i];
-        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(bed.upper)];
-        const auto at = static_cast<std::size_t>(bed.upper);
-        const double weight = (upper.mass_kg * study.structure.gravity_m_s2 + carried[at]) / seats[at];
-        double left = -ground, right = ground;
-        if (bed.lower >= 0) {
-            const PlacedBlock& lower = layout.blocks[static_cast<std::size_t>(bed.lower)];
-            carried[static_cast<std::size_t>(bed.lower)] += weight;
-            left = lower.left();
-            right = lower.right();
-        }
-        const double length = std::min(right, upper.right()) - std::max(left, upper.left());
-        sinkage[i] = weight / (bed.bed.normal_stiffness_n_m2.value_or(study.contact.normal_stiffness_n_m2) * length);
-    }
-    return sinkage;
-}
-
-double first_frequency_hz(const Study& study)
-{
-    const Realization r = still_realization(study);
-    return first_mode(r.blocks, r.joints, r.gravity_m_s2, r.watched).frequency_hz;
-}
-
-std::optional<StaticLimit> static_limit(const Study& study)
-{
-    Realization r = still_realization(study);
-    if (std::count_if(r.blocks.begin(), r.blocks.end(), [](const Block& b) { return !b.fixed; }) >
-        most_static_limit_blocks)
-        return std::nullopt;
-    StaticLimit limit;
-    try {
-        limit.limit_m_s2 = limit_acceleration(r).acceleration_m_s2;
-        for (Joint& joint : r.joints)
-            joint.friction *= 1.1;
-        limit.rough_m_s2 = limit_acceleration(r).acceleration_m_s2;
-        constexpr double no_sliding = 1e3;
-        for (Joint& joint : r.joints)
-            joint.friction = no_sliding;
-        limit.rocking_m_s2 = limit_acceleration(r).acceleration_m_s2;
-    } catch (const std::runtime_error&) { // rigid blocks do not rest so: nothing is known
-        return std::nullopt;
-    }
-    return limit;
 }
 
 } // namespace stylobate

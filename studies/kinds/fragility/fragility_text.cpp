@@ -240,6 +240,25 @@ Json fragility_json(const Fragility& f)
         .member("says", Json::list(f.says));
 }
 
+namespace {
+
+void sequence_section(const Fragility& f, HtmlPage& page)
+{
+    if (!f.sequence.empty()) {
+        page.heading("Sequences of shakings");
+        HtmlTable table_of{
+            "rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
+        for (const SequenceShare& s : f.sequence)
+            table_of.rows.push_back(
+                {fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh), percent_interval(s.beyond)});
+        page.table(table_of);
+        page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
+                  "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
+    }
+}
+
+} // namespace
+
 void fragility_section(const Fragility& f, HtmlPage& page)
 {
     page.section("Fragility");
@@ -277,17 +296,7 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         page.heading("Limits of the curves");
         page.list(items);
     }
-    if (!f.sequence.empty()) {
-        page.heading("Sequences of shakings");
-        HtmlTable table_of{
-            "rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
-        for (const SequenceShare& s : f.sequence)
-            table_of.rows.push_back(
-                {fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh), percent_interval(s.beyond)});
-        page.table(table_of);
-        page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
-                  "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
-    }
+    sequence_section(f, page);
     page.heading("Variance components");
     HtmlTable shares{"lrrrr", {"limit state", "motion", "imperfections", "contacts", "chaos"}, {}, ""};
     for (const StateFragility& s : f.states)
