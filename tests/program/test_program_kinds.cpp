@@ -118,7 +118,8 @@ TEST_F(Kinds, InfoGroupsWhatItFindsInMeasuredData)
     EXPECT_EQ(count_of(all, note), runs) << all;
     EXPECT_EQ(all.find("more of this kind"), std::string::npos);
     std::size_t in_json = 0;
-    for (const JsonValue& finding : json_of(run(Words{"info", "many.h5", "--json"}))["findings"].items)
+    const JsonValue json = json_of(run(Words{"info", "many.h5", "--json"}));
+    for (const JsonValue& finding : json["findings"].items)
         in_json += finding["text"].text == note;
     EXPECT_EQ(in_json, runs);
     EXPECT_TRUE(count_of(grouped, "warning: ") == 0 || grouped.rfind("warning: ") < grouped.find("note: ")) << grouped;
