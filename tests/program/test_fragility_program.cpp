@@ -154,8 +154,8 @@ TEST_F(FragilityProgram, FewMotionsHaveNoInterval)
         const Ended ended = run(words("few.h5", "2", "auto", few));
         ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
         const JsonValue json = JsonParser::parse(ended.out);
-        EXPECT_EQ(json["limits"]["interval"].text, "none");
-        EXPECT_EQ(json["limits"]["collapse"]["lower"].kind, JsonValue::Kind::null);
+        EXPECT_EQ(json["limit_states"]["interval"].text, "none");
+        EXPECT_EQ(json["limit_states"]["collapse"]["lower"].kind, JsonValue::Kind::null);
         const JsonValue& state = json["fragility"]["states"].items[0];
         ASSERT_EQ(state["stripes"].items.size(), 5U);
         EXPECT_EQ(state["stripes"].items[0]["lower"].kind, JsonValue::Kind::null);

@@ -52,7 +52,7 @@ TEST_F(Check, RefusesAnAccuracyThatNoChoiceReaches)
 /// 0.05 to 0.6 m/s2 are 0.05 to 0.6 g: `check`, `run`, `info` and the results all say so.
 TEST_F(Check, AWeakShakingIsSaidByEveryVerb)
 {
-    const Words in_g = {"surface.pga_m_s2={from=0.05,to=0.6,count=2}", "surface.frequency_hz.count=1",
+    const Words in_g = {"surface.pga_m_s2={from=0.05,to=0.6,count=2}", "surface.frequency_hz={from=2,to=2,count=1}",
                         "study.realizations=2"};
     const std::string name = "Did you mean g (0.6 g is 5.884 m/s2)?", monolith = input("small_scale_monolith");
     const JsonValue warnings = json_of(look("small_scale_monolith", in_g))["warnings"];
