@@ -106,6 +106,7 @@ private:
         study.realizations = (histories + motions - 1) / motions;
         study.fragility->contacts = study.fragility->twins = 1;
         study.outcome.follow = Follow::collapse;
+        study.excitation.tail = Tail::structure; // only falls are counted
         return study;
     }
 
