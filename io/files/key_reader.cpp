@@ -85,7 +85,8 @@ void KeyReader::allow_only(const std::vector<std::string>& known) const
     if (meant.empty())
         todo = fmt::format("Known {}: {}.", path_.empty() ? "sections" : "keys of " + path_, fmt::join(known, ", "));
     else if (without_unit(meant) != meant && std::string_view(first->key).starts_with(without_unit(meant)))
-        todo = fmt::format("Did you mean {}? The unit is part of the key.", meant);
+        todo = fmt::format("Did you mean {}? The unit is part of the key.{}", meant,
+                           first->key.size() > without_unit(meant).size() ? " Convert the value to it." : "");
     else
         todo = fmt::format("Did you mean {}?", meant);
     throw InputError(

@@ -193,7 +193,9 @@ TEST(StudyFile, RefusesMissingAndWrongUnits)
 {
     expect_line_refused(7, "drum_width = 0.048",
                         {"structure.drum_width", "Did you mean drum_width_m? The unit is part"});
-    expect_line_refused(7, "drum_width_mm = 48", {"structure.drum_width_mm", "Did you mean drum_width_m? The unit"});
+    expect_line_refused(
+        7, "drum_width_mm = 48",
+        {"structure.drum_width_mm", "Did you mean drum_width_m? The unit is part of the key. Convert the value"});
     expect_line_refused(12, "normal_stiffness = 1e8", {"Did you mean normal_stiffness_n_m2?"});
     expect_line_refused(19, "pga_g = { from = 0.1, to = 1, count = 3 }", {"Did you mean pga_m_s2?"});
     expect_line_refused(21, "drum_width = { distribution = \"normal\", sd = 0.0002 }",
