@@ -9,8 +9,8 @@
 namespace stylobate {
 
 /// Reads a file of columns with one line of names above: time_s, and acceleration_m_s2 or displacement_m; other columns
-/// are left alone. Blanks, tabs, commas or semicolons between them; lines that begin with # are comments. Times are
-/// uniform.
+/// are left alone. The unit is part of the name and may be another (time_ms, acceleration_g, displacement_mm). Blanks,
+/// tabs, commas or semicolons between them; lines that begin with # are comments. Times are uniform.
 ///
 /// The motion begins at rest with the first sample. An acceleration is linear between its samples; where there is none,
 /// it is that of the cubic spline through the displacements, counted from the first one. Where there are both, or where
