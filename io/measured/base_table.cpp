@@ -123,6 +123,7 @@ Motion of_columns(const std::filesystem::path& file, bool any_pga)
 {
     const std::string content = content_of(file, "a table of the base motion");
     const RecordText text = lines_of(file.string(), content);
+    refuse_decimal_commas(text);
     const ColumnTable table = read_columns(text);
     check_names(text, table);
     const std::vector<double> accelerations = column(text, table, acceleration_of_base);

@@ -28,42 +28,6 @@ constexpr const char* comma_remedy =
     "Replace the commas in the numbers by points, or export the file with decimal points.";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
 
-/// Refuses a file most of whose rows of numbers have decimal commas: where the comma may also stand between columns,
-/// "0,25" would be read as 0 and 25.
-void refuse_decimal_commas(const RecordText& text)
-{
-    std::size_t with_commas = 0, with_points = 0, first = 0;
-    std::string_view example;
-    for (std::size_t i = 0; i < text.lines.size(); ++i) {
-        const std::string_view line = trimmed(text.lines[i]);
-        if (line.find_first_of(",.") == std::string_view::npos ||
-            line.find_first_not_of("0123456789+-.,;eEdD \t") != std::string_view::npos)
-            continue;
-        if (line.find(',') == std::string_view::npos) {
-            ++with_points;
-            continue;
-        }
-        std::size_t tokens = 0;
-        std::string_view comma;
-        for (std::size_t at = 0; at < line.size();) {
-            const std::size_t begin = std::min(line.find_first_not_of(" \t;", at), line.size());
-            at = std::min(line.find_first_of(" \t;", begin), line.size());
-            const std::string_view token = line.substr(begin, at - begin);
-            tokens += token.empty() ? 0 : 1;
-            if (comma.empty() && has_decimal_comma(token))
-                comma = token;
-        }
-        const bool decimal = !comma.empty() && (tokens > 1 || line.find('.') == std::string_view::npos);
-        if (decimal && with_commas++ == 0) {
-            first = i;
-            example = comma;
-        }
-        with_points += decimal ? 0 : 1;
-    }
-    if (with_commas > 1 && with_commas > with_points)
-        text.refuse(first, fmt::format("\"{}\": the numbers have decimal commas. {}", example, comma_remedy));
-}
-
 std::vector<Record> parse(std::string_view content, const std::string& file, const std::string& unit)
 {
     const std::string given = canonical_unit(unit);
@@ -214,6 +178,40 @@ RecordText lines_of(const std::string& file, std::string_view content)
     if (blank)
         text.refuse("is empty.");
     return text;
+}
+
+void refuse_decimal_commas(const RecordText& text)
+{
+    std::size_t with_commas = 0, with_points = 0, first = 0;
+    std::string_view example;
+    for (std::size_t i = 0; i < text.lines.size(); ++i) {
+        const std::string_view line = trimmed(text.lines[i]);
+        if (line.find_first_of(",.") == std::string_view::npos ||
+            line.find_first_not_of("0123456789+-.,;eEdD \t") != std::string_view::npos)
+            continue;
+        if (line.find(',') == std::string_view::npos) {
+            ++with_points;
+            continue;
+        }
+        std::size_t tokens = 0;
+        std::string_view comma;
+        for (std::size_t at = 0; at < line.size();) {
+            const std::size_t begin = std::min(line.find_first_not_of(" \t;", at), line.size());
+            at = std::min(line.find_first_of(" \t;", begin), line.size());
+            const std::string_view token = line.substr(begin, at - begin);
+            tokens += token.empty() ? 0 : 1;
+            if (comma.empty() && has_decimal_comma(token))
+                comma = token;
+        }
+        const bool decimal = !comma.empty() && (tokens > 1 || line.find('.') == std::string_view::npos);
+        if (decimal && with_commas++ == 0) {
+            first = i;
+            example = comma;
+        }
+        with_points += decimal ? 0 : 1;
+    }
+    if (with_commas > 1 && with_commas > with_points)
+        text.refuse(first, fmt::format("\"{}\": the numbers have decimal commas. {}", example, comma_remedy));
 }
 
 void RecordText::refuse(std::size_t i, const std::string& what) const

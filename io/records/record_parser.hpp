@@ -33,6 +33,11 @@ std::string content_of(const std::filesystem::path& path, const std::string& wha
 /// @throws InputError if it is empty or has bytes that no text has
 RecordText lines_of(const std::string& file, std::string_view content);
 
+/// Refuses a file most of whose rows of numbers have decimal commas: where the comma may also stand between columns,
+/// "0,25" would be read as 0 and 25.
+/// @throws InputError, naming the first such line
+void refuse_decimal_commas(const RecordText& text);
+
 /// What the name of a column says.
 struct ColumnMeaning {
     enum class Quantity { unnamed, acceleration, velocity, displacement, time, other };

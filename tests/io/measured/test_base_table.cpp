@@ -151,6 +151,7 @@ TEST(BaseTable, SaysWhatIsWrong)
     expect_refused(rows("time_s,displacment_mm", 50, one),
                    {"Did you mean displacement_mm?"}); // in the unit of the file
     expect_refused(rows("time_s,displacement_furlong", 50, one), {"displacement_m?", "displacements in m, cm, mm"});
+    expect_refused("time_s;displacement_m\n0,00;0,1\n0,01;0,2\n0,02;0,4\n", {"decimal commas"});
     expect_refused(rows("time_s,base_x_m", 50, one), {"has no motion", "base_x_m", "line of names"});
     expect_refused(rows("t,acceleration_m_s2", 50, one), {"begins with the column \"t\", not with time_s"});
     expect_refused(rows("# no names", 50, one), {"begins with the column \"column 1\""});
