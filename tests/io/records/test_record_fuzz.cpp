@@ -68,7 +68,7 @@ std::vector<std::string> seeds()
 /// The records of a seed or of its mutation.
 std::vector<Record> read_seed(const std::string& seed)
 {
-    return read_records(std::string_view(seed).substr(1), "seed", seed[0] % 2 == 0 ? "" : "g");
+    return read_records(std::string_view(seed).substr(1), "seed", seed[0] % 2 == 0 ? std::string() : std::string("g"));
 }
 
 TEST(RecordCorpus, IsWhatTheGeneratorsMake)
