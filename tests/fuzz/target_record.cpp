@@ -14,7 +14,7 @@ Verdict judge(std::string_view input)
     if (input.empty())
         return Verdict::refused;
     return judged([&] {
-        for (const Record& record : read_records(input.substr(1), "fuzz", input[0] % 2 == 0 ? "" : "g")) {
+        for (const Record& record : read_records(input.substr(1), "fuzz", std::string(input[0] % 2 == 0 ? "" : "g"))) {
             promise(record.dt_s > 0 && std::isfinite(record.dt_s), "a record has no sampling interval");
             promise(record.acceleration_m_s2.size() >= 2, "a record has no samples");
             for (const double a : record.acceleration_m_s2)
