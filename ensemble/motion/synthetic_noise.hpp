@@ -29,6 +29,7 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/motion/noise_duration.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <cstddef>
@@ -36,11 +37,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// Decay times after which the envelope is cut.
-inline constexpr double noise_decays = 5;
-/// Noise of less than this has fewer than 20 samples, and the polynomial that brings it to rest leaves little of it.
-inline constexpr double shortest_noise_s = 0.1;
 
 class SyntheticNoise {
 public:

@@ -1,6 +1,6 @@
 #include "io/study/study_excitation.hpp"
 
-#include "ensemble/motion/synthetic_noise.hpp"
+#include "ensemble/motion/noise_duration.hpp"
 #include "io/keys/excitation_keys.hpp"
 
 #include <fmt/format.h>

@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/files", {}},
     {"io/tables", {"io/files"}},
     {"io/hazard", {"io/files", "io/tables"}},
-    {"io/records", {}},
+    {"io/records", {"io/files"}},
     {"io/motion", {"io/records"}},
     {"io/measured", {"io/files", "io/motion", "io/records"}},
     {"io/keys", {"io/files"}},
@@ -74,7 +74,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/kinds/single", {"studies/experiment", "studies/kinds"}},
     {"studies/kinds/surface", {"studies/experiment", "studies/kinds", "studies/report"}},
     {"studies/kinds/adaptive", {"studies/kinds", "studies/kinds/surface"}},
-    {"studies/kinds/fragility", {"studies/kinds", "studies/report"}},
+    {"studies/kinds/fragility", {"studies/experiment", "studies/kinds", "studies/report"}},
     {"studies/kinds/sensitivity", {"studies/kinds", "studies/report"}},
     {"studies/kinds/rare", {"studies/kinds", "studies/report"}},
     {"studies/kinds/replicas", {"studies/kinds", "studies/kinds/surface", "studies/report"}},
@@ -153,7 +153,8 @@ const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.hpp)re");
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
 const std::set<std::string> headers_for_io = {"ensemble/estimators/past/mirror_image.hpp",
-                                              "ensemble/estimators/risk/hazard.hpp", "ensemble/sampling/plausible.hpp"};
+                                              "ensemble/estimators/risk/hazard.hpp",
+                                              "ensemble/motion/noise_duration.hpp", "ensemble/sampling/plausible.hpp"};
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
 const std::map<std::string, std::set<std::string>> library_folders = {

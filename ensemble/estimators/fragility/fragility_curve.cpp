@@ -173,6 +173,29 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
                              where + " Run more intensities between them.");
 }
 
+/// What a reader must know of a fitted curve: that it falls, that it has no intervals and why, that they may be too
+/// short.
+void remark(FragilityCurve& curve, bool falls, const Jackknife& without, const CurveEstimate& level)
+{
+    if (falls)
+        curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
+                             "median and no dispersion.");
+    if (curve.records >= least_records && without.coefficients.empty())
+        curve.says.push_back("The curve depends on one record: without it, the likelihood is unbounded. There is no "
+                             "interval; add records or intensities.");
+    if (!without.coefficients.empty() && std::isinf(level.records.upper))
+        curve.says.emplace_back("All records have the same outcomes: their scatter is not known, and there is no "
+                                "interval. Are they the same motion?");
+    if (curve.records < least_records)
+        curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
+                                         "and must not be used alone.",
+                                         curve.records, least_records));
+    else if (curve.records < enough_records)
+        curve.says.push_back(
+            fmt::format("With {} records, fewer than {}, the coverage of the intervals may be below the nominal level.",
+                        curve.records, enough_records));
+}
+
 } // namespace
 
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options)
@@ -244,23 +267,7 @@ FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& op
                 point.probability = same_everywhere(nan, {0, 1});
     }
 
-    if (falls)
-        curve.says.push_back("The share that reaches the limit state does not grow with the intensity: there is no "
-                             "median and no dispersion.");
-    if (intervals && without.coefficients.empty())
-        curve.says.push_back("The curve depends on one record: without it, the likelihood is unbounded. There is no "
-                             "interval; add records or intensities.");
-    if (!without.coefficients.empty() && std::isinf(estimates.front().records.upper))
-        curve.says.emplace_back("All records have the same outcomes: their scatter is not known, and there is no "
-                                "interval. Are they the same motion?");
-    if (!intervals)
-        curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
-                                         "and must not be used alone.",
-                                         data.records, least_records));
-    else if (data.records < enough_records)
-        curve.says.push_back(
-            fmt::format("With {} records, fewer than {}, the coverage of the intervals may be below the nominal level.",
-                        data.records, enough_records));
+    remark(curve, falls, without, estimates.front());
     return curve;
 }
 
