@@ -140,13 +140,17 @@ std::string column_remedy(std::string_view name)
     std::vector<std::string> known = {"time_s"};
     for (const SeriesName& series : series_names())
         known.push_back(fmt::format("{}{}{}", series.column, series.per_block ? "0" : "", series.suffix));
-    const std::string meant = meant_key(lower_case(name), known);
+    const std::string lower = lower_case(name);
+    std::vector<std::string> in_its_unit;
+    for (const std::string& column : known)
+        for (std::size_t line = lower.find('_'); line != std::string::npos; line = lower.find('_', line + 1))
+            if (std::string same_unit = std::string(without_unit(column)) + lower.substr(line); target_of(same_unit))
+                in_its_unit.push_back(std::move(same_unit));
+    if (const std::string meant = meant_key(lower, in_its_unit); !meant.empty())
+        return fmt::format("Did you mean {}? The unit is part of the name.", meant);
+    const std::string meant = meant_key(lower, known);
     if (meant.empty())
         return fmt::format("Columns are {}. The unit is part of the name.", fmt::join(known, ", "));
-    const std::string stem(without_unit(meant));
-    for (std::size_t line = name.find('_'); line != std::string_view::npos; line = name.find('_', line + 1))
-        if (const std::string same_unit = stem + lower_case(name.substr(line)); target_of(same_unit))
-            return fmt::format("Did you mean {}? The unit is part of the name.", same_unit);
     const std::optional<Target> target = target_of(meant);
     const Dimension dimension = target && target->series ? target->series->dimension : Dimension::time;
     return fmt::format(

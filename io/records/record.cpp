@@ -427,26 +427,26 @@ void check_dt(const RecordText& text, std::size_t i, double dt_s)
 }
 
 std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
-                                 bool any_pga)
+                                 PgaRange pga)
 {
     std::vector<Record> records = parse(content, file, unit);
-    if (!any_pga)
+    if (pga == PgaRange::usual)
         for (const Record& record : records)
             check_pga(record);
     return records;
 }
 
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, bool any_pga)
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, PgaRange pga)
 {
-    return read_records(content_of(file, "a ground-motion record"), file.string(), unit, any_pga);
+    return read_records(content_of(file, "a ground-motion record"), file.string(), unit, pga);
 }
 
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
-                   bool any_pga)
+                   PgaRange pga)
 {
     std::vector<Record> records = parse(content_of(file, "a ground-motion record"), file.string(), unit);
     Record record = std::move(records[place_of(records, component)]);
-    if (!any_pga)
+    if (pga == PgaRange::usual)
         check_pga(record);
     return record;
 }

@@ -42,6 +42,9 @@ struct Record {
 inline constexpr double smallest_pga_m_s2 = 1e-4;
 inline constexpr double largest_pga_m_s2 = 50;
 
+/// Which peak accelerations a record may have: those of ground motions, or any.
+enum class PgaRange { usual, any };
+
 /// Reads every component of a file; the format is recognised from its content, never from its name. What each format
 /// is stands on top of its io/records/record_NAME.cpp.
 ///
@@ -50,19 +53,20 @@ inline constexpr double largest_pga_m_s2 = 50;
 /// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
 ///         says no unit and none is given, or says another unit than the one given, or if a PGA is outside
 ///         [smallest_pga_m_s2, largest_pga_m_s2]
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, bool any_pga = false);
+std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit,
+                                 PgaRange pga = PgaRange::usual);
 
 /// The same from a text in memory.
 /// @param file name of the text, for messages and `Record::file`
 std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
-                                 bool any_pga = false);
+                                 PgaRange pga = PgaRange::usual);
 
 /// The one component that is asked for: by name ("chan 1", "column 2"), by an orientation that only one has ("360"), or
 /// by column number ("2"); empty = the only one there is. Upper and lower case are one.
 /// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
 ///         among several
 Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
-                   bool any_pga = false);
+                   PgaRange pga = PgaRange::usual);
 
 /// "horizontal", "vertical" or "unknown".
 const char* to_string(Direction direction);

@@ -83,7 +83,7 @@ ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const st
     ReadFolder folder;
     for (const std::filesystem::path& file : files)
         try {
-            const std::vector<Record> records = read_records(file, unit, any_pga);
+            const std::vector<Record> records = read_records(file, unit, any_pga ? PgaRange::any : PgaRange::usual);
             for (const Record& record : records)
                 folder.components.push_back(
                     {record.file, records.size() > 1 ? record.component : "", record.direction == Direction::vertical});

@@ -114,19 +114,19 @@ Motions motions_of(const Study& study, const Record* record)
 {
     Motions motions;
     const ExcitationSpec& excitation = study.excitation;
+    const PgaRange pga = study.allows("pga") ? PgaRange::any : PgaRange::usual;
     if (study.fragility)
         motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
     else if (excitation.kind == ExcitationKind::record) {
         if (!record)
             check_record_is_there(excitation.file);
-        motions.record = make_motion(
-            record ? *record : read_record(excitation.file, excitation.component, excitation.unit, study.allows("pga")),
-            excitation.baseline, excitation.band_pass);
+        motions.record =
+            make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit, pga),
+                        excitation.baseline, excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table)
         motions.record = read_base_table(excitation.file, excitation.run, study.allows("pga"));
     if (const std::optional<VerticalSpec>& spec = study.vertical)
-        motions.vertical =
-            make_motion(read_record(spec->file, spec->component, spec->unit, study.allows("pga")), spec->baseline);
+        motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit, pga), spec->baseline);
     return motions;
 }
 

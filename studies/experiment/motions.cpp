@@ -32,11 +32,11 @@ void stretch(Motion& motion, double scale)
 MotionSet read_motions(const Study& study)
 {
     const ExcitationSpec& excitation = study.excitation;
-    const bool any_pga = study.allows("pga");
+    const PgaRange pga = study.allows("pga") ? PgaRange::any : PgaRange::usual;
     MotionSet set;
     for (const RecordSpec& record : study.fragility->records) {
-        Motion motion = make_motion(read_record(record.file, record.component, record.unit, any_pga),
-                                    excitation.baseline, excitation.band_pass);
+        Motion motion = make_motion(read_record(record.file, record.component, record.unit, pga), excitation.baseline,
+                                    excitation.band_pass);
         if (excitation.time_scale != 1)
             stretch(motion, excitation.time_scale);
         std::string name = std::filesystem::path(record.file).filename().string();

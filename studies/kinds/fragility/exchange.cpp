@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace stylobate {
@@ -75,12 +76,29 @@ FragilityFunction stripes(const Fragility& f, const std::vector<const StateFragi
     function.id = "stripes";
     function.measure = measure_of(f.measure);
     function.discrete = true;
-    for (const StripeShare& share : states.front()->stripes->stripes)
-        function.intensity.push_back(share.intensity);
+    // a state of residuals has no share where nothing came to rest, and a function has one table of intensities
+    const auto share_at = [](const StateFragility& s, double intensity) {
+        const auto& all = s.stripes->stripes;
+        const auto at = std::find_if(all.begin(), all.end(),
+                                     [&](const StripeShare& share) { return share.intensity == intensity; });
+        return at == all.end() ? nullptr : &*at;
+    };
+    std::set<double> every;
+    for (const StateFragility* s : states)
+        for (const StripeShare& share : s->stripes->stripes)
+            every.insert(share.intensity);
+    for (const double intensity : every)
+        if (std::all_of(states.begin(), states.end(), [&](const auto* s) { return share_at(*s, intensity); }))
+            function.intensity.push_back(intensity);
+    if (function.intensity.size() < every.size())
+        function.note = fmt::format("{} of {} intensities are left out: no realization came to rest there. ",
+                                    every.size() - function.intensity.size(), every.size());
     for (const StateFragility* s : states) {
         FragilityState state;
-        for (const StripeShare& share : s->stripes->stripes)
+        for (const double intensity : function.intensity) {
+            const StripeShare& share = *share_at(*s, intensity);
             state.probability.push_back({share.share, share.limits.lower, share.limits.upper});
+        }
         function.states.push_back(std::move(state));
     }
     return function;
@@ -107,7 +125,8 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
         for (const StateFragility* s : states)
             model.limit_states.push_back(s->state.name);
         if (states.front()->stripes)
-            model.functions.push_back(stripes(f, states));
+            if (FragilityFunction shares = stripes(f, states); shares.intensity.size() >= 2)
+                model.functions.push_back(std::move(shares));
         const bool curves = std::all_of(states.begin(), states.end(), [](const StateFragility* s) {
             return s->curve.maximum == Maximum::inside && s->curve.median.value > 0;
         });

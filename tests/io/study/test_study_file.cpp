@@ -207,7 +207,7 @@ TEST(StudyFile, RefusesWrongTypes)
 {
     expect_line_refused(5, "blocks = \"seven\"", {"structure.blocks = \"seven\"", "not a whole number", "[1, 200]"});
     expect_line_refused(5, "blocks = 6.5", {"structure.blocks = 6.5", "not a whole number"});
-    expect_line_refused(7, "drum_width_m = \"0.048\"", {"\"0.048\" is a string, not a number", "(0, 10]", "metres"});
+    expect_line_refused(7, "drum_width_m = \"0.048\"", {"\"0.048\" is a string, not a number", "(0, 40]", "metres"});
     expect_line_refused(7, "drum_width_m = true", {"true or false, not a number"});
     expect_line_refused(7, "drum_width_m = [0.048]", {"an array, not a number"});
     expect_line_refused(2, "kind = 3", {"study.kind = 3 is a whole number, not a string", "\"surface\""});
@@ -226,7 +226,7 @@ TEST(StudyFile, RefusesMissingKeys)
     expect_refused(without(2), "temple.toml:1", {"study.kind is missing", "\"single\", \"surface\""});
     expect_refused(without(3), "temple.toml:1", {"study.realizations is missing", "[1, 1000000000]"});
     expect_refused(without(5), "temple.toml:4", {"structure.blocks is missing", "[1, 200]"});
-    expect_refused(without(8), "temple.toml:4", {"structure.drum_height_m is missing", "(0, 10]", "metres"});
+    expect_refused(without(8), "temple.toml:4", {"structure.drum_height_m is missing", "(0, 40]", "metres"});
     expect_refused(without(10), "temple.toml:4", {"structure.drum_mass_kg is missing", "density_kg_m3"});
     expect_refused(without(13), "temple.toml:11", {"contact.friction is missing", "(0, 10]"});
     expect_refused(without(19), "temple.toml:17", {"surface.pga_m_s2 is missing", "from = ..., to = ..., count"});

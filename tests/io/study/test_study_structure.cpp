@@ -208,8 +208,10 @@ epistyle_height_m = 0.8
     expect_refused(five + "epistyle_bays = 5", "temple.toml:14: structure.epistyle_bays = 5 is outside [1, 4]");
     expect_refused(five + "epistyle_bays = \"each\"", "temple.toml:14: structure.epistyle_bays = \"each\"",
                    {"\"all\""});
-    expect_refused(five + "epistyle_bays = \"all\"", "temple.toml:13: structure.epistyle_height_m = 0.8 belongs to an",
-                   {"13.2 m, longer than 10 m"});
+    std::string far_apart = five;
+    far_apart.replace(far_apart.find("column_spacing_m = 3"), 20, "column_spacing_m = 12");
+    expect_refused(far_apart + "epistyle_bays = \"all\"",
+                   "temple.toml:13: structure.epistyle_height_m = 0.8 belongs to an", {"49.2 m, longer than 40 m"});
     expect_refused(five + "epistyle_mass_kg = 5000",
                    "temple.toml:14: structure.epistyle_mass_kg = 5000 is one mass for",
                    {"epistyles of 3.6 m and of 3 m", "epistyle_density_kg_m3"});
@@ -273,7 +275,7 @@ TEST(StudyStructure, RefusesMisusedKeysOfColumns)
     expect_refused("depth_m = 1\ndrums = [\n{ width_m = 1, height_m = 1, mass_kg = 1 },\n{ widht_m = 1 } ]",
                    "temple.toml:7: unknown key structure.drums[1].widht_m", {"Did you mean width_m?"});
     expect_refused("depth_m = 1\ndrums = [ { height_m = 1, mass_kg = 1 } ]",
-                   "temple.toml:5: structure.drums[0].width_m is missing", {"or drum_width_m for all", "(0, 10]"});
+                   "temple.toml:5: structure.drums[0].width_m is missing", {"or drum_width_m for all", "(0, 40]"});
     expect_refused("depth_m = 1\ndrums = [ { width_m = 1, height_m = 1 } ]",
                    "temple.toml:5: structure.drums[0].mass_kg is missing", {"or density_kg_m3"});
     expect_refused("depth_m = 1\ndrums = [ { width_m = 1, height_m = 1, mass_kg = 1, density_kg_m3 = 2000 } ]",
@@ -368,7 +370,7 @@ TEST(StudyStructure, PerturbationsOfBlocksThatDiffer)
                    {"from 0.06 to 0.15", "normal or lognormal"},
                    perturbed("drum_width = { distribution = \"uniform\", from = 0.05, to = 0.07 }"));
     expect_refused(structure, "temple.toml:22: perturbation.drum_width.max = 0.1 leaves less than one draw",
-                   {"nominal value is 0.15"},
+                   {"nominal value in [structure] is 0.15"},
                    perturbed("drum_width = { distribution = \"normal\", cov = 0.01, max = 0.1 }"));
     expect_refused(structure, "temple.toml:22: perturbation.drum_height.sd_m = 0.055 is outside (0, 0.05]", {},
                    perturbed("drum_height = { distribution = \"normal\", sd_m = 0.055, min = 0.01 }"));
