@@ -322,7 +322,7 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "csv"}).out, "col_comparison.csv\n");
     const std::string csv = read_bytes(folder / "col_comparison.csv");
     EXPECT_TRUE(csv.starts_with("variant,limit_state,place,both,")) << csv.substr(0, 100);
-    EXPECT_EQ(count_of(csv, "\n"), 1U + 2 * 3 * 17);
+    EXPECT_EQ(count_of(csv, "\n"), 1U + 2 * 4 * 17);
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg", "--limit", "slid"}).out,
               "col_comparison_slid.svg\n");
     const std::string slid = read_bytes(folder / "col_comparison_slid.svg"); // no damage: more of it is not worse
