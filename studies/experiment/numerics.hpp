@@ -32,8 +32,8 @@ struct PairedCollapses {
     std::uint64_t realizations = 0; ///< valid in both
     std::uint64_t first = 0, second = 0;
     std::uint64_t differ = 0; ///< collapsed in one of the two alone
-    double difference = 0; ///< of the collapse probability: first less second
-    double sd = 0;         ///< its standard error, by the pairs of which one collapsed alone
+    double difference = 0;    ///< of the collapse probability: first less second
+    double sd = 0;            ///< its standard error, by the pairs of which one collapsed alone
 };
 
 /// Of the realizations that both have run. @pre the indices of `second` are among those of `first`

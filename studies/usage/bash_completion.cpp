@@ -18,24 +18,15 @@ struct FileWord {
 };
 
 constexpr FileWord file_words[] = {
-    {"compare", "STUDY", "toml h5"},
-    {"", "STUDY", "toml"},
-    {"", "--study", "toml"},
-    {"", "RESULTS", "h5"},
-    {"", "MEASURED", "h5 csv"},
-    {"report", "FILE", "h5"},
-    {"risk", "FILE", "h5"},
-    {"", "FILE", "*"},
-    {"report", "--output", "html"},
-    {"new", "--output", "toml"},
-    {"export", "--output", "*"},
-    {"run", "--output", "h5"},
-    {"replay", "--output", "h5"},
-    {"calibrate", "--output", "h5"},
-    {"diagnose", "--output", "h5"},
-    {"compare", "--output", "h5"},
-    {"risk", "--output", "h5"},
-    {"risk", "--hazard", "csv xml"},
+    {"compare", "STUDY", "toml h5"}, {"", "STUDY", "toml"},
+    {"", "--study", "toml"},         {"", "RESULTS", "h5"},
+    {"", "MEASURED", "h5 csv"},      {"report", "FILE", "h5"},
+    {"risk", "FILE", "h5"},          {"", "FILE", "*"},
+    {"report", "--output", "html"},  {"new", "--output", "toml"},
+    {"export", "--output", "*"},     {"run", "--output", "h5"},
+    {"replay", "--output", "h5"},    {"calibrate", "--output", "h5"},
+    {"diagnose", "--output", "h5"},  {"compare", "--output", "h5"},
+    {"risk", "--output", "h5"},      {"risk", "--hazard", "csv xml"},
 };
 
 std::string endings_of(const std::string& command, const std::string& word)

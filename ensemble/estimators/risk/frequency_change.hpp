@@ -17,7 +17,8 @@
 ///   hazard    each draw of `total` has its own curve of the hazard, the quantile of a uniform number; both structures
 ///             have the same one. Those of `fragility` have the best estimate
 ///
-///   form      where the stripes of a structure separate (`share_frequency`), the distances of its limits from its value
+///   form      where the stripes of a structure separate (`share_frequency`), the distances of its limits from its
+///   value
 ///             are joined with those of the draws, at the root of the sum of their squares
 ///
 /// Limits are quantiles of the draws. What the runs do not exclude at intensities without damage is in no limit
