@@ -191,7 +191,7 @@ TEST_F(Animate, WithoutItsRecordAPageHasNoAnimations)
     ASSERT_FALSE(kept(page_of("shaken.h5", {})).empty()) << "the study has no mixed cell";
     fs::remove(folder / "record.at2");
     fs::remove(folder / "page.html");
-    const Ended without = run({"report", "shaken.h5", "--quiet"});
+    const Ended without = run({"report", "shaken.h5"});
     EXPECT_EQ(without.status, 0) << testing::PrintToString(without);
     EXPECT_NE(without.err.find("warning: no animations: "), std::string::npos) << without.err;
     EXPECT_TRUE(kept(read_bytes(folder / "shaken.html")).empty());
