@@ -117,7 +117,7 @@ TEST_F(DiagnosisProgram, BadInputLeavesNothing)
     write_bytes(folder / "no.h5", "not HDF5");
     expect_refused({"diagnose", "no.h5", "-o", "d.h5"}, {"no.h5"});
     expect_refused({"diagnose", campaign(4), "--study", "absent.toml", "-o", "d.h5"}, {"absent.toml"});
-    expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"Is a directory"});
+    expect_refused({"diagnose", campaign(4), "-o", folder.string()}, {"it is a folder"});
 
     // what is to keep the simulated campaigns is somebody's own
     const std::string own = "my campaigns of last year\n";
