@@ -149,7 +149,7 @@ TEST_F(Single, WhatCanHardlyBeMeantIsSaidAndKept)
 TEST_F(Single, WhatIsAbsurdIsRefusedUnlessItIsMeant)
 {
     expect_refused(run_words(column_study, {"surface.pga_m_s2={from=100.0,to=1000.0,count=4}"}),
-                   {"m/s2", "Did you mean cm/s2 (10 m/s2)?", "study.allow = [\"pga\"]"});
+                   {"m/s2", "Did you mean cm/s2 (10 m/s2) or mm/s2 (1 m/s2)?", "study.allow = [\"pga\"]"});
     expect_refused(run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/doric_column.toml", {"structure.density_kg_m3=2.7"}),
                    {"2.7 kg/m3", "Did you mean 2700 kg/m3", "study.allow = [\"density\"]"});
     expect_refused(
