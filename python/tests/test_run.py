@@ -160,7 +160,7 @@ def test_replay_has_the_bits_of_the_ensemble_and_of_the_program(folder, small_su
     assert replay.x_m.shape == (len(replay.time_s), 7)
     for name, values in result.arrays().items():
         if name not in ("state", "invalid_reason"):
-            assert replay.outcome[name] == values[index], name
+            numpy.testing.assert_equal(replay.outcome[name], values[index], name)  # NaN where it still moves
     assert replay.outcome["state"] == "collapsed"
     corners = replay.corners()
     assert corners.shape == (*replay.x_m.shape, 4, 2)
