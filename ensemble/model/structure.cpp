@@ -48,21 +48,21 @@ void check_size(const PlacedBlock& block)
 }
 
 /// Puts the drums of a column one upon the other.
+/// @param of_column behind the name of a block where there are several columns
 /// @return index of the topmost one
-int place_column(const ColumnSpec& column, int number, Layout& layout)
+int place_column(const ColumnSpec& column, int number, const std::string& of_column, Layout& layout)
 {
     const int drums = static_cast<int>(column.drums.size());
     if (drums == 0)
-        throw InputError(fmt::format("structure: column {} has no drum.", number));
+        throw InputError(fmt::format("structure: column {} has no drum.", number + 1));
     if (column.fixed_blocks < 0 || column.fixed_blocks >= drums)
         throw InputError(fmt::format("structure: {} of the {} drums of column {} are fixed. At least one must be free.",
-                                     column.fixed_blocks, drums, number));
+                                     column.fixed_blocks, drums, number + 1));
     double top = 0;
     for (int i = 0; i < drums; ++i) {
         const DrumSpec& drum = column.drums[static_cast<std::size_t>(i)];
         PlacedBlock block;
-        block.name =
-            drum.capital ? fmt::format("capital of column {}", number) : fmt::format("drum {} of column {}", i, number);
+        block.name = (drum.capital ? std::string("capital") : fmt::format("drum {}", i + 1)) + of_column;
         block.column = number;
         block.width_m = drum.width_m;
         block.height_m = drum.height_m;
@@ -113,11 +113,11 @@ void place_epistyle(const EpistyleSpec& epistyle, int number, const std::vector<
 {
     const int columns = static_cast<int>(tops.size());
     PlacedBlock block;
-    block.name = fmt::format("epistyle {}", number);
+    block.name = fmt::format("epistyle {}", number + 1);
     if (epistyle.first_column < 0 || epistyle.last_column < epistyle.first_column || epistyle.last_column >= columns)
-        throw InputError(fmt::format("structure: {} lies on the columns from {} to {}, but the columns are 0 to {}, "
+        throw InputError(fmt::format("structure: {} lies on the columns from {} to {}, but the columns are 1 to {}, "
                                      "counted from the left.",
-                                     block.name, epistyle.first_column, epistyle.last_column, columns - 1));
+                                     block.name, epistyle.first_column + 1, epistyle.last_column + 1, columns));
     const auto top_of = [&](int column) -> const PlacedBlock& {
         return at(layout, tops[static_cast<std::size_t>(column)]);
     };
@@ -143,13 +143,14 @@ void place_epistyle(const EpistyleSpec& epistyle, int number, const std::vector<
         if (level - support.top() > rounding * level)
             throw InputError(fmt::format("structure: {} has no seat on column {}: the column's top, at {:.6g} m, is {} "
                                          "below that of column {}. The columns of one epistyle must be equally high.",
-                                         block.name, c, support.top(), distance(level - support.top()), highest));
+                                         block.name, c + 1, support.top(), distance(level - support.top()),
+                                         highest + 1));
         const Interval seat = common(support, block);
         if (seat.length() <= rounding * support.width_m)
             throw InputError(fmt::format(
                 "structure: {} has no seat on column {}: it reaches from x = {:.6g} to {:.6g} "
                 "m and the column's top from {:.6g} to {:.6g} m, {} apart. Lengthen it, move it, or omit the column.",
-                block.name, c, block.left(), block.right(), support.left(), support.right(),
+                block.name, c + 1, block.left(), block.right(), support.left(), support.right(),
                 distance(std::max(-seat.length(), 0.0))));
         seats.from = c == epistyle.first_column ? seat.from : std::min(seats.from, seat.from);
         seats.to = c == epistyle.first_column ? seat.to : std::max(seats.to, seat.to);
@@ -209,16 +210,17 @@ Layout lay_out(const StructureSpec& structure)
         if (c > 0 && !(structure.columns[c].x_m > structure.columns[c - 1].x_m))
             throw InputError(fmt::format("structure: column {} stands at x = {:g} m, not to the right of column {} at "
                                          "{:g} m. List the columns from the left.",
-                                         c, structure.columns[c].x_m, c - 1, structure.columns[c - 1].x_m));
+                                         c + 1, structure.columns[c].x_m, c, structure.columns[c - 1].x_m));
         const int first = static_cast<int>(layout.blocks.size());
-        tops.push_back(place_column(structure.columns[c], static_cast<int>(c), layout));
+        const std::string of_column = structure.columns.size() > 1 ? fmt::format(" of column {}", c + 1) : "";
+        tops.push_back(place_column(structure.columns[c], static_cast<int>(c), of_column, layout));
         check_column(layout, first, tops.back());
     }
     for (std::size_t e = 0; e < structure.epistyles.size(); ++e) {
         if (e > 0 && !(structure.epistyles[e].x_m > structure.epistyles[e - 1].x_m))
             throw InputError(fmt::format("structure: epistyle {} lies at x = {:g} m, not to the right of epistyle {} "
                                          "at {:g} m. List the epistyles from the left.",
-                                         e, structure.epistyles[e].x_m, e - 1, structure.epistyles[e - 1].x_m));
+                                         e + 1, structure.epistyles[e].x_m, e, structure.epistyles[e - 1].x_m));
         place_epistyle(structure.epistyles[e], static_cast<int>(e), tops, layout);
     }
     check_overlaps(layout.blocks);

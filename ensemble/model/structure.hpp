@@ -72,7 +72,8 @@ StructureSpec equal_column(int blocks, int fixed, double width_m, double height_
 
 /// A block in its place at rest, faces just touching.
 struct PlacedBlock {
-    /// "drum 2 of column 1", "capital of column 1", "epistyle 0": counted from 0, from the bottom and from the left.
+    /// "drum 3 of column 2", "capital of column 2", "epistyle 1", of a single column "drum 3": counted from 1, from the
+    /// base and from the left. Indices in keys and tables count from 0.
     std::string name;
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for an epistyle

@@ -291,7 +291,7 @@ void Sampler::stack(const Values& values, Realization& realization) const
                 throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
                                              "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
                                              "have equal heights. Reduce its spread, or limit it with min and max.",
-                                             realization.index, blocks[i].column, height, blocks[i].name,
+                                             realization.index, blocks[i].column + 1, height, blocks[i].name,
                                              blocks[i].height_m));
         }
         Block drum = block(values, i, height);
@@ -351,7 +351,7 @@ Block Sampler::ground() const
     return ground;
 }
 
-/// "drum 2 of column 1" or "the ground"
+/// "drum 3 of column 2" or "the ground"
 std::string Sampler::name(int block) const
 {
     const auto i = static_cast<std::size_t>(block);

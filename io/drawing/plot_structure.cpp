@@ -111,7 +111,7 @@ Drawing make_drawing(const Study& study)
     return d;
 }
 
-/// "drum 3", "capital", "epistyle 0": without its column.
+/// "drum 3", "capital", "epistyle 1": without its column.
 std::string short_name(const PlacedBlock& block)
 {
     return block.name.substr(0, block.name.find(" of column"));

@@ -76,7 +76,7 @@ std::string drawing_script(const FallOrder& order, const TimeScale& scale, Pictu
     return script;
 }
 
-/// "first: epistyle 0 41.2 %, drum 3 of column 1 20.0 %, 5 others 38.8 %"
+/// "first: epistyle 1 41.2 %, drum 3 of column 2 20.0 %, 5 others 38.8 %"
 std::string first_words(const FallOrder& order)
 {
     constexpr std::size_t most = 3;

@@ -39,7 +39,7 @@ private:
         return static_cast<int>(place == MechanismPlace::joint ? layout_.beds.size() : layout_.blocks.size());
     }
 
-    /// "The structure has 6 joints: 0 is drum 1 on drum 0, 5 is drum 6 on drum 5."
+    /// "The structure has 6 joints: 0 is drum 2 on drum 1, 5 is drum 7 on drum 6."
     std::string what_there_is(MechanismPlace place) const
     {
         const auto name = [&](int i) {

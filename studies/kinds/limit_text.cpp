@@ -95,7 +95,7 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
         list += fmt::format("{}several in the same step: {}", list.empty() ? "" : "; ",
                             share_text(counts.share_first_together()));
     if (!list.empty())
-        text += fmt::format("  first to fall: {}\n", list);
+        text += fmt::format("  first to fall (drums counted from the base): {}\n", list);
     return text;
 }
 

@@ -35,7 +35,7 @@ TEST_F(SurvivalProgram, OneEventIsTheSurfaceAndTheCountsAreThoseOfTheRows)
     const ResultReader past(folder / "past.h5"), plain(folder / "plain.h5");
     EXPECT_TRUE(plain.header().bed_names.empty());
     ASSERT_EQ(past.header().bed_names.size(), 3U);
-    EXPECT_EQ(past.header().bed_names.front(), "drum 1 of column 0 on drum 0 of column 0");
+    EXPECT_EQ(past.header().bed_names.front(), "drum 2 on drum 1");
     ASSERT_EQ(past.rows().size(), 2 * past_originals);
     EXPECT_EQ(past.surface().trials, plain.surface().trials) << "a second event is no trial of the surface";
 

@@ -34,7 +34,7 @@ public:
 
     const PastAxes& axes() const { return axes_; }
     const MeasuredState& measured() const { return measured_; }
-    /// Of the values that were measured: "drum 1 on drum 0 [m]".
+    /// Of the values that were measured: "drum 2 on drum 1 [m]".
     const std::vector<std::string>& names() const { return names_; }
     /// (cells) Valid realizations and those of them that agree, that stand, that collapsed.
     const std::vector<CellCount>& agree() const { return agree_; }

@@ -114,9 +114,9 @@ TEST(Layout, ColumnOfUnequalDrums)
     s.columns[0].drums[2].bed.friction = 0.3;
     const Layout layout = lay_out(s);
     ASSERT_EQ(layout.blocks.size(), 3U);
-    expect_block(layout.blocks[0], "drum 0 of column 0", BlockRole::drum, 0, 1.4, 0.3, 900, 0, 0.15, true);
-    expect_block(layout.blocks[1], "drum 1 of column 0", BlockRole::drum, 0, 1.2, 1.0, 2000, 0.01, 0.8, false);
-    expect_block(layout.blocks[2], "drum 2 of column 0", BlockRole::drum, 0, 1.0, 0.8, 1500, 0, 1.7, false);
+    expect_block(layout.blocks[0], "drum 1", BlockRole::drum, 0, 1.4, 0.3, 900, 0, 0.15, true);
+    expect_block(layout.blocks[1], "drum 2", BlockRole::drum, 0, 1.2, 1.0, 2000, 0.01, 0.8, false);
+    expect_block(layout.blocks[2], "drum 3", BlockRole::drum, 0, 1.0, 0.8, 1500, 0, 1.7, false);
     ASSERT_EQ(layout.beds.size(), 2U); // none under a fixed drum
     EXPECT_EQ(layout.beds[0].lower, 0);
     EXPECT_EQ(layout.beds[0].upper, 1);
@@ -130,10 +130,10 @@ TEST(Layout, TwoColumnsAndAnEpistyle)
 {
     const Layout layout = lay_out(two_columns());
     ASSERT_EQ(layout.blocks.size(), 4U);
-    expect_block(layout.blocks[0], "drum 0 of column 0", BlockRole::drum, 0, 0.06, 0.1, 0.75, 0, 0.05, false);
-    expect_block(layout.blocks[1], "drum 0 of column 1", BlockRole::drum, 1, 0.06, 0.05, 0.375, 0.09, 0.025, false);
-    expect_block(layout.blocks[2], "drum 1 of column 1", BlockRole::drum, 1, 0.06, 0.05, 0.375, 0.09, 0.075, false);
-    expect_block(layout.blocks[3], "epistyle 0", BlockRole::epistyle, -1, 0.15, 0.06, 1.14, 0.045, 0.13, false);
+    expect_block(layout.blocks[0], "drum 1 of column 1", BlockRole::drum, 0, 0.06, 0.1, 0.75, 0, 0.05, false);
+    expect_block(layout.blocks[1], "drum 1 of column 2", BlockRole::drum, 1, 0.06, 0.05, 0.375, 0.09, 0.025, false);
+    expect_block(layout.blocks[2], "drum 2 of column 2", BlockRole::drum, 1, 0.06, 0.05, 0.375, 0.09, 0.075, false);
+    expect_block(layout.blocks[3], "epistyle 1", BlockRole::epistyle, -1, 0.15, 0.06, 1.14, 0.045, 0.13, false);
     const int want[][2] = {{-1, 0}, {-1, 1}, {1, 2}, {0, 3}, {2, 3}};
     ASSERT_EQ(layout.beds.size(), 5U);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -146,7 +146,7 @@ TEST(Layout, EpistylesThatMeetOverAColumnShareItsTop)
 {
     const Layout layout = lay_out(three_columns());
     ASSERT_EQ(layout.blocks.size(), 8U);
-    EXPECT_EQ(layout.blocks[7].name, "epistyle 1");
+    EXPECT_EQ(layout.blocks[7].name, "epistyle 2");
     EXPECT_NEAR(layout.blocks[7].y_m, 4.8, 1e-15);
     const int seats[][2] = {{1, 6}, {3, 6}, {3, 7}, {5, 7}};
     ASSERT_EQ(layout.beds.size(), 10U);
@@ -174,21 +174,21 @@ TEST(Layout, RefusesEpistylesWithoutASeat)
 {
     StructureSpec s = two_columns();
     s.columns[1].drums[1].height_m = 0.038;
-    expect_refused(s, "epistyle 0 has no seat on column 1: the column's top, at 0.088 m, is 12 mm below that of column "
-                      "0. The columns of one epistyle must be equally high.");
+    expect_refused(s, "epistyle 1 has no seat on column 2: the column's top, at 0.088 m, is 12 mm below that of column "
+                      "1. The columns of one epistyle must be equally high.");
     s = two_columns();
     s.epistyles[0].length_m = 0.1;
     s.epistyles[0].x_m = 0.005;
-    expect_refused(s, "epistyle 0 has no seat on column 1: it reaches from x = -0.045 to 0.055 m and the column's top "
+    expect_refused(s, "epistyle 1 has no seat on column 2: it reaches from x = -0.045 to 0.055 m and the column's top "
                       "from 0.06 to 0.12 m, 5 mm apart. Lengthen it, move it, or omit the column.");
     s = two_columns();
     s.epistyles[0].last_column = 2;
-    expect_refused(s, "epistyle 0 lies on the columns from 0 to 2, but the columns are 0 to 1, counted from the left.");
+    expect_refused(s, "epistyle 1 lies on the columns from 1 to 3, but the columns are 1 to 2, counted from the left.");
     s = two_columns();
     s.epistyles[0].last_column = 0;
     s.columns[1].x_m = 1;
     expect_refused(s,
-                   "epistyle 0 is not stable at rest: its centre of mass, at x = 0.045 m, is 15 mm outside its seats, "
+                   "epistyle 1 is not stable at rest: its centre of mass, at x = 0.045 m, is 15 mm outside its seats, "
                    "which reach from -0.03 to 0.03 m. Move it.");
 }
 
@@ -196,16 +196,16 @@ TEST(Layout, RefusesBlocksInOnePlace)
 {
     StructureSpec s = two_columns();
     s.columns[1].x_m = 0.055;
-    expect_refused(s, "drum 0 of column 0 and drum 0 of column 1 overlap by 5 mm at rest. Move them apart.");
+    expect_refused(s, "drum 1 of column 1 and drum 1 of column 2 overlap by 5 mm at rest. Move them apart.");
     s = three_columns();
     s.epistyles[1].length_m = 3.52;
-    expect_refused(s, "epistyle 0 and epistyle 1 overlap by 10 mm at rest. Move them apart.");
+    expect_refused(s, "epistyle 1 and epistyle 2 overlap by 10 mm at rest. Move them apart.");
     s = two_columns();
     s.columns.push_back({.x_m = 0.145, .drums = {drum(0.06, 0.13, 1)}}); // beside the epistyle's end
-    expect_refused(s, "drum 0 of column 1 and drum 0 of column 2 overlap by 5 mm at rest. Move them apart.");
+    expect_refused(s, "drum 1 of column 2 and drum 1 of column 3 overlap by 5 mm at rest. Move them apart.");
     s.columns[2] = {.x_m = 0.16, .drums = {drum(0.05, 0.1, 1), drum(0.09, 0.03, 1)}};
     s.columns[1].drums[1].width_m = 0.05;
-    expect_refused(s, "drum 1 of column 2 and epistyle 0 overlap by 5 mm at rest. Move them apart.");
+    expect_refused(s, "drum 2 of column 3 and epistyle 1 overlap by 5 mm at rest. Move them apart.");
 }
 
 TEST(Layout, RefusesDrumsThatFallByThemselves)
@@ -214,20 +214,18 @@ TEST(Layout, RefusesDrumsThatFallByThemselves)
     s.depth_m = 1;
     // corbelled: the upper two together lie beyond the lowest one's edge at 0.5, the topmost one is fine
     s.columns = {{.drums = {drum(1, 0.5, 100), drum(1, 0.5, 100, 0.45), drum(1, 0.5, 100, 0.6)}}};
-    expect_refused(
-        s, "the blocks on drum 0 of column 0 are not stable at rest: their centre of mass, at x = 0.525 m, is 25 mm "
-           "outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.05 to 0.5 m. Lower "
-           "the offsets.");
+    expect_refused(s, "the blocks on drum 1 are not stable at rest: their centre of mass, at x = 0.525 m, is 25 mm "
+                      "outside the bed between drum 1 and drum 2, from -0.05 to 0.5 m. Lower "
+                      "the offsets.");
     s.columns[0].drums[2].offset_m = 0.54;
     EXPECT_NO_THROW(lay_out(s)); // 0.495 on the lowest one, 0.33 on the ground
     s.columns[0].drums[2].offset_m = 1.46;
-    expect_refused(s, "drum 2 of column 0 is beside drum 1 of column 0, not on it: they are 10 mm apart. Lower the "
+    expect_refused(s, "drum 3 is beside drum 2, not on it: they are 10 mm apart. Lower the "
                       "offset.");
     s.columns = {{.drums = {drum(0.4, 0.5, 100), drum(2, 0.5, 600, 0.15), drum(0.4, 0.5, 300, 0.4)}}};
-    expect_refused(
-        s, "the blocks on drum 0 of column 0 are not stable at rest: their centre of mass, at x = 0.233333 m, is "
-           "33.33 mm outside the bed between drum 0 of column 0 and drum 1 of column 0, from -0.2 to 0.2 m. "
-           "Lower the offsets.");
+    expect_refused(s, "the blocks on drum 1 are not stable at rest: their centre of mass, at x = 0.233333 m, is "
+                      "33.33 mm outside the bed between drum 1 and drum 2, from -0.2 to 0.2 m. "
+                      "Lower the offsets.");
     // on the table what is fixed holds whatever stands on it
     s.columns = {{.fixed_blocks = 1, .drums = {drum(1, 0.5, 100, 5), drum(1, 0.5, 100, 5)}}};
     EXPECT_NO_THROW(lay_out(s));
@@ -238,19 +236,19 @@ TEST(Layout, RefusesWhatIsNoStructure)
     StructureSpec s;
     expect_refused(s, "there is no column.");
     s.columns.resize(1);
-    expect_refused(s, "column 0 has no drum.");
+    expect_refused(s, "column 1 has no drum.");
     s.columns[0] = {.fixed_blocks = 1, .drums = {drum(1, 1, 1)}};
-    expect_refused(s, "1 of the 1 drums of column 0 are fixed. At least one must be free.");
+    expect_refused(s, "1 of the 1 drums of column 1 are fixed. At least one must be free.");
     s.columns[0] = {.drums = {drum(1, 0, 1)}};
-    expect_refused(s, "drum 0 of column 0 is 1 m wide, 0 m high, has 1 kg and stands at x = 0 m. Sizes and masses must "
+    expect_refused(s, "drum 1 is 1 m wide, 0 m high, has 1 kg and stands at x = 0 m. Sizes and masses must "
                       "be above 0.");
     s = two_columns();
     std::swap(s.columns[0], s.columns[1]);
-    expect_refused(s, "column 1 stands at x = 0 m, not to the right of column 0 at 0.09 m. List the columns from the "
+    expect_refused(s, "column 2 stands at x = 0 m, not to the right of column 1 at 0.09 m. List the columns from the "
                       "left.");
     s = three_columns();
     std::swap(s.epistyles[0], s.epistyles[1]);
-    expect_refused(s, "epistyle 1 lies at x = -1.75 m, not to the right of epistyle 0 at 1.75 m. List the epistyles "
+    expect_refused(s, "epistyle 2 lies at x = -1.75 m, not to the right of epistyle 1 at 1.75 m. List the epistyles "
                       "from the left.");
     s = two_columns();
     s.kind = StructureKind::column;

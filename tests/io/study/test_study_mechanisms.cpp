@@ -236,7 +236,7 @@ TEST(StudyMechanisms, SaysWhatIsWrong)
 TEST(StudyMechanisms, SaysWhichPlacesThereAre)
 {
     expect_refused("wedge = { joint = 6, angle_rad = 0.001 }",
-                   {"wedge.joint = 6 is outside [0, 5]", "6 joints", "0 is drum 1 of column 0 on drum 0 of column 0"});
+                   {"wedge.joint = 6 is outside [0, 5]", "6 joints", "0 is drum 2 on drum 1"});
     expect_refused("wedge = { joints = [0, 7], angle_rad = 0.001 }", {"joints", "contains 7", "[0, 5]", "6 joints"});
     expect_refused("wedge = { joints = [0, 1.5], angle_rad = 0.001 }", {"contains 1.5"});
     expect_refused("wedge = { joints = [-1], angle_rad = 0.001 }", {"contains -1"});

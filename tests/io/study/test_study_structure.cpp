@@ -142,8 +142,8 @@ capital = { width_m = 1.75, height_m = 0.4 }
         EXPECT_EQ(drums[i].capital, i == 5);
     }
     const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
-    EXPECT_EQ(blocks[4].name, "drum 4 of column 0");
-    EXPECT_EQ(blocks[5].name, "capital of column 0");
+    EXPECT_EQ(blocks[4].name, "drum 5");
+    EXPECT_EQ(blocks[5].name, "capital");
     // the canonical text says which one is the capital
     EXPECT_EQ(parse_study(study.text, "again").structure, study.structure);
 }
@@ -215,9 +215,9 @@ epistyle_height_m = 0.8
     expect_refused(five + "epistyle_mass_kg = 5000",
                    "temple.toml:14: structure.epistyle_mass_kg = 5000 is one mass for",
                    {"epistyles of 3.6 m and of 3 m", "epistyle_density_kg_m3"});
-    expect_refused(five + "epistyle_length_m = 3.01", "temple.toml:3: structure: epistyle 0 and epistyle 1 overlap by",
+    expect_refused(five + "epistyle_length_m = 3.01", "temple.toml:3: structure: epistyle 1 and epistyle 2 overlap by",
                    {"10 mm"});
-    expect_refused(five + "epistyle_length_m = 1.7", "temple.toml:3: structure: epistyle 0 has no seat on column 0",
+    expect_refused(five + "epistyle_length_m = 1.7", "temple.toml:3: structure: epistyle 1 has no seat on column 1",
                    {"50 mm apart"});
 }
 
@@ -308,8 +308,7 @@ TEST(StudyStructure, RefusesMisusedKeysOfColumns)
                    "temple.toml:10: unknown key structure.capital.count");
     expect_refused("depth_m = 1\ndrums = [ { width_m = 1, height_m = 1, mass_kg = 9, count = 2 }, "
                    "{ width_m = 1, height_m = 1, mass_kg = 9, offset_m = 0.51 } ]",
-                   "temple.toml:3: structure: the blocks on drum 1 of column 0 are not stable at rest",
-                   {"10 mm outside"});
+                   "temple.toml:3: structure: the blocks on drum 2 are not stable at rest", {"10 mm outside"});
 }
 
 TEST(StudyStructure, RefusesMisusedKeysOfColonnades)
@@ -342,7 +341,7 @@ TEST(StudyStructure, RefusesMisusedKeysOfColonnades)
                    "temple.toml:13: structure.epistyles[0].length_m is missing", {"epistyle_length_m for all"});
     std::string close = two_by_two + "epistyle_mass_kg = 1\n";
     close.replace(close.find("0.09"), 4, "0.05");
-    expect_refused(close, "temple.toml:3: structure: drum 0 of column 0 and drum 0 of column 1 overlap by 10 mm");
+    expect_refused(close, "temple.toml:3: structure: drum 1 of column 1 and drum 1 of column 2 overlap by 10 mm");
     std::string many = two_by_two + "epistyle_density_kg_m3 = 1000\n";
     many.replace(many.find("columns = 2"), 11, "columns = 50").replace(many.find("\nblocks = 2"), 11, "\nblocks = 4");
     expect_refused(many, "temple.toml:3: structure: 249 blocks in all. At most 200.");

@@ -265,7 +265,7 @@ TEST_F(Falls, RunTellsLimitStates)
     double told = 0;
     for (const JsonValue& block : limits["first_fallen"].items) {
         const auto index = static_cast<std::size_t>(block["block"].number);
-        EXPECT_EQ(block["name"].text, "drum " + std::to_string(index) + " of column 0");
+        EXPECT_EQ(block["name"].text, "drum " + std::to_string(index + 1));
         EXPECT_EQ(block["share"]["count"].number, static_cast<double>(first.at(index)));
         told += block["share"]["count"].number;
     }
@@ -275,7 +275,7 @@ TEST_F(Falls, RunTellsLimitStates)
 
     EXPECT_NE(plain.out.find("  collapsed " + std::to_string(collapsed) + ", "), std::string::npos) << plain.out;
     EXPECT_NE(plain.out.find("95 % Jeffreys interval"), std::string::npos) << plain.out;
-    EXPECT_NE(plain.out.find("  first to fall: drum "), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("  first to fall (drums counted from the base): drum "), std::string::npos) << plain.out;
 }
 
 TEST_F(Falls, PicturesOfLimitStatesAndOfTheOrder)
@@ -359,14 +359,14 @@ TEST_F(Falls, ReplayNamesItsBlocks)
     const std::string index = std::to_string(collapsed->index);
     const Ended ended = run({"replay", "a.h5", "--realization", index, "-o", "one.h5"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
-    const std::string first = "drum " + std::to_string(collapsed->outcome.first_collapse_block) + " of column 0 first";
+    const std::string first = "drum " + std::to_string(collapsed->outcome.first_collapse_block + 1) + " first";
     EXPECT_NE(ended.out.find(first), std::string::npos) << ended.out;
 
     const JsonValue json = json_of(run({"replay", "a.h5", "--realization", index, "--json"}));
     std::vector<double> told(7, -1);
     double last = 0;
     for (const JsonValue& fall : json["falls"].items) {
-        EXPECT_EQ(fall["name"].text, "drum " + std::to_string(static_cast<int>(fall["block"].number)) + " of column 0");
+        EXPECT_EQ(fall["name"].text, "drum " + std::to_string(static_cast<int>(fall["block"].number) + 1));
         EXPECT_GE(fall["time_s"].number, last) << "not in the order of the falls";
         last = fall["time_s"].number;
         told.at(static_cast<std::size_t>(fall["block"].number)) = last;
