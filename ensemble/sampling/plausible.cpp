@@ -30,19 +30,19 @@ struct Subject {
     const StudyFacts& facts;
 };
 
-/// Units in which accelerations and velocities are given by mistake.
+/// Units in which quantities are given by mistake.
 struct Slip {
-    double factor; ///< to m/s2 or m/s
+    double factor; ///< to SI
     const char* unit;
 };
 constexpr double standard_gravity = 9.80665;
 constexpr std::array acceleration_slips = {Slip{1e-2, "cm/s2"}, Slip{1e-3, "mm/s2"}};
 constexpr std::array velocity_slips = {Slip{1e-2, "cm/s"}, Slip{1e-3, "mm/s"}};
+constexpr std::array length_slips = {Slip{1e-3, "mm"}, Slip{1e-2, "cm"}};
 
-/// " Did you mean cm/s2 (1.2 m/s2) or mm/s2 (0.12 m/s2)?": those with which the value is one of an earthquake.
-std::string meant(double value, std::span<const Slip> slips, double high, const char* unit)
+/// " Did you mean cm/s2 (1.2 m/s2) or mm/s2 (0.12 m/s2)?": those with which the value is plausible.
+std::string meant(double value, std::span<const Slip> slips, double high, const char* unit, double low = 0.05)
 {
-    constexpr double low = 0.05;
     std::string all;
     for (const Slip& slip : slips)
         if (value * slip.factor >= low && value * slip.factor <= high)
@@ -411,14 +411,37 @@ Finding check_stiffness(const Subject& s)
                                     worst, depth));
 }
 
+/// A column that is a sliver, or a drum that is a sheet: a length in another unit.
+Finding check_proportions(const PlacedBlock& drum)
+{
+    constexpr double most = 100; // ten times as slender as ancient columns are
+    constexpr double smallest = 0.005, largest = 5;
+    const bool slender = drum.top() > most * drum.width_m, flat = drum.width_m > most * drum.height_m;
+    if (!slender && !flat)
+        return std::nullopt;
+    const std::string units = meant(slender ? drum.height_m : drum.width_m, length_slips, largest, "m", smallest);
+    const bool height =
+        slender != units.empty(); // too large in the unit; without such a unit the other one is too small
+    return doubt(true, fmt::format("{} is {:.4g} m wide and {:.4g} m high, and its top {:.4g} m above the base: "
+                                   "no column of stone has such proportions. {} = {:.4g} is in metres.{}",
+                                   drum.name, drum.width_m, drum.height_m, drum.top(),
+                                   height ? "drum_height_m (or height_m)" : "drum_width_m (or width_m)",
+                                   height ? drum.height_m : drum.width_m, units));
+}
+
 Finding check_size(const Subject& s)
 {
     // the highest ancient columns have 20 m, the obelisks of Axum and Rome 24 to 33; drums are up to 3.6 m wide,
     // architraves up to 20 m long
     constexpr double smallest = 0.005, tallest = 35, flattest = 20, widest_drum = 5, longest = 20;
     const double depth = s.study.structure.depth_m;
+    const std::vector<PlacedBlock> blocks = lay_out(s.study.structure).blocks;
+    for (const PlacedBlock& block : blocks)
+        if (block.role == BlockRole::drum && !block.fixed)
+            if (Finding found = check_proportions(block))
+                return found;
     double top = 0;
-    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
+    for (const PlacedBlock& block : blocks) {
         const double least = std::min({block.width_m, block.height_m, depth});
         if (least < smallest)
             return doubt(false, fmt::format("{} is {:.4g} x {:.4g} m, {:.4g} m deep: a size below {} m is implausible "
@@ -518,11 +541,11 @@ constexpr std::array checks = {Check{"pga", check_pga},
                                Check{"direction", check_direction},
                                Check{"left_out", check_left_out},
                                Check{"shaking_frequency", check_shaking_frequency},
+                               Check{"size", check_size}, // before what a wrong length makes of the rest
                                Check{"sinkage", check_sinkage},
                                Check{"first_frequency", check_first_frequency},
                                Check{"stiffness", check_stiffness},
                                Check{"density", check_density},
-                               Check{"size", check_size},
                                Check{"friction", check_friction},
                                Check{"damping", check_damping},
                                Check{"spread", check_spread},

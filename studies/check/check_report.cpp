@@ -152,9 +152,10 @@ std::string check_text(const CheckReport& r)
                         bytes_text(r.size.file_bytes));
     if (!r.notice.empty())
         text += r.notice + "\n";
-    if (const std::optional<std::uint64_t> n = counted_trials(study))
-        text += fmt::format("interval: {} {} fix a probability near 0.5 to ±{:.2g} (95 %)\n", *n,
-                            study.fragility ? "motions" : "runs", worst_half_width(*n));
+    if (r.counted)
+        text += fmt::format("interval: {} {}{} a probability near 0.5 to ±{:.2g} (95 %)\n", *r.counted,
+                            study.fragility ? "ground motion" : "run", *r.counted == 1 ? " fixes" : "s fix",
+                            worst_half_width(*r.counted));
     if (const std::optional<FirstMode>& mode = r.free.mode)
         text += fmt::format("first mode: {:.3g} Hz, damping ratio {:.2g} % (contacts closed, nothing drawn)\n",
                             mode->frequency_hz, 100 * mode->damping_ratio);
@@ -198,8 +199,8 @@ Json check_json(const CheckReport& r)
         .member("file_bytes", r.size.file_bytes)
         .member("threads", r.run.threads)
         .member("simd", to_string(r.run.isa));
-    if (const std::optional<std::uint64_t> n = counted_trials(study))
-        json.member("counted_trials", *n).member("worst_half_width", worst_half_width(*n));
+    if (r.counted)
+        json.member("counted_trials", *r.counted).member("worst_half_width", worst_half_width(*r.counted));
     if (!r.picture.empty())
         json.member("picture", r.picture);
     if (!r.notice.empty())

@@ -24,6 +24,7 @@ struct CheckReport {
     std::optional<Trial> trial{};
     std::optional<RunTime> time{};
     double memory_bytes = 0;
+    std::optional<std::uint64_t> counted{}; ///< `counted_trials`
     FreeMotion free{};
     std::vector<WeakSpot> weak{};
     std::vector<std::string> not_looked_for{}; ///< sentences

@@ -90,6 +90,7 @@ std::optional<CheckReport> StudyCheck::run(Observer& observer)
         report.time = longest_time_of_run(*trial, report.size);
     report.memory_bytes = memory_of_run(report.study, report.size, peak_memory_bytes());
     tell("weak spots");
+    report.counted = counted_trials(loaded_);
     report.free = free_motion(report.study);
     report.weak = weak_spots(loaded_, loaded_.doubts(), trial, &report.free);
     report.not_looked_for = not_looked_for(loaded_, trial, report.free);

@@ -158,16 +158,12 @@ Found wide_interval(const Subject& s)
 {
     const Study& study = s.study();
     constexpr double wide = 0.2, wanted = 0.1;
-    std::optional<std::uint64_t> n = counted_trials(study);
-    if (study.fragility) // equal motions count once
-        n = motion_groups(study, motion_table(*s.loaded.experiment().motions().drawn)).groups;
+    const std::optional<std::uint64_t> n = counted_trials(s.loaded);
     if (!n || worst_half_width(*n) <= wide)
         return std::nullopt;
-    return spot(fmt::format("{} {} leave a probability near 1/2 open by ±{:.2f} (95 %, Jeffreys).", *n,
-                            study.fragility ? "different motions"
-                            : study.surface ? "realizations in each cell"
-                                            : "realizations",
-                            worst_half_width(*n)),
+    return spot(fmt::format("{} {}{}{} a probability near 0.5 to ±{:.2f} (95 %, Jeffreys).", *n,
+                            study.fragility ? "ground motion" : "realization", *n == 1 ? "" : "s",
+                            study.surface ? " in each cell fix" : " fix", worst_half_width(*n)),
                 fmt::format("For ±{} give {} = {:.0f}; the width falls with the square root of the number.", wanted,
                             study.fragility ? "fragility.motions (or more records)" : "study.realizations",
                             std::ceil(0.25 * std::pow(1.96 / wanted, 2))));
@@ -509,10 +505,11 @@ double capacity_lost(const Study& study)
     return worst;
 }
 
-std::optional<std::uint64_t> counted_trials(const Study& study)
+std::optional<std::uint64_t> counted_trials(const LoadedStudy& loaded)
 {
+    const Study& study = loaded.study();
     if (study.fragility)
-        return static_cast<std::uint64_t>(study.fragility->motions);
+        return motion_groups(study, motion_table(*loaded.experiment().motions().drawn)).groups;
     const bool cells = study.surface && !study.surface->adaptive;
     if (!cells && (study.kind != StudyKind::single || study.realizations < 2))
         return std::nullopt;

@@ -40,8 +40,8 @@ std::string decay_text(const RockingDecay& decay);
 double capacity_lost(const Study& study);
 
 /// Of how many independent trials a study counts each probability: the realizations of a cell, of a single study all,
-/// of a fragility study the motions. Nothing where it does not count so.
-std::optional<std::uint64_t> counted_trials(const Study& study);
+/// of a fragility study the ground motions, equal ones once. Nothing where it does not count so.
+std::optional<std::uint64_t> counted_trials(const LoadedStudy& loaded);
 
 /// Half the width of the 95 % interval (Jeffreys) to which so many runs fix a probability near 0.5.
 double worst_half_width(std::uint64_t realizations);

@@ -93,6 +93,7 @@ TEST_F(Faults, WrongSettings)
              {"contact.friction=much", {"contact.friction", "much"}},
              {"friction", {"friction", "KEY=VALUE"}},
              {"structure.drum_width_m=48", {"drum_width_m = 48", "(0, 40]", "0.048"}},
+             {"structure.drum_height_m=29", {"drum_height_m", "= 29 is in metres", "mm (0.029 m)", "study.allow"}},
              {"run.step_s=5e-4", {"run.step_s = 0.0005", "safe bound", "run.allow_step_above_bound"}},
              {"excitation.kind=record", {"excitation.start", "not used", "record"}},
          }) {

@@ -283,6 +283,38 @@ TEST(Plausible, SizesAndStiffnessPerDepth)
     EXPECT_EQ(verdict(read(sine + tall, {"structure.drum_height_m=8.8"}), "size", {}, {"first_frequency"}), "warns");
 }
 
+/// Lengths in millimetres or centimetres, and one that is a thousandth of what was meant: said before what they make of
+/// the rest, with the key and the unit.
+TEST(Plausible, ProportionsOfOtherUnits)
+{
+    std::string stone = sine + drums;
+    const std::string mass = "drum_mass_kg = 0.1355";
+    stone.replace(stone.find(mass), mass.size(), "density_kg_m3 = 2028");
+    const auto first_refusal = [&](const std::string& setting) {
+        for (const Doubt& doubt : doubts(read(stone, {setting})))
+            if (doubt.refused)
+                return doubt.check + ": " + doubt.text;
+        return std::string();
+    };
+    const auto expect = [&](const std::string& setting, const std::string& part) {
+        const std::string text = first_refusal(setting);
+        EXPECT_TRUE(text.starts_with("size: ")) << setting << ": " << text;
+        EXPECT_TRUE(text.ends_with(part)) << setting << ": " << text;
+    };
+    expect("structure.drum_height_m=29",
+           "drum_height_m (or height_m) = 29 is in metres. Did you mean mm (0.029 m) or cm (0.29 m)?");
+    expect("structure.drum_height_m=2.9", "drum_height_m (or height_m) = 2.9 is in metres. Did you mean cm (0.029 m)?");
+    expect("structure.drum_width_m=4.8e-5", "drum_width_m (or width_m) = 4.8e-05 is in metres.");
+    expect("structure.drum_width_m=4.8", "drum_width_m (or width_m) = 4.8 is in metres. Did you mean cm (0.048 m)?");
+    expect("structure.drum_height_m=2.9e-5", "drum_height_m (or height_m) = 2.9e-05 is in metres.");
+    // 7 drums of 29 mm: the top is at 203 mm, 100 times 2.03 mm
+    EXPECT_EQ(first_refusal("structure.drum_width_m=0.0021").find("size: "), std::string::npos);
+    EXPECT_EQ(first_refusal("structure.drum_width_m=0.0020").find("size: "), 0U);
+    // 48 mm over 100 is 0.48 mm
+    EXPECT_EQ(first_refusal("structure.drum_height_m=0.00049").find("size: "), std::string::npos);
+    EXPECT_EQ(first_refusal("structure.drum_height_m=0.00047").find("size: "), 0U);
+}
+
 TEST(Plausible, ObelisksAreHigh)
 {
     const std::string obelisk = "[structure]\nblocks = 1\ndrum_width_m = 2.8\ndepth_m = 2.8\ndensity_kg_m3 = 2700\n"

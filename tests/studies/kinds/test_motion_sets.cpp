@@ -4,6 +4,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/check/check_study.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -64,6 +65,14 @@ protected:
         for (int k = 0; k < count; ++k)
             write(fmt::format("RSN{}_X_090.AT2", k),
                   at2(samples(k, factor), fmt::format("Event, 1/1/1999, St {}, 090", k)));
+    }
+    /// What `check` prints without running anything.
+    static std::string checked(LoadedStudy loaded)
+    {
+        StudyCheck check(std::move(loaded), "study.toml", {.pilot = 0, .trial_seconds = 0}, {Isa::scalar, 1});
+        Observer quiet;
+        check.draw_realizations(quiet);
+        return check_text(check.run(quiet).value());
     }
     /// The study of these motions.
     static std::string text(const std::string& of_motions, const std::string& pga = "from = 2.0, to = 6.0")
@@ -235,6 +244,8 @@ TEST_F(MotionSets, EqualMotionsAreOneInEveryInterval)
     ASSERT_TRUE(state.shares);
     EXPECT_EQ(state.shares->records, 8U);
     EXPECT_NE(fragility_text(twice).find("16 motions (8 different)"), std::string::npos) << fragility_text(twice);
+    EXPECT_NE(checked(of_folder()).find("interval: 8 ground motions fix a probability"), std::string::npos);
+    EXPECT_NE(weak(of_folder(), "wide_interval").find("8 ground motions fix"), std::string::npos);
 
     for (int k = 0; k < 16; ++k) // one motion sixteen times
         write(fmt::format("m{:02}.AT2", k), at2(samples(0, 0.1 + 0.01 * k), "Event, 1/1/1999, Station, 090"));
