@@ -91,10 +91,10 @@ int calibrate_command(const CommonOptions& options, const std::string& measured,
     search.stage = [&](const std::string& what) { console.stage(what); };
     const Calibration found = data->calibrated(start, search, run, console);
     if (!found.complete) {
-        if (!options.quiet)
-            say(fmt::format(
-                "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.\n",
-                found.kept_sets, console.planned(), search.kept.string()));
+        note(options.quiet,
+             fmt::format(
+                 "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.",
+                 found.kept_sets, console.planned(), search.kept.string()));
         return exit_interrupted;
     }
     const std::string text = calibrated_text(found, measured);

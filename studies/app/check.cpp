@@ -41,11 +41,7 @@ int check_command(const CommonOptions& options, const std::string& file, const C
                      {.pilot = wanted.pilot,
                       .trial_seconds = wanted.trial_seconds,
                       .law_seconds = wanted.law_seconds,
-                      .costs =
-                          [&](const std::string& costs) {
-                              if (!options.quiet)
-                                  say(costs + "\n");
-                          }},
+                      .costs = [&](const std::string& costs) { note(options.quiet, costs); }},
                      options.run_options());
     const fs::path picture = picture_path(file, wanted);
     if (!picture.empty())

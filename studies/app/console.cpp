@@ -1,7 +1,6 @@
 #include "studies/app/console.hpp"
 
 #include "io/files/utf8.hpp"
-
 #include "studies/report/words.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +30,12 @@ void say(const std::string& text)
 {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
+}
+
+void note(bool quiet, const std::string& line)
+{
+    if (!quiet)
+        say(line + "\n");
 }
 
 void say_error(std::string message)

@@ -11,6 +11,9 @@ namespace stylobate {
 /// Writes to standard error. Where that is closed or full the text is lost, and the work goes on.
 void say(const std::string& text);
 
+/// A line on standard error, unless --quiet is given.
+void note(bool quiet, const std::string& line);
+
 /// Prints an error message. Control characters are replaced: names in it come from files, and a terminal would execute
 /// them.
 void say_error(std::string message);

@@ -80,10 +80,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
                    : exit_interrupted;
     }
     Console console(options.quiet);
-    const auto tell = [&](const std::string& line) {
-        if (!options.quiet)
-            say(line + "\n");
-    };
+    const auto tell = [&](const std::string& line) { note(options.quiet, line); };
     class Stopping : public Observer { // no progress: `tell` prints the stages
     public:
         explicit Stopping(Console& console) : console_(console) {}

@@ -188,8 +188,7 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
         wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
     check_not_input(file, folder);
     write_vtk(folder, fmt::format("realization_{}", index), followed_motion(results, options.isa(), index).trajectory);
-    if (!options.quiet)
-        say("Forces and openings of joints are not part of a trajectory; they are left out.\n");
+    note(options.quiet, "Forces and openings of joints are not part of a trajectory; they are left out.");
     return folder;
 }
 

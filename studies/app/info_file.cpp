@@ -1,10 +1,10 @@
 /// `stylobate info FILE`, kind by kind.
 
-#include "io/files/suggest.hpp"
 #include "studies/app/command.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
+#include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_outcomes.hpp"
@@ -16,6 +16,7 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/risk/risk_change.hpp"
 #include "studies/decisions/risk/risk_change_file.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
@@ -35,6 +36,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace stylobate {
 namespace {
@@ -44,38 +46,34 @@ struct Told {
     std::string text; ///< follows "FILE: "
     Json json = Json::object();
     bool unfinished = false;
-    bool has_risk = true; ///< of a comparison: whether it is of fragility studies
+    bool has_risk = true; ///< of a comparison: whether `risk` takes it
 };
+
+const char* word_of(Severity severity)
+{
+    return severity == Severity::warning ? "warning" : "note";
+}
 
 Json json_of(const std::vector<Finding>& findings)
 {
     Json list = Json::list();
     for (const Finding& finding : findings)
         list.item(Json::object()
-                      .member("severity", finding.severity == Severity::warning ? "warning" : "note")
+                      .member("severity", word_of(finding.severity))
                       .member("place", finding.place)
                       .member("text", finding.text));
     return list;
 }
 
-/// A text without its numbers: what findings of one kind have in common.
-std::string without_numbers(const std::string& text)
+/// What findings of one kind have in common, whatever run and numbers they name:
+/// "run 004, blocks/x_m, block 2" -> "blocks/x_m, block ".
+std::string kind_of(const Finding& finding)
 {
-    const auto digit = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
-    std::string out;
-    for (const char c : text)
-        if (!digit(c))
-            out += c;
-        else if (!out.ends_with('#'))
-            out += '#';
-    return out;
-}
-
-/// Where in a run a finding is, whichever run it is: "run 004, blocks/x_m, block 2" -> "blocks/x_m, block 2".
-std::string place_in_run(const std::string& place)
-{
-    const std::size_t comma = place.find(", ");
-    return place.starts_with("run ") && comma != std::string::npos ? place.substr(comma + 2) : place;
+    const std::size_t comma = finding.place.find(", ");
+    const bool in_run = finding.place.starts_with("run ") && comma != std::string::npos;
+    std::string kind = finding.place.substr(in_run ? comma + 2 : 0) + ": " + finding.text;
+    std::erase_if(kind, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+    return word_of(finding.severity) + kind;
 }
 
 /// Warnings before notes, and kinds with few findings before those with many, which a property of the whole campaign
@@ -84,38 +82,33 @@ std::string place_in_run(const std::string& place)
 std::string text_of(const std::vector<Finding>& findings, bool all)
 {
     constexpr std::size_t few = 3;
+    std::map<std::string, std::vector<const Finding*>> by_kind;
+    for (const Finding& finding : findings)
+        by_kind[kind_of(finding)].push_back(&finding);
     std::vector<std::vector<const Finding*>> kinds;
-    std::map<std::string, std::size_t> known;
-    for (const Finding& finding : findings) {
-        const std::string kind =
-            fmt::format("{} {} {}", static_cast<int>(finding.severity), without_numbers(place_in_run(finding.place)),
-                        without_numbers(finding.text));
-        const std::size_t at = known.emplace(kind, kinds.size()).first->second;
-        kinds.resize(known.size());
-        kinds[at].push_back(&finding);
-    }
-    std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) {
-        const Severity of_a = a.front()->severity, of_b = b.front()->severity;
-        return of_a != of_b ? of_a == Severity::warning : a.size() < b.size();
+    for (const auto& [kind, found] : by_kind)
+        kinds.push_back(found);
+    std::ranges::sort(kinds, {}, [](const auto& kind) {
+        return std::tuple(kind.front()->severity != Severity::warning, kind.size(), kind.front());
     });
     std::string text;
     for (const auto& kind : kinds) {
         const std::size_t shown = all || kind.size() <= few ? kind.size() : 1;
         for (std::size_t i = 0; i < shown; ++i)
-            text += fmt::format("{}: {}: {}\n", kind[i]->severity == Severity::warning ? "warning" : "note",
-                                kind[i]->place, kind[i]->text);
+            text += fmt::format("{}: {}: {}\n", word_of(kind[i]->severity), kind[i]->place, kind[i]->text);
         if (shown < kind.size())
             text += fmt::format("  and {} more of this kind; --all prints them\n", kind.size() - shown);
     }
     return text;
 }
 
-/// Reasons why a verb does not take the file as it stands: its message, without the file's name.
-void add_refusals(const std::vector<std::string>& refusals, Told& told)
+/// Reasons why a verb does not take the file as it stands ("refused": "run: ..."), or what of it can hardly be meant
+/// ("warning").
+void add_lines(const char* word, const char* member, const std::vector<std::string>& texts, Told& told)
 {
-    for (const std::string& refusal : refusals)
-        told.text += "refused: " + refusal + "\n";
-    told.json.member("refused", Json::list(refusals));
+    for (const std::string& text : texts)
+        told.text += fmt::format("{}: {}\n", word, text);
+    told.json.member(member, Json::list(texts));
 }
 
 std::vector<std::string> refusals_of(const Campaign& campaign, const std::string& file)
@@ -155,7 +148,7 @@ void tell_campaign(const std::string& file, bool all, Told& told)
                             "s in all; {} collapsed\n{}",
                             campaign.specimen.name, campaign.specimen.blocks(), campaign.specimen.joints.size(),
                             campaign.runs.size(), motions.size(), seconds, collapsed, text_of(campaign.findings, all));
-    add_refusals(refusals_of(campaign, file), told);
+    add_lines("refused", "refused", refusals_of(campaign, file), told);
 }
 
 void tell_outcomes(const std::string& file, bool all, Told& told)
@@ -174,17 +167,6 @@ void tell_outcomes(const std::string& file, bool all, Told& told)
         .member("findings", json_of(table.findings));
     told.text = fmt::format("measured outcomes\n{} tests of {} motions: {} fell, {} stood\n{}", table.rows.size(),
                             motions.size(), fell, table.rows.size() - fell, text_of(table.findings, all));
-}
-
-/// What of a study can hardly be meant.
-void add_warnings(const std::vector<std::string>& warnings, Told& told)
-{
-    Json list = Json::list();
-    for (const std::string& warning : warnings) {
-        list.item(warning);
-        told.text += "warning: " + warning + "\n";
-    }
-    told.json.member("warnings", list);
 }
 
 /// The band over contact laws, or the command that measures it.
@@ -234,7 +216,7 @@ void tell_result(const std::string& file, Told& told)
                                  header.shard.whole() ? "" : "--shard " + header.shard.text() + " ", file);
     if (!told.unfinished)
         tell_laws(file, header, told);
-    add_warnings(header.warnings, told);
+    add_lines("warning", "warnings", header.warnings, told);
 }
 
 void tell_diagnosis(const std::string& file, Told& told)
@@ -260,7 +242,11 @@ void tell_comparison(const std::string& file, Told& told)
     told.text = fmt::format("a comparison of studies of kind '{}', by stylobate {}\n{}", comparison.kind,
                             comparison.code_version, comparison_text(comparison));
     told.json = comparison_json(comparison);
-    told.has_risk = comparison.kind == "fragility" && comparison.intensity.size() > 1;
+    try {
+        check_has_risk(comparison, file);
+    } catch (const InputError&) {
+        told.has_risk = false;
+    }
     told.json.member("holds", "comparison").member("code_version", comparison.code_version);
 }
 
@@ -341,8 +327,8 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
                 fmt::format("run: {} If it is intended: study.allow = [\"{}\"].", doubt.text, doubt.check));
         else
             warnings.push_back(doubt.text);
-    add_refusals(refusals, told);
-    add_warnings(warnings, told);
+    add_lines("refused", "refused", refusals, told);
+    add_lines("warning", "warnings", warnings, told);
 }
 
 void tell_record(const std::string& file, const RecognisedFile& known, Told& told)

@@ -50,43 +50,8 @@ Shard shard_of(const std::string& text)
     return *shard;
 }
 
-/// The study under other contact laws, where that is asked for.
-struct Laws {
-    std::unique_ptr<LawRuns> runs; ///< null: not asked for
-    std::optional<LawBand> band;   ///< over the laws
-    bool interrupted = false;
-
-    const LawBand* band_or_null() const { return band ? &*band : nullptr; }
-
-    /// @pre the study is complete, and its file closed
-    void run(const CommonOptions& options, const RunOptions& how)
-    {
-        Console console(options.quiet);
-        interrupted = !runs->run(how, console, [&](const std::string& line) {
-            if (!options.quiet)
-                say(line + "\n");
-        });
-        if (!interrupted)
-            band = runs->conclude();
-    }
-
-    /// Of a law with too many invalid realizations; 0: there is none.
-    int status(const Study& study) const
-    {
-        if (runs)
-            for (const LawRuns::Invalid& law : runs->invalid())
-                if (const std::string message = too_many_invalid(study, law.invalid, law.total, law.results);
-                    law.total > 0 && !message.empty()) {
-                    say(fmt::format("stylobate: {}\n", message));
-                    return exit_invalid;
-                }
-        return exit_done;
-    }
-};
-
-/// Nothing is left to run: reports what the run would have, as far as the file has it.
-int report_finished(const CommonOptions& options, const std::string& results, const Study& study, const RunOptions& run,
-                    Kind& kind, const Laws& laws)
+/// Adds the rows of a finished file to the kind. @returns what the run would have reported, as far as the file has it
+Progress finished_progress(const std::string& results, Kind& kind)
 {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     Progress progress{.seconds = unknown, .rate = unknown, .occupancy = unknown};
@@ -104,28 +69,42 @@ int report_finished(const CommonOptions& options, const std::string& results, co
     }
     kind.restore(reader);
     kind.share(progress);
-    if (!options.json && !options.quiet)
-        fmt::print("{}: already complete. (Remove the file to run the study again.)\n", results);
-    return report_run(options, {.results = results,
-                                .study = study,
-                                .kind = kind,
-                                .progress = progress,
-                                .run = run,
-                                .complete = true,
-                                .laws = laws.band_or_null(),
-                                .laws_interrupted = laws.interrupted});
+    return progress;
 }
 
-/// @throws InputError if the study cannot be run under other laws
-void prepare_laws(Laws& laws, const CommonOptions& options, const LoadedStudy& study, const std::string& file,
-                  const std::string& results)
+/// The study under other contact laws. @throws InputError if it cannot be run under them
+std::unique_ptr<LawRuns> prepare_laws(const CommonOptions& options, const LoadedStudy& study, const std::string& file,
+                                      const std::string& results)
 {
-    laws.runs = std::make_unique<LawRuns>(study, file, results);
-    if (const std::string why = laws.runs->needs_processor(); options.backend == "cuda" && !why.empty())
+    auto laws = std::make_unique<LawRuns>(study, file, results);
+    if (const std::string why = laws->needs_processor(); options.backend == "cuda" && !why.empty())
         throw InputError(fmt::format("--backend cuda: {}. Leave --backend out.", why));
-    laws.runs->check_drawn();
-    if (!laws.runs->finished() && !options.quiet)
-        say(laws.runs->costs() + "\n");
+    laws->check_drawn();
+    if (!laws->finished())
+        note(options.quiet, laws->costs());
+    return laws;
+}
+
+/// Prints the report of a study. @pre its file is closed   @param laws null: the study is not run under other laws
+/// @returns the exit status
+int report_with_laws(const CommonOptions& options, RunReport report, const ResultHeader& header, LawRuns* laws)
+{
+    const bool whole = report.complete && report.shard.whole();
+    if (whole && laws) {
+        Console console(options.quiet);
+        report.laws_interrupted =
+            !laws->run(report.run, console, [&](const std::string& line) { note(options.quiet, line); });
+        if (!report.laws_interrupted)
+            report.laws = laws->conclude();
+    } else if (whole) {
+        report.laws = law_band_beside(report.results, report.study, header);
+    }
+    int status = report_run(options, report);
+    if (laws)
+        for (const LawRuns::Invalid& law : laws->invalid())
+            if (status == exit_done)
+                status = report_invalid(report.study, law.invalid, law.total, law.results);
+    return status;
 }
 
 /// What is known of a run before anything is written.
@@ -187,18 +166,16 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
     const RunOptions& run = prepared->run;
     const Shard shard = prepared->header.shard;
     const std::string file = run.ranks ? run.ranks->of_first(prepared->file) : prepared->file;
-    Laws laws;
-    if (with_laws)
-        prepare_laws(laws, options, loaded, study, results);
+    const std::unique_ptr<LawRuns> laws = with_laws ? prepare_laws(options, loaded, study, results) : nullptr;
+    RunReport report{.results = results, .study = loaded.study(), .kind = kind, .run = run};
     if (file == "finished") {
         if (!run.leads())
             return exit_done;
-        if (with_laws)
-            laws.run(options, run);
-        else
-            laws.band = law_band_beside(results, loaded.study(), prepared->header);
-        const int status = report_finished(options, results, loaded.study(), run, kind, laws);
-        return status == exit_done ? laws.status(loaded.study()) : status;
+        report.progress = finished_progress(results, kind);
+        report.complete = true;
+        if (!options.json && !options.quiet)
+            fmt::print("{}: already complete. (Remove the file to run the study again.)\n", results);
+        return report_with_laws(options, report, prepared->header, laws.get());
     }
     if (file.empty()) // else it has been done before the file was made; each rank looks at a part
         together(run.ranks,
@@ -213,8 +190,8 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         if (run.leads()) // now that nothing is refused any more
             for (const std::string& warning : prepared->warnings)
                 console.warn(warning);
-        if (run.leads() && !options.quiet && !prepared->notice.empty())
-            say(prepared->notice + "\n");
+        if (run.leads() && !prepared->notice.empty())
+            note(options.quiet, prepared->notice);
         store->give_to(kind);
         ran = run_study(loaded.experiment(), kind, *store, run, console, shard);
     }
@@ -227,18 +204,10 @@ int run_command(const CommonOptions& options, const std::string& study, std::str
         store->flush();
     }
     store.reset();
-    if (with_laws && ran.complete)
-        laws.run(options, run);
-    const int status = report_run(options, {.results = results,
-                                            .study = loaded.study(),
-                                            .kind = kind,
-                                            .progress = ran.progress,
-                                            .run = run,
-                                            .complete = ran.complete,
-                                            .shard = shard,
-                                            .laws = laws.band_or_null(),
-                                            .laws_interrupted = laws.interrupted});
-    return status == exit_done ? laws.status(loaded.study()) : status;
+    report.progress = ran.progress;
+    report.complete = ran.complete;
+    report.shard = shard;
+    return report_with_laws(options, report, prepared->header, laws.get());
 }
 
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
@@ -304,7 +273,13 @@ int merge_command(const CommonOptions& options, const std::vector<std::string>& 
     }
     store.reset();
     rename_over(unready, output);
-    return report_run(options, {output, loaded.study(), *kind, ran.progress, run, ran.complete, {}, true});
+    return report_run(options, {.results = output,
+                                .study = loaded.study(),
+                                .kind = *kind,
+                                .run = run,
+                                .progress = ran.progress,
+                                .complete = ran.complete,
+                                .merged = true});
 }
 
 } // namespace stylobate

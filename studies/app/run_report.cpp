@@ -84,14 +84,15 @@ void print_text(const RunReport& r)
 
 } // namespace
 
-std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
+int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
 {
-    if (static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
-        return {};
-    return fmt::format(
-        "{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-        "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
-        invalid, total, study.run.max_invalid_fraction, results);
+    if (invalid == 0 || static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
+        return exit_done;
+    say_error(
+        fmt::format("{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
+                    "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
+                    invalid, total, study.run.max_invalid_fraction, results));
+    return exit_invalid;
 }
 
 int report_run(const CommonOptions& options, const RunReport& r)
@@ -104,12 +105,7 @@ int report_run(const CommonOptions& options, const RunReport& r)
         return exit_done; // by --partial
     if (!r.complete || r.laws_interrupted)
         return exit_interrupted;
-    const Progress& p = r.progress;
-    const std::string message = too_many_invalid(r.study, p.invalid, p.total, r.results);
-    if (message.empty())
-        return exit_done;
-    say(fmt::format("stylobate: {}\n", message));
-    return exit_invalid;
+    return report_invalid(r.study, r.progress.invalid, r.progress.total, r.results);
 }
 
 } // namespace stylobate

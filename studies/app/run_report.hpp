@@ -7,6 +7,7 @@
 #include "studies/kinds/law_band.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -16,18 +17,18 @@ struct RunReport {
     const std::string& results; ///< the file
     const Study& study;
     const Kind& kind; ///< of a complete run of all: concluded
-    const Progress& progress;
     const RunOptions& run;
+    Progress progress = {};
     bool complete = false; ///< of a shard: it is
     Shard shard = {};
-    bool merged = false;           ///< from shards, and not run here
-    const LawBand* laws = nullptr; ///< over contact laws; null: not measured
-    bool laws_interrupted = false; ///< the study is complete, and its runs under other laws are not
+    bool merged = false;              ///< from shards, and not run here
+    std::optional<LawBand> laws = {}; ///< over contact laws; nothing: not measured
+    bool laws_interrupted = false;    ///< the study is complete, and its runs under other laws are not
 };
 
-/// The message where more realizations are invalid than the study allows; else empty. @param results the file
-std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
-                             const std::string& results);
+/// Prints a message where more realizations are invalid than the study allows. @param results the file
+/// @returns the exit status
+int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results);
 
 /// Prints it, as lines or as JSON, and a message where too many realizations are invalid.
 /// @returns the exit status

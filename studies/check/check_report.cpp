@@ -1,5 +1,6 @@
 #include "studies/check/check_report.hpp"
 
+#include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
@@ -64,8 +65,8 @@ std::string trial_text(const CheckReport& r)
 {
     const Trial& trial = *r.trial;
     const TrialShares shares = trial.shares();
-    std::string text = fmt::format("trial: {} realization{} in {:.2g} s with {} threads of {}", trial.count(),
-                                   trial.count() == 1 ? "" : "s", trial.seconds, r.run.threads, to_string(r.run.isa));
+    std::string text = fmt::format("trial: {} in {:.2g} s with {} threads of {}", counted(trial.count(), "realization"),
+                                   trial.seconds, r.run.threads, to_string(r.run.isa));
     if (shares.valid > 0)
         text += fmt::format("; {:.3g} of them collapsed",
                             static_cast<double>(shares.collapsed) / static_cast<double>(shares.valid));
@@ -137,9 +138,9 @@ std::string check_text(const CheckReport& r)
                     word_for(study_kind_names, study.kind), word_for(contact_form_names, study.contact.form));
     if (!r.picture.empty())
         text += fmt::format("picture: {}\n", r.picture);
-    text += fmt::format("run: {}{} realization{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
-                        r.size.realizations, r.size.realizations == 1 ? "" : "s", cells_text(study), r.size.blocks,
-                        r.size.free_blocks);
+    text +=
+        fmt::format("run: {}{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
+                    counted(r.size.realizations, "realization"), cells_text(study), r.size.blocks, r.size.free_blocks);
     text += fmt::format(
         "steps: of {} s; about {} in a realization that runs to the time limit; at most {:.2g} block-steps\n",
         between_text(r.size.step_s, "{:.3g}"), between_text(r.size.longest_steps, "{:.0f}"), r.size.most_block_steps);

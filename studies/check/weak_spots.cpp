@@ -4,6 +4,7 @@
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
+#include "io/files/suggest.hpp"
 #include "io/study/study_accuracy.hpp"
 #include "studies/check/trial_order.hpp"
 #include "studies/experiment/motions.hpp"
@@ -397,14 +398,13 @@ Found still_moving(const Subject& s)
     if (static_cast<double>(moving) <= many * static_cast<double>(standing))
         return std::nullopt;
     const bool free = s.study().excitation.kind == ExcitationKind::none;
-    return spot(
-        fmt::format("{} of {} realization{} of the trial without collapse still moved at the end. Their residual "
-                    "displacements are not known.",
-                    moving, standing, standing == 1 ? "" : "s"),
-        fmt::format("Give {}, or more damping (contact.damping = \"ends\").",
-                    free                                           ? "a longer excitation.duration_s"
-                    : s.study().excitation.tail == Tail::structure ? "excitation.tail_s = \"rest\""
-                                                                   : "a longer excitation.tail_s"));
+    return spot(fmt::format("{} of {} of the trial without collapse still moved at the end. Their residual "
+                            "displacements are not known.",
+                            moving, counted(standing, "realization")),
+                fmt::format("Give {}, or more damping (contact.damping = \"ends\").",
+                            free                                           ? "a longer excitation.duration_s"
+                            : s.study().excitation.tail == Tail::structure ? "excitation.tail_s = \"rest\""
+                                                                           : "a longer excitation.tail_s"));
 }
 
 struct Look {

@@ -3,6 +3,7 @@
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "io/files/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -199,8 +200,7 @@ std::string LimitCounts::moving_text() const
     if (moving == 0)
         return {};
     const std::uint64_t standing = trials_ - reached_[static_cast<std::size_t>(LimitState::collapse)];
-    return fmt::format("{} of {} realization{} without collapse still moved at the end.", moving, standing,
-                       standing == 1 ? "" : "s");
+    return fmt::format("{} of {} without collapse still moved at the end.", moving, counted(standing, "realization"));
 }
 
 double LimitCounts::median_collapse_time_s() const

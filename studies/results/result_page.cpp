@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "io/files/suggest.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_surface.hpp"
@@ -338,9 +339,9 @@ private:
                                              &Outcome::residual_dislocation}}));
         if (rows_.size() == 1)
             return;
-        page_.note(fmt::format("Over the {} valid realization{} without a fall{}; residuals over the {} of them that "
+        page_.note(fmt::format("Over the {} without a fall{}; residuals over the {} of them that "
                                "were at rest at the end.",
-                               upright.size(), upright.size() == 1 ? "" : "s", surface_ ? ", in all cells" : "",
+                               counted(upright.size(), "valid realization"), surface_ ? ", in all cells" : "",
                                resting.size()));
     }
 

@@ -1,5 +1,6 @@
 #include "studies/verify/count_checks.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/verify/replay_sample.hpp"
 
@@ -153,12 +154,10 @@ void CountReplay::conclude(FileCheck& check) const
                        fmt::format("{}", entry.energy_residual)});
     }
     check.text = cells_.empty()
-                     ? fmt::format("no rows are kept, and no counted cell of {} realizations fits into --replay; {} "
-                                   "single realization{}",
-                                   study_.realizations, singles_.size(), singles_.size() == 1 ? "" : "s")
-                     : fmt::format("no rows are kept: the counts of {} whole cell{} of {} realizations, and {} single "
-                                   "ones",
-                                   cells_.size(), cells_.size() == 1 ? "" : "s", study_.realizations, singles_.size());
+                     ? fmt::format("no rows are kept, and no counted cell of {} realizations fits into --replay; {}",
+                                   study_.realizations, counted(singles_.size(), "single realization"))
+                     : fmt::format("no rows are kept: the counts of {} of {} realizations, and {} single ones",
+                                   counted(cells_.size(), "whole cell"), study_.realizations, singles_.size());
     if (indices_.empty() && check.verdict == CheckVerdict::passed)
         check.verdict = CheckVerdict::not_done;
 }

@@ -1,5 +1,6 @@
 #include "studies/verify/row_checks.hpp"
 
+#include "io/files/suggest.hpp"
 #include "io/store/result_layout.hpp"
 #include "studies/verify/compared.hpp"
 
@@ -143,8 +144,7 @@ RowChecks check_rows(const Study& study, const ResultReader& reader)
     const std::uint64_t wanted = reader.header().total;
     if (reader.complete() && rows != wanted)
         check.add({"realizations", std::nullopt, shown(rows), shown(wanted)});
-    check.text =
-        fmt::format("the values of {} row{}: ranges, and falls derived from fall times", rows, rows == 1 ? "" : "s");
+    check.text = fmt::format("the values of {}: ranges, and falls derived from fall times", counted(rows, "row"));
     return checks;
 }
 

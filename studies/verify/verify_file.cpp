@@ -1,6 +1,7 @@
 #include "studies/verify/verify_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -223,8 +224,8 @@ private:
             if (rounds.again() < sampled)
                 replay.add({"realizations", std::nullopt, fmt::format("{} of the sample", sampled),
                             fmt::format("{}, as many as the study asks for", rounds.again())});
-            replay.text = fmt::format("{} realization{} run again with {}: all values, bit by bit{}", rounds.again(),
-                                      rounds.again() == 1 ? "" : "s", to_string(options_.run.isa),
+            replay.text = fmt::format("{} run again with {}: all values, bit by bit{}",
+                                      counted(rounds.again(), "realization"), to_string(options_.run.isa),
                                       reader_.trajectory_indices().empty() ? "" : ", and the trajectories of these");
         }
     }

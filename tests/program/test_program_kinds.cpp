@@ -9,6 +9,7 @@
 #include "tests/studies/calibration/calibration_sample.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -107,13 +108,17 @@ TEST_F(Kinds, InfoGroupsWhatItFindsInMeasuredData)
         each.name = fmt::format("{:03}", i);
         each.motion_id = i;
         each.base_source = BaseSource::command;
+        for (int k = 0; k <= i; ++k) // notes that differ in their numbers alone
+            each.blocks.x_m.values[static_cast<std::size_t>(campaign.specimen.blocks() * (100 + 10 * k))] = NAN;
         campaign.runs.push_back(each);
     }
+    campaign.runs[7].collapse_time_s = 2; // and the outcome is no collapse
     write_campaign(campaign, folder / "many.h5");
     const std::string note = "it is the command, not the measured motion of the table.";
     const std::string grouped = run(Words{"info", "many.h5"}).out;
     EXPECT_EQ(count_of(grouped, note), 1U) << grouped;
     EXPECT_NE(grouped.find("  and 11 more of this kind; --all prints them\n"), std::string::npos) << grouped;
+    EXPECT_NE(grouped.find("values are missing (NaN).\n  and 10 more of this kind"), std::string::npos) << grouped;
     const std::string all = run(Words{"info", "many.h5", "--all"}).out;
     EXPECT_EQ(count_of(all, note), runs) << all;
     EXPECT_EQ(all.find("more of this kind"), std::string::npos);
@@ -122,7 +127,9 @@ TEST_F(Kinds, InfoGroupsWhatItFindsInMeasuredData)
     for (const JsonValue& finding : json["findings"].items)
         in_json += finding["text"].text == note;
     EXPECT_EQ(in_json, runs);
-    EXPECT_TRUE(count_of(grouped, "warning: ") == 0 || grouped.rfind("warning: ") < grouped.find("note: ")) << grouped;
+    const std::string warning = "warning: run 007, collapsed: the outcome is no collapse, but collapse_time_s = 2.\n";
+    EXPECT_NE(grouped.find(warning), std::string::npos) << grouped;
+    EXPECT_LT(grouped.rfind("warning: "), grouped.find("note: ")) << grouped;
 }
 
 TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)

@@ -119,8 +119,8 @@ bool run_all(const CommonOptions& options, const Studies& studies, Console& cons
 {
     for (std::size_t i = 0; i < studies.size(); ++i) {
         WholeRun& study = *studies[i];
-        if (!options.quiet && !study.finished())
-            say(fmt::format("{} ({} of {})\n", study.name(), i + 1, studies.size()));
+        if (!study.finished())
+            note(options.quiet, fmt::format("{} ({} of {})", study.name(), i + 1, studies.size()));
         if (console.stop_requested() || !study.run(options.run_options(), console))
             return false;
     }
@@ -160,14 +160,10 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
     }
     if (!comparison)
         return interrupted(options, studies, output);
-    const int status = conclude(options, *comparison, output);
+    int status = conclude(options, *comparison, output);
     for (const auto& study : studies)
-        if (const std::string message =
-                too_many_invalid(study->study(), study->invalid(), study->done(), study->results());
-            !message.empty()) {
-            say(fmt::format("stylobate: {}\n", message));
-            return exit_invalid;
-        }
+        if (status == exit_done)
+            status = report_invalid(study->study(), study->invalid(), study->done(), study->results());
     return status;
 }
 
@@ -229,14 +225,11 @@ int search_study(const CommonOptions& options, const CompareOptions& wanted)
     else
         fmt::print("{}", search_text(*result));
     const LoadedStudy study = LoadedStudy::from_file(files.study, files.settings);
+    int status = exit_done;
     for (const SearchedRun& searched : result->runs)
-        if (const std::string message =
-                too_many_invalid(study.study(), searched.invalid, searched.total, searched.results);
-            !message.empty()) {
-            say(fmt::format("stylobate: {}\n", message));
-            return exit_invalid;
-        }
-    return exit_done;
+        if (status == exit_done)
+            status = report_invalid(study.study(), searched.invalid, searched.total, searched.results);
+    return status;
 }
 
 } // namespace

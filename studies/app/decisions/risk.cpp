@@ -86,8 +86,6 @@ int risk_of_change(const CommonOptions& options, const std::string& file, const 
     write_risk_change(change, output);
     if (options.json)
         fmt::print("{}\n", risk_change_json(change).member("written", output).text());
-    else if (options.quiet)
-        fmt::print("{}", risk_change_text(change));
     else
         fmt::print("{}{}\n", risk_change_text(change), output);
     return exit_done;

@@ -1,5 +1,6 @@
 #include "studies/decisions/compare/comparison_answer.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 std::string over_all(const Comparison& c)
 {
     if (c.motions > 0)
-        return fmt::format("over {} motion{}{}", c.motions, c.motions == 1 ? "" : "s",
+        return fmt::format("over {}{}", counted(c.motions, "motion"),
                            c.cells() > 1 ? fmt::format(" at {} intensities", c.cells()) : "");
     return c.cells() > 1 ? fmt::format("over the {} cells of the study, each with the same weight", c.cells())
                          : "under the study's shaking";

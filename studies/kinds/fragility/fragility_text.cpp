@@ -1,5 +1,6 @@
 #include "studies/kinds/fragility/fragility_text.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -95,9 +96,9 @@ std::vector<std::string> remarks(const StateFragility& s)
 /// "20 motions, 4 structures under each"; equal motions are mentioned.
 std::string design_text(const Fragility& f)
 {
-    return fmt::format("{} motion{}{}, {} structure{} under each", f.motions, f.motions == 1 ? "" : "s",
-                       f.different < f.motions ? fmt::format(" ({} different)", f.different) : "", f.structures,
-                       f.structures == 1 ? "" : "s");
+    return fmt::format("{}{}, {} under each", counted(f.motions, "motion"),
+                       f.different < f.motions ? fmt::format(" ({} different)", f.different) : "",
+                       counted(f.structures, "structure"));
 }
 
 std::string share_text(const DispersionShares& shares)
