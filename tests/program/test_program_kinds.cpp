@@ -9,6 +9,8 @@
 #include "tests/studies/calibration/calibration_sample.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <set>
