@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -31,7 +30,8 @@ namespace {
 /// The parser's message on a text that is not TOML.
 struct NotToml {
     std::string why;
-    long line = 0; ///< 0: not known
+    long line = 0;          ///< from 1; 0: not known
+    std::size_t column = 0; ///< from 1: behind what was read last
 };
 
 /// Longer lines are refused: no study has them, and dotted keys without end would nest as deep as the stack.
@@ -50,93 +50,49 @@ toml::table parse(std::string_view text)
     try {
         return toml::parse(text);
     } catch (const toml::parse_error& error) {
-        NotToml out{std::string(error.description()), static_cast<long>(error.source().begin.line)};
+        const toml::source_position at = error.source().begin;
+        NotToml out{std::string(error.description()), static_cast<long>(at.line), at.column};
         std::replace_if(out.why.begin(), out.why.end(), is_control, ' ');
         throw out;
     } catch (const detail::BrokenAssertion&) {
-        throw NotToml{"the parser cannot read it", 0};
+        throw NotToml{"the parser cannot read it", 0, 0};
     }
 }
 
-/// A literal that is a number of TOML but beyond what its parser takes: a whole number beyond 64 bits, or a magnitude
-/// that no double has (infinite then, or 0). Nothing for all other texts.
-std::optional<double> beyond_parser(std::string_view literal)
+/// Writes a number beyond 64 bits or the largest double, which TOML allows and its parser refuses, so that it takes it.
+/// @returns whether the literal behind which the parser stopped is one
+bool rewrite_number(std::string& text, const NotToml& error)
 {
-    const auto all_of = [](std::string_view text, const char* allowed) {
-        return !text.empty() && text.find_first_not_of(allowed) == std::string_view::npos;
-    };
-    std::string plain; // without the underscores between digits
-    for (std::size_t i = 0; i < literal.size(); ++i)
-        if (literal[i] != '_' || i == 0 || i + 1 == literal.size() || literal[i - 1] == '_')
-            plain += literal[i];
-    const bool negative = plain.starts_with('-');
-    const std::string digits = plain.substr(negative || plain.starts_with('+') ? 1 : 0);
+    std::size_t begin_of_line = 0;
+    for (long line = 1; line < error.line; ++line)
+        begin_of_line = text.find('\n', begin_of_line) + 1;
+    const std::size_t end = begin_of_line + error.column - 1;
+    if (error.line == 0 || error.column < 2 || end > text.size())
+        return false;
+    const std::size_t begin = text.find_last_not_of("0123456789abcdefABCDEFx_.+-", end - 1) + 1;
+    std::string literal = text.substr(begin, end - begin);
+    std::erase(literal, '_');
+    char* stop = nullptr;
+    const double value = std::strtod(literal.c_str(), &stop);
     constexpr double most = 9223372036854775808.0; // 2^63
-    for (const auto& [prefix, allowed, base] :
-         {std::tuple("0x", "0123456789abcdefABCDEF", 16), std::tuple("0o", "01234567", 8), std::tuple("0b", "01", 2)})
-        if (digits.starts_with(prefix) && all_of(std::string_view(digits).substr(2), allowed)) {
-            double value = 0;
-            for (const char c : digits.substr(2))
-                value = value * base +
-                        static_cast<double>(std::string_view("0123456789abcdef")
-                                                .find(c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c));
-            return value < most ? std::nullopt : std::optional(negative ? -value : value);
-        }
-    const bool number =
-        !digits.empty() && digits.front() >= '0' && digits.front() <= '9' && all_of(digits, "0123456789.eE+-");
-    char* end = nullptr;
-    const double value = number ? std::strtod(digits.c_str(), &end) : 0;
-    if (!number || *end != '\0')
-        return std::nullopt;
-    const bool whole = all_of(digits, "0123456789");
-    const bool vanishes =
-        std::fabs(value) < 2.2250738585072014e-308 && digits.find_first_of("123456789") < digits.find_first_of("eE");
-    if (!(whole && value >= most) && !std::isinf(value) && !vanishes)
-        return std::nullopt;
-    return negative ? -value : value;
+    if (literal.empty() || *stop != '\0' || std::fabs(value) < most)
+        return false;
+    text.replace(begin, end - begin, std::isfinite(value) ? toml_number(value) : value < 0 ? "-inf" : "inf");
+    return true;
 }
 
-/// As a number that the parser takes.
-std::string parsable(double value)
+/// Every number is read, those beyond the parser's too: the ranges of their keys refuse them.
+/// @throws NotToml
+toml::table parse_numbers(std::string text)
 {
-    return std::isinf(value) ? (value < 0 ? "-inf" : "inf") : toml_number(value);
-}
-
-/// Numbers beyond what the parser takes, on a line (from 1) of a text: written so that it takes them, and that the
-/// keys' ranges refuse them. @returns whether there is one
-bool rewrite_beyond_parser(std::string& text, long line)
-{
-    std::size_t begin = 0;
-    for (long at = 1; at < line && begin != std::string::npos; ++at)
-        begin = text.find('\n', begin) == std::string::npos ? begin : text.find('\n', begin) + 1;
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string out;
-    bool changed = false;
-    const std::string source = text.substr(begin, end - begin);
-    char quote = 0;
-    std::size_t i = 0;
-    while (i < source.size() && (quote != 0 || source[i] != '#')) {
-        const char c = source[i];
-        const bool escaped = quote == '"' && i > 0 && source[i - 1] == '\\';
-        if ((c == '"' || c == '\'') && !escaped)
-            quote = quote == 0 ? c : quote == c ? '\0' : quote;
-        constexpr std::string_view between = " \t\r,=[]{}\"'#";
-        const std::size_t stop = std::min(source.find_first_of(between, i), source.size());
-        if (quote != 0 || stop == i) {
-            out += c;
-            ++i;
-            continue;
+    constexpr int most = 16; // numbers beyond the parser's
+    for (int numbers = 0;; ++numbers)
+        try {
+            return parse(text);
+        } catch (const NotToml& error) {
+            if (numbers == most || !rewrite_number(text, error))
+                throw;
         }
-        const std::string word = source.substr(i, stop - i);
-        const bool value = source.find('=') > source.size() || source.find('=') < i; // not the key
-        const std::optional<double> number = value ? beyond_parser(word) : std::nullopt;
-        changed = changed || number;
-        out += number ? parsable(*number) : word;
-        i = stop;
-    }
-    if (changed)
-        text.replace(begin, end - begin, out + source.substr(i));
-    return changed;
 }
 
 /// No study nests so deep: what is there is refused as an unknown key above it, and must not use up the stack.
@@ -299,15 +255,9 @@ toml::table parse_setting(const std::string& value, const std::string& place)
         why = unfit.what;
     } else {
         try {
-            return parse("value = " + value);
+            return parse_numbers("value = " + value);
         } catch (const NotToml& error) {
             why = error.why;
-        }
-        std::string text = "value = " + value;
-        try {
-            if (rewrite_beyond_parser(text, 1))
-                return parse(text);
-        } catch (const NotToml&) { // something else is wrong with it, too
         }
     }
     if (value.front() == '{' || value.front() == '[' || value.front() == '"' || value.front() == '\'')
@@ -442,18 +392,12 @@ TomlValue parse_toml(const std::string& text, const std::string& name)
         throw InputError(
             name, unfit.line,
             fmt::format("not valid in a study file: {}.\n  Write text as \"text\", on one line.", unfit.what));
-    std::string parsed = text;
-    for (int lines = 0;; ++lines)
-        try {
-            return convert(parse(parsed), "", {name, 0, false});
-        } catch (const NotToml& error) {
-            constexpr int most = 16; // lines with such numbers: the first one that a key has is refused
-            if (error.line > 0 && lines < most && rewrite_beyond_parser(parsed, error.line))
-                continue;
-            throw InputError(name, error.line,
-                             "not valid TOML: " + error.why +
-                                 ".\n  A line is KEY = VALUE, a [section] or a # comment.");
-        }
+    try {
+        return convert(parse_numbers(text), "", {name, 0, false});
+    } catch (const NotToml& error) {
+        throw InputError(name, error.line,
+                         "not valid TOML: " + error.why + ".\n  A line is KEY = VALUE, a [section] or a # comment.");
+    }
 }
 
 void apply_setting(TomlValue& root, const std::string& setting)

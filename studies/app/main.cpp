@@ -82,8 +82,7 @@ namespace {
 std::string usage_message(const CLI::App* app, const CLI::Error& error)
 {
     const auto verbs = app->get_subcommands();
-    return fmt::format("stylobate: {}\n  stylobate {}--help lists the options.\n",
-                       with_range(error.what(), verbs.empty() ? *app : *verbs.front()),
+    return fmt::format("stylobate: {}\n  stylobate {}--help lists the options.\n", error.what(),
                        verbs.empty() ? "" : verbs.front()->get_name() + " ");
 }
 
@@ -115,6 +114,7 @@ public:
         add_info();
         app_.footer(notes_text(help_column));
         add_texts();
+        check_numbers(app_);
     }
 
     /// Parses the words and runs the verb.
@@ -122,11 +122,11 @@ public:
     int run(int argc, char** argv)
     {
         std::vector<std::string> words = checked_words(app_, argc, argv);
-        check_options(app_, words);
         std::ranges::reverse(words); // as CLI11 takes them
         try {
             app_.parse(words);
         } catch (const CLI::ParseError& error) {
+            refuse_unknown_option(app_);
             return app_.exit(error) == 0 ? exit_done : exit_bad_input;
         }
         return status_;

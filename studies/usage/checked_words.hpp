@@ -1,5 +1,5 @@
 #pragma once
-/// The words of the command line, checked before CLI11 reads them: its messages name neither what was meant nor ranges.
+/// What CLI11 does not report of a command line, or not with what was meant.
 
 #include <CLI/CLI.hpp>
 
@@ -9,15 +9,14 @@
 namespace stylobate {
 
 /// The words after the program's name, with `help` and `help VERB` as --help of the program and of a verb.
-/// @throws InputError if the first word is no verb and no option
+/// @throws InputError if the first word is no verb and no option, and for a long option with one dash
 std::vector<std::string> checked_words(const CLI::App& app, int argc, char** argv);
 
-/// CLI11 reports an unknown option only where nothing else is missing, and takes whole numbers beyond 64 bits.
-/// @throws InputError at the first word that has the form of an option and is none of the app's or of the verb's, and
-/// at the first such number
-void check_options(const CLI::App& app, const std::vector<std::string>& words);
+/// Makes all options of all verbs refuse numbers that their types do not have.
+void check_numbers(CLI::App& app);
 
-/// CLI11's "Could not convert: --nth = 1e30" with what the option takes.
-std::string with_range(std::string what, const CLI::App& verb);
+/// Of a command line that CLI11 refused: it reports an unknown option only where nothing else is wrong.
+/// @throws InputError if there is one
+void refuse_unknown_option(const CLI::App& app);
 
 } // namespace stylobate

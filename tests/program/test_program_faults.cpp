@@ -139,11 +139,11 @@ TEST_F(Faults, WrongCommandLines)
     expect_refused({"replay", "out.h5", "--realization", "-1"}, {"--realization -1", "0 to 7"});
     expect_refused({"replay", "out.h5", "--realization", "1.5"}, {"--realization", "1.5"});
     expect_refused({"replay", "out.h5", "--realization", "99999999999999999999"},
-                   {"--realization = 99999999999999999999 is not a whole number in [-9223372036854775808, "});
-    expect_refused({"replay", "out.h5", "--nth", "1e30"}, {"--nth = 1e30 is not a whole number in ["});
+                   {"--realization: 99999999999999999999 is not a whole number in [-9223372036854775808, "});
+    expect_refused({"replay", "out.h5", "--nth", "1e30"}, {"--nth: 1e30 is not a whole number in ["});
     expect_refused({"verify-file", "out.h5", "--seed", "18446744073709551616"},
-                   {"--seed = 18446744073709551616 is not a whole number in [0, 18446744073709551615]"});
-    expect_refused({"verify-file", "out.h5", "--seed", "-1"}, {"--seed = -1 is not a whole number in [0, "});
+                   {"--seed: 18446744073709551616 is not a whole number in [0, 18446744073709551615]"});
+    expect_refused({"verify-file", "out.h5", "--seed", "-1"}, {"--seed: -1 is not a whole number in [0, "});
     expect_refused({"export", "out.h5"}, {"--to"});
     expect_refused({"export", "out.h5", "--to", "bmp"}, {"bmp", "csv", "png", "svg", "pdf"});
     expect_refused({"export", "out.h5", "--to", "png", "--picture", "cake"}, {"cake", "strip"});
