@@ -81,14 +81,7 @@ int diagnose_command(const CommonOptions& options, const std::string& measured, 
     }
     Console console(options.quiet);
     const auto tell = [&](const std::string& line) { note(options.quiet, line); };
-    class Stopping : public Observer { // no progress: `tell` prints the stages
-    public:
-        explicit Stopping(Console& console) : console_(console) {}
-        bool stop_requested() override { return console_.stop_requested(); }
-
-    private:
-        Console& console_;
-    } observer(console);
+    StopOnly observer(console); // no progress: `tell` prints the stages
     std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
     if (!diagnosis) {
         tell(std::filesystem::exists(how.cache)

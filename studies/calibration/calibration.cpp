@@ -1,6 +1,7 @@
 #include "studies/calibration/calibration.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/observer.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
@@ -10,7 +11,6 @@
 #include "studies/calibration/shared_evidence.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
-#include "studies/windows/stop_only.hpp"
 #include "studies/windows/window_motions.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "studies/calibration/calibration_evidence.hpp"
 
+#include "ensemble/model/observer.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/windows/stop_only.hpp"
 #include "studies/windows/window_comparison.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "studies/windows/window_motions.hpp"
 
+#include "ensemble/model/observer.hpp"
 #include "ensemble/model/structure.hpp"
-#include "studies/windows/stop_only.hpp"
 
 #include <algorithm>
 #include <cmath>

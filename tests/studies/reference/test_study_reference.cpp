@@ -116,7 +116,7 @@ TEST(StudyTemplate, StructuresComeToRestWhereResidualsAreCounted)
     };
     EXPECT_EQ(damping(StudyKind::surface), DampingAt::centroid);
     EXPECT_EQ(damping(StudyKind::rare), DampingAt::centroid);
-    for (const StudyKind kind : {StudyKind::single, StudyKind::fragility, StudyKind::sensitivity})
+    for (const StudyKind kind : {StudyKind::single, StudyKind::fragility, StudyKind::sensitivity, StudyKind::survival})
         EXPECT_EQ(damping(kind), DampingAt::ends);
 }
 
