@@ -66,6 +66,34 @@ FragilityData grouped(std::span<const FragilityRun> runs)
     return data;
 }
 
+FragilityData grouped(const std::vector<double>& intensity, const std::vector<double>& trials,
+                      const std::vector<double>& reached)
+{
+    std::vector<FragilityRun> runs;
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        if (trials[i] > 0)
+            runs.push_back({static_cast<std::uint32_t>(i / intensity.size()),
+                            {intensity[i % intensity.size()]},
+                            reached[i],
+                            trials[i]});
+    return grouped(runs);
+}
+
+std::vector<std::vector<double>> record_shares(const FragilityData& data)
+{
+    std::vector<double> trials(data.points()), all(data.points());
+    for (const FragilityRow& row : data.rows) {
+        trials[row.point] += row.trials;
+        all[row.point] += row.reached;
+    }
+    for (std::size_t j = 0; j < all.size(); ++j)
+        all[j] /= trials[j];
+    std::vector<std::vector<double>> shares(data.records, all);
+    for (const FragilityRow& row : data.rows)
+        shares[row.record][row.point] = row.reached / row.trials;
+    return shares;
+}
+
 FragilityData with_measure(const FragilityData& data, std::size_t measure)
 {
     std::vector<FragilityRun> runs;

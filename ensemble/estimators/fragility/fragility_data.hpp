@@ -46,6 +46,13 @@ struct FragilityRun {
 ///         `reached` outside [0, trials]; where there is no run
 FragilityData grouped(std::span<const FragilityRun> runs);
 
+/// Of stripes: (records x stripes) runs and how many of them reached the limit state; those without runs are left out.
+FragilityData grouped(const std::vector<double>& intensity, const std::vector<double>& trials,
+                      const std::vector<double>& reached);
+
+/// (records x points) the share of each record's own runs; without runs at a point it takes that of all others there.
+std::vector<std::vector<double>> record_shares(const FragilityData& data);
+
 /// The same outcomes with one of their measures only.
 FragilityData with_measure(const FragilityData& data, std::size_t measure);
 

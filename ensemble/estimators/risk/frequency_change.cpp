@@ -8,6 +8,7 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -22,87 +23,95 @@ struct Two {
     double base = 0, variant = 0;
 };
 
+/// Draws of a quantity: those for its lower limit, and those for its upper one.
+using Draws = std::array<std::vector<double>, 2>;
+
+/// The value itself is never outside.
+Limits limits_of(Draws& draws, double level, double value)
+{
+    for (std::vector<double>& each : draws)
+        std::sort(each.begin(), each.end());
+    const double tail = (1 - level) / 2;
+    return {std::min(value, sorted_quantile(draws[0], tail, QuantileDefinition::linear)),
+            std::max(value, sorted_quantile(draws[1], 1 - tail, QuantileDefinition::linear))};
+}
+
 class Change {
 public:
     Change(const PairedStripes& pairs, const HazardModel& hazard, const ChangeOptions& options)
-        : hazard_(hazard), options_(options), stripes_(pairs.intensity.size())
+        : hazard_(hazard), options_(options)
     {
-        assert(stripes_ >= 2 && pairs.trials.size() == pairs.motions * stripes_);
-        for (const double im : pairs.intensity)
+        const FragilityData base = grouped(pairs.intensity, pairs.trials, pairs.base),
+                            variant = grouped(pairs.intensity, pairs.trials, pairs.variant);
+        motions_ = base.records;
+        stripes_ = base.points();
+        assert(stripes_ >= 2);
+        for (const double im : base.intensity)
             nodes_.push_back(std::log(im));
-        for (std::size_t g = 0; g < pairs.motions; ++g)
-            if (std::any_of(at(pairs.trials, g), at(pairs.trials, g + 1), [](double n) { return n > 0; }))
-                motions_.push_back(g);
-        std::vector<Two> all(stripes_);
-        std::vector<double> trials(stripes_);
-        for (std::size_t g = 0; g < pairs.motions; ++g)
-            for (std::size_t j = 0; j < stripes_; ++j) {
-                trials[j] += pairs.trials[g * stripes_ + j];
-                all[j].base += pairs.base[g * stripes_ + j];
-                all[j].variant += pairs.variant[g * stripes_ + j];
-            }
-        // a motion without pairs at a stripe takes the share of the others there
-        for (const std::size_t g : motions_)
-            for (std::size_t j = 0; j < stripes_; ++j) {
-                const std::size_t i = g * stripes_ + j;
-                const double n = pairs.trials[i];
-                shares_.push_back(n > 0 ? Two{pairs.base[i] / n, pairs.variant[i] / n}
-                                        : Two{all[j].base / trials[j], all[j].variant / trials[j]});
-            }
-        while (first_ + 1 < stripes_ && all[first_].base == 0 && all[first_].variant == 0)
+        best_ = weights_of(best_curve(hazard));
+        const auto of_base = record_shares(base), of_variant = record_shares(variant);
+        for (std::size_t g = 0; g < motions_; ++g)
+            for (std::size_t j = 0; j < stripes_; ++j)
+                shares_.push_back({of_base[g][j], of_variant[g][j]});
+        centre_ = resampled(std::vector<double>(motions_, 1), 0, {});
+        while (first_ + 1 < stripes_ && centre_[first_].base == 0 && centre_[first_].variant == 0)
             ++first_;
-        best_ = best_curve(hazard).node_weights(nodes_, -no_end, no_end);
-        judge();
-        found_.base = estimate(pairs, pairs.base);
-        found_.variant = estimate(pairs, pairs.variant);
+        FrequencyOptions alone;
+        alone.level = options.level;
+        found_.base = share_frequency(base, stripe_shares(base), hazard, alone);
+        found_.variant = share_frequency(variant, stripe_shares(variant), hazard, alone);
     }
 
     FrequencyChange run()
     {
-        const std::vector<double> each(motions_.size(), 1);
-        const Two value = frequencies(resampled(each, 0, {}), best_);
-        found_.frequency.value = value.variant - value.base;
+        const Two value = frequencies(centre_, best_);
+        std::vector<ChangeNumber> numbers(2 + options_.years.size());
+        for (std::size_t q = 0; q < numbers.size(); ++q)
+            numbers[q].value = change(q, value);
+        judge();
+        if (motions_ >= least_records) {
+            limit(numbers);
+            widen(numbers);
+        }
+        found_.frequency = numbers[0];
+        found_.ratio = numbers[1];
         found_.ratio.value = value.base > 0 ? value.variant / value.base : std::nan("");
-        for (const double years : options_.years)
-            found_.probability.push_back({over(value, years), {}, {}});
-        if (motions_.size() >= least_records)
-            limits();
-        else
-            nothing_is_known();
-        widen(separated(&Two::base), separated(&Two::variant));
+        for (Limits* l : {&found_.ratio.fragility, &found_.ratio.total})
+            *l = {std::exp(l->lower), std::exp(l->upper)};
+        found_.probability.assign(numbers.begin() + 2, numbers.end());
+        for (ChangeNumber& p : found_.probability)
+            for (Limits* l : {&p.fragility, &p.total})
+                *l = {std::max(l->lower, -1.0), std::min(l->upper, 1.0)};
         return std::move(found_);
     }
 
 private:
-    std::vector<double>::const_iterator at(const std::vector<double>& of, std::size_t motion) const
+    std::vector<double> weights_of(const HazardCurve& hazard) const
     {
-        return of.begin() + static_cast<std::ptrdiff_t>(motion * stripes_);
+        return hazard.node_weights(nodes_, -no_end, no_end);
     }
 
-    static double over(const Two& frequency, double years)
+    // The quantities are differences on scales of the frequency: itself, its logarithm (of the ratio), and the
+    // probability over each of the years.
+
+    double scale(std::size_t quantity, double frequency) const
     {
-        return std::exp(-frequency.base * years) - std::exp(-frequency.variant * years);
+        return quantity == 0   ? frequency
+               : quantity == 1 ? std::log(frequency)
+                               : -std::expm1(-frequency * options_.years[quantity - 2]);
     }
 
-    FrequencyEstimate estimate(const PairedStripes& pairs, const std::vector<double>& reached) const
+    double change(std::size_t quantity, const Two& frequency) const
     {
-        std::vector<FragilityRun> runs;
-        for (const std::size_t g : motions_)
-            for (std::size_t j = 0; j < stripes_; ++j)
-                if (const std::size_t i = g * stripes_ + j; pairs.trials[i] > 0)
-                    runs.push_back({static_cast<std::uint32_t>(g), {pairs.intensity[j]}, reached[i], pairs.trials[i]});
-        const FragilityData data = grouped(runs);
-        FrequencyOptions options;
-        options.level = options_.level;
-        return share_frequency(data, stripe_shares(data), hazard_, options);
+        return scale(quantity, frequency.variant) - scale(quantity, frequency.base);
     }
 
     /// Whether the scatter of the motions' own changes can be relied on, and by how much draws are spread.
     void judge()
     {
-        const auto n = static_cast<double>(motions_.size());
+        const auto n = static_cast<double>(motions_);
         double sum = 0, square = 0;
-        for (std::size_t g = 0; g < motions_.size(); ++g) {
+        for (std::size_t g = 0; g < motions_; ++g) {
             double d = 0;
             for (std::size_t j = 0; j < stripes_; ++j)
                 d += best_[j] * (shares_[g * stripes_ + j].variant - shares_[g * stripes_ + j].base);
@@ -144,150 +153,66 @@ private:
         return found;
     }
 
-    /// A quantity of every draw, of those for lower limits and those for upper ones.
-    struct Drawn {
-        std::vector<double> low, high;
-
-        Limits limits(double level, double value)
-        {
-            std::sort(low.begin(), low.end());
-            std::sort(high.begin(), high.end());
-            const double tail = (1 - level) / 2;
-            return {std::min(value, sorted_quantile(low, tail, QuantileDefinition::linear)),
-                    std::max(value, sorted_quantile(high, 1 - tail, QuantileDefinition::linear))};
-        }
-    };
-
-    /// The quantities of one draw: the change of the frequency, the logarithm of the ratio, then each of the years.
-    std::vector<double> quantities(const Two& f) const
+    void limit(std::vector<ChangeNumber>& numbers) const
     {
-        constexpr double least = 1e-300;
-        std::vector<double> all{f.variant - f.base, std::log(std::max(f.variant, least) / std::max(f.base, least))};
-        for (const double years : options_.years)
-            all.push_back(over(f, years));
-        return all;
-    }
-
-    void limits()
-    {
-        const std::size_t m = motions_.size(), n = 2 + options_.years.size();
-        const std::vector<Two> centre = resampled(std::vector<double>(m, 1), 0, {});
-        std::vector<Drawn> fragility(n), total(n);
-        std::vector<double> weights(m);
-        const auto take = [&](const std::vector<Two>& shares, const std::vector<double>& hazard, std::vector<Drawn>& to,
-                              bool low, bool high) {
-            const std::vector<double> drawn = quantities(frequencies(shares, hazard)),
-                                      middle = quantities(frequencies(centre, hazard));
-            for (std::size_t q = 0; q < n; ++q) {
-                const double value = middle[q] + spread_ * (drawn[q] - middle[q]);
-                if (low)
-                    to[q].low.push_back(value);
-                if (high)
-                    to[q].high.push_back(value);
+        std::vector<Draws> fragility(numbers.size()), total(numbers.size());
+        const auto take = [&](const std::vector<Two>& shares, const std::vector<double>& hazard, bool upper,
+                              std::vector<Draws>& to) {
+            const Two drawn = frequencies(shares, hazard), middle = frequencies(centre_, hazard);
+            for (std::size_t q = 0; q < to.size(); ++q) {
+                const double at = change(q, middle);
+                to[q][upper].push_back(at + spread_ * (change(q, drawn) - at));
             }
         };
+        std::vector<double> weights(motions_);
         for (std::size_t draw = 0; draw < options_.draws; ++draw) {
             const auto uniform = [&](std::uint64_t i) { return uniform01(options_.seed, draw, Stream::bootstrap, i); };
-            for (std::size_t g = 0; g < m; ++g)
+            for (std::size_t g = 0; g < motions_; ++g)
                 weights[g] = -std::log1p(-uniform(g));
-            std::vector<double> hazard = best_;
-            if (!hazard_.fractiles.empty())
-                hazard = quantile_curve(hazard_, std::clamp(uniform(m + 1), 1e-6, 1 - 1e-6))
-                             .node_weights(nodes_, -no_end, no_end);
-            const double more = found_.few ? -std::log1p(-uniform(m)) : 0;
+            const double more = found_.few ? -std::log1p(-uniform(motions_)) : 0;
+            const double quantile = std::clamp(uniform(motions_ + 1), 1e-6, 1 - 1e-6);
+            const std::vector<double> hazard =
+                hazard_.fractiles.empty() ? best_ : weights_of(quantile_curve(hazard_, quantile));
             for (const bool upper : {false, true}) {
-                if (upper && !found_.few)
-                    break; // the same draws serve both limits
                 const std::vector<Two> shares = resampled(weights, more, upper ? Two{0, 1} : Two{1, 0});
-                take(shares, best_, fragility, !upper, upper || !found_.few);
-                take(shares, hazard, total, !upper, upper || !found_.few);
+                take(shares, best_, upper, fragility);
+                take(shares, hazard, upper, total);
             }
         }
-        const auto set = [&](ChangeNumber& number, std::size_t q, double value) {
-            number.fragility = fragility[q].limits(options_.level, value);
-            number.total = total[q].limits(options_.level, value);
-        };
-        set(found_.frequency, 0, found_.frequency.value);
-        if (found_.ratio.value > 0 && std::isfinite(found_.ratio.value)) {
-            set(found_.ratio, 1, std::log(found_.ratio.value));
-            for (Limits* l : {&found_.ratio.fragility, &found_.ratio.total})
-                *l = {std::exp(l->lower), std::exp(l->upper)};
-        } else
-            found_.ratio.fragility = found_.ratio.total = {0, no_end};
-        for (std::size_t i = 0; i < options_.years.size(); ++i) {
-            ChangeNumber& p = found_.probability[i];
-            set(p, 2 + i, p.value);
-            for (Limits* l : {&p.fragility, &p.total})
-                *l = {std::max(l->lower, -1.0), std::min(l->upper, 1.0)};
-        }
+        for (std::size_t q = 0; q < numbers.size(); ++q)
+            if (std::isfinite(numbers[q].value)) { // else the logarithm of 0
+                numbers[q].fragility = limits_of(fragility[q], options_.level, numbers[q].value);
+                numbers[q].total = limits_of(total[q], options_.level, numbers[q].value);
+            }
     }
 
-    /// As of `share_frequency`: then any curve between two stripes is possible, in one structure or in both.
-    bool separated(double Two::*side) const
+    /// By what is not known of the form of the curve where the stripes of a structure separate: the distances of its
+    /// limits from its value are joined with those of the draws, at the root of the sum of their squares (as in
+    /// `risk_number.hpp`).
+    void widen(std::vector<ChangeNumber>& numbers) const
     {
-        const std::vector<Two> share = resampled(std::vector<double>(motions_.size(), 1), 0, {});
-        std::size_t reached = 0, missed = stripes_;
-        while (reached < stripes_ && share[reached].*side == 0)
-            ++reached;
-        while (missed > 0 && share[missed - 1].*side > 1 - 1e-12)
-            --missed;
-        return reached < stripes_ && missed > 0 && missed - 1 <= reached;
-    }
-
-    /// By what is not known of the form of one structure's curve, or of both: the distances of its limits from its
-    /// value are joined with those of the draws, at the root of the sum of their squares (as in `risk_number.hpp`).
-    void widen(bool base, bool variant)
-    {
-        if (!base && !variant)
-            return;
-        const RiskNumber &b = found_.base.frequency, &v = found_.variant.frequency;
-        for (const auto& [of, in] : {std::pair{&RiskNumber::fragility, &ChangeNumber::fragility},
-                                     {&RiskNumber::total, &ChangeNumber::total}}) {
-            const Limits &of_base = b.*of, &of_variant = v.*of;
-            // distances are taken on a scale of the frequencies
-            const auto join = [&](ChangeNumber& number, auto&& scale) {
-                const auto distance = [&](bool counts, double from, double to) {
-                    return counts ? scale(to) - scale(from) : 0;
-                };
-                Limits& l = number.*in;
-                l.upper =
-                    number.value + std::hypot(l.upper - number.value, distance(variant, v.value, of_variant.upper),
-                                              distance(base, of_base.lower, b.value));
-                l.lower =
-                    number.value - std::hypot(number.value - l.lower, distance(variant, of_variant.lower, v.value),
-                                              distance(base, b.value, of_base.upper));
+        for (std::size_t q = 0; q < numbers.size(); ++q) {
+            const auto distances = [&](const FrequencyEstimate& of) {
+                const RiskNumber& f = of.frequency;
+                return of.separated ? Limits{scale(q, f.value) - scale(q, f.fragility.lower),
+                                             scale(q, f.fragility.upper) - scale(q, f.value)}
+                                    : Limits{0, 0};
             };
-            join(found_.frequency, [](double f) { return f; });
-            for (std::size_t i = 0; i < options_.years.size(); ++i) {
-                ChangeNumber& p = found_.probability[i];
-                join(p, [years = options_.years[i]](double f) { return -std::expm1(-f * years); });
-                p.*in = {std::max((p.*in).lower, -1.0), std::min((p.*in).upper, 1.0)};
-            }
-            if (!(found_.ratio.value > 0 && of_base.lower > 0 && of_variant.lower > 0)) {
-                found_.ratio.*in = {0, no_end};
-                continue;
-            }
-            Limits& ratio = found_.ratio.*in;
-            ChangeNumber log{std::log(found_.ratio.value), {}, {}};
-            log.*in = {std::log(ratio.lower), std::log(ratio.upper)};
-            join(log, [](double f) { return std::log(f); });
-            ratio = {std::exp((log.*in).lower), std::exp((log.*in).upper)};
+            const Limits base = distances(found_.base), variant = distances(found_.variant);
+            ChangeNumber& n = numbers[q];
+            if (std::isfinite(n.value))
+                for (Limits* l : {&n.fragility, &n.total})
+                    *l = {n.value - std::hypot(n.value - l->lower, variant.lower, base.upper),
+                          n.value + std::hypot(l->upper - n.value, variant.upper, base.lower)};
         }
-    }
-
-    void nothing_is_known()
-    {
-        found_.ratio.fragility = found_.ratio.total = {0, no_end};
-        for (ChangeNumber& p : found_.probability)
-            p.fragility = p.total = {-1, 1};
     }
 
     const HazardModel& hazard_;
     const ChangeOptions& options_;
-    const std::size_t stripes_;
+    std::size_t motions_ = 0, stripes_ = 0;
     std::vector<double> nodes_, best_; ///< (stripes) ln im; weights with the hazard's best estimate
-    std::vector<std::size_t> motions_; ///< with a pair
     std::vector<Two> shares_;          ///< (motions x stripes)
+    std::vector<Two> centre_;          ///< (stripes) means of the motions
     std::size_t first_ = 0;            ///< stripe with damage
     double spread_ = 1;
     FrequencyChange found_;

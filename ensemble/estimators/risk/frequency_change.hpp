@@ -17,9 +17,9 @@
 ///   hazard    each draw of `total` has its own curve of the hazard, the quantile of a uniform number; both structures
 ///             have the same one. Those of `fragility` have the best estimate
 ///
-///   form      where the stripes of a structure separate (`share_frequency`), the distances of its limits from its
-///   value
-///             are joined with those of the draws, at the root of the sum of their squares
+///   form      where the stripes of a structure separate (`FrequencyEstimate::separated`), the distances of its limits
+///             by the fragility from its value are joined with those of the draws, at the root of the sum of their
+///             squares
 ///
 /// Limits are quantiles of the draws. What the runs do not exclude at intensities without damage is in no limit
 /// (`FrequencyEstimate::unseen` of both).
@@ -34,7 +34,6 @@ namespace stylobate {
 /// Realizations that both structures have valid, by motion and stripe, and how many of them reached the limit state.
 struct PairedStripes {
     std::vector<double> intensity;             ///< (stripes) ascending, > 0
-    std::size_t motions = 0;                   ///< those without a pair are left out
     std::vector<double> trials, base, variant; ///< (motions x stripes)
 };
 
@@ -59,7 +58,7 @@ struct FrequencyChange {
     bool few = false;                      ///< whether too few motions show a change to rely on their scatter
 };
 
-/// @pre two stripes at least, and a pair at each of them
+/// Motions and stripes without a pair are left out. @pre a pair at two stripes at least
 FrequencyChange frequency_change(const PairedStripes& pairs, const HazardModel& hazard, const ChangeOptions& options);
 
 } // namespace stylobate

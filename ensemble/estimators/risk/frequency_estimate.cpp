@@ -170,20 +170,16 @@ class ShareFrequency {
 public:
     ShareFrequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                    const FrequencyOptions& options)
-        : data_(data), hazard_(hazard), options_(options), curves_(hazard, options.level),
-          own_(data.records, std::vector<double>(data.points()))
+        : data_(data), hazard_(hazard), options_(options), curves_(hazard, options.level), own_(record_shares(data))
     {
         assert(data.measures == 1 && data.points() >= 2 && shares.stripes.size() == data.points());
         for (std::size_t j = 0; j < data.points(); ++j) {
             nodes_.push_back(std::log(data.intensity[j]));
             monotone_.push_back(shares.stripes[j].monotone);
-            for (std::size_t g = 0; g < data.records; ++g)
-                own_[g][j] = shares.stripes[j].share;
         }
-        for (std::size_t g = 0; g < data.records; ++g)
-            for (const FragilityRow& row : data.of_record(g))
-                own_[g][row.point] = row.reached / row.trials;
-        first_ = first_stripe_of(monotone_);
+        while (first_ + 1 < monotone_.size() && monotone_[first_] == 0)
+            ++first_;
+        separated_ = separated();
         for (std::size_t j = 0; j < nodes_.size(); ++j) {
             std::vector<double> at;
             for (const auto& record : own_)
@@ -205,6 +201,7 @@ public:
             [&](double from, double to) { return frequency(curves_.best, from, to); });
         found.bounds = steps(-no_end, no_end, monotone_, monotone_);
         found.unseen = not_excluded(curves_.best, nodes_.front(), no_end); // weaker shaking was not run
+        found.separated = separated_;
         return found;
     }
 
@@ -254,7 +251,7 @@ private:
         Limits limits{0, not_excluded(curves_.best, from, to)};
         if (most > 0)
             limits = mean_limits(own, value, most);
-        if (most > 0 && separated()) {
+        if (most > 0 && separated_) {
             const Limits any = steps(from, to, low_, high_);
             limits = {std::min(limits.lower, any.lower), std::max(limits.upper, any.upper)};
         }
@@ -293,8 +290,6 @@ private:
         return {std::min(value, most * share.lower), std::max(value, most * share.upper)};
     }
 
-    /// Whether one stripe divides all that reached the state from all that did not: then nothing is known of the form
-    /// between two stripes.
     bool separated() const
     {
         std::size_t reached = 0, missed = nodes_.size();
@@ -338,7 +333,8 @@ private:
     std::vector<double> nodes_, monotone_; ///< (stripes)
     std::vector<double> low_, high_;       ///< (stripes) limits of their shares
     std::vector<std::vector<double>> own_; ///< (records x stripes) shares
-    std::size_t first_ = 0;                ///< stripe of the interval
+    std::size_t first_ = 0;                ///< stripe of the interval: the first one with damage, else the last one
+    bool separated_ = false;
 };
 
 } // namespace
@@ -352,14 +348,6 @@ FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardMod
                                       const FrequencyOptions& options)
 {
     return LognormalFrequency(data, hazard, options).estimate();
-}
-
-std::size_t first_stripe_of(std::span<const double> monotone)
-{
-    std::size_t first = 0;
-    while (first + 1 < monotone.size() && monotone[first] == 0)
-        ++first;
-    return first;
 }
 
 std::vector<double> stripe_weights(const std::vector<double>& intensity, const HazardModel& hazard)

@@ -11,7 +11,6 @@
 #include "ensemble/estimators/risk/hazard.hpp"
 #include "ensemble/estimators/risk/risk_number.hpp"
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -48,11 +47,15 @@ struct FrequencyEstimate {
     /// one is infinite where a share at the first stripe is not 0 and the hazard has no least intensity; else weaker
     /// events count from the hazard's first point on, or from where the estimate's line reaches 0.
     Limits bounds;
-    /// Of shares: what the runs do not exclude from the first stripe to `first_stripe_of`, where none reached the state
-    /// [1/year]: the upper limit of each one's share (of a central interval, and no greater than that of any stronger
-    /// stripe) times its events. It is in no interval of the frequency: a structure that cannot be damaged there has
-    /// it too. 0: there is no such stripe. A part of the frequency that lies there alone has it as its upper limit.
+    /// Of shares: what the runs do not exclude at the stripes below the first one with damage (the last one where none
+    /// has it) [1/year]: the upper limit of each one's share (of a central interval, and no greater than that of any
+    /// stronger stripe) times its events. It is in no interval of the frequency: a structure that cannot be damaged
+    /// there has it too. 0: there is no such stripe. A part of the frequency that lies there alone has it as its upper
+    /// limit.
     double unseen = 0;
+    /// Of shares: whether one stripe divides all that reached the state from all that did not. Then nothing is known of
+    /// the form between two stripes.
+    bool separated = false;
 };
 
 /// The interval by the records: the jackknife of ln lambda over records (the frequencies without each record in turn),
@@ -61,10 +64,6 @@ struct FrequencyEstimate {
 /// @pre the data have one measure and a fitted curve that rises with the intensity (`FragilityCurve::maximum`)
 FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
                                       const FrequencyOptions& options = {});
-
-/// The first stripe of the interval of a frequency: the first one with damage, or the last one where none has it.
-/// @param monotone (stripes >= 1) non-decreasing shares
-std::size_t first_stripe_of(std::span<const double> monotone);
 
 /// Weights w of the stripes [1/year]: the frequency by shares is sum_j w_j p_j, over all intensities and with the best
 /// estimate of the hazard (`HazardCurve::node_weights`).
@@ -76,10 +75,10 @@ std::vector<double> stripe_weights(const std::vector<double>& intensity, const H
 /// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records
 /// under which the state is not reached do not show the scatter). Where fewer than `least_records` records count so, or
 /// where one record alone has all the scatter, it is that of a bounded mean (`record_share.hpp`), y_g between 0 and the
-/// frequency at P = 1 from `first_stripe_of` on, which holds with no damage at all, and is wide.
+/// frequency at P = 1 from the first stripe with damage on, which holds with no damage at all, and is wide.
 ///
-/// Where one stripe separates all runs that reached the state from all that did not, the interval also contains every
-/// curve that rises: steps through the limits of the stripes' shares (own choice).
+/// Where the stripes separate (`FrequencyEstimate::separated`), the interval also contains every curve that rises:
+/// steps through the limits of the stripes' shares (own choice).
 /// @param shares of the data   @pre two stripes at least
 FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                                   const FrequencyOptions& options = {});

@@ -19,7 +19,6 @@ PairedStripes pairs_of(const Comparison& comparison, const LimitComparison& limi
     const std::size_t stripes = comparison.intensity.size(), motions = limit.by_motion.size() / stripes;
     PairedStripes pairs;
     pairs.intensity = comparison.intensity;
-    pairs.motions = motions;
     for (std::size_t g = 0; g < motions; ++g)
         for (std::size_t j = 0; j < stripes; ++j) {
             const PairedCounts& counts = limit.by_motion[j * motions + g];
@@ -145,6 +144,11 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
         of.states.resize(wanted.size());
         in_parallel(std::size_t{0}, wanted.size(),
                     [&](std::size_t i) { of.states[i] = change_of(comparison, *wanted[i], hazard, options); });
+        for (const LimitComparison* limit : wanted)
+            if (const std::uint64_t unknown = variant.unknown(*limit); unknown > 0)
+                change.says.push_back(fmt::format("{}, {}: {} of {} pairs are left out: a structure still moved at the "
+                                                  "end.",
+                                                  variant.name, limit->name, unknown, variant.pairs));
         if (variant.dropped > 0)
             change.says.push_back(
                 fmt::format("{}: {} pairs are left out, invalid in either study.", variant.name, variant.dropped));

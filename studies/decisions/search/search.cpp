@@ -242,7 +242,7 @@ private:
         }
         if (objective_->is_frequency())
             result_.frequency_change =
-                objective_->difference(*base_side_, *points_[result_.best_point].side, limit_, layout_);
+                objective_->change(*base_side_, *points_[result_.best_point].side, limit_, layout_);
     }
 
     SearchSlice slice(const ResponseSurface& surface, const SearchAnswer& answer, std::size_t k) const

@@ -1,7 +1,6 @@
 #include "studies/decisions/search/search_objective.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/quantiles.hpp"
 #include "io/hazard/hazard_file.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
@@ -64,6 +63,13 @@ struct SearchObjective::Counts {
                            trials.begin() + static_cast<std::ptrdiff_t>((g + 1) * stripes),
                            [](double n) { return n > 0; });
     }
+    bool has_at(std::size_t j) const
+    {
+        for (std::size_t g = 0; g < groups; ++g)
+            if (trials[g * stripes + j] > 0)
+                return true;
+        return false;
+    }
     /// Own frequencies of the motions that have runs, point by point: (motions) x (points). A motion without runs at a
     /// stripe takes the share of the others there, as in `share_frequency`.
     std::vector<std::vector<double>> own(const std::vector<double>& weight) const
@@ -119,6 +125,13 @@ PairedNoise SearchObjective::frequency_noise(const std::vector<const StudySide*>
                                              const PairLayout& layout) const
 {
     const Counts found = counts(sides, limit, layout);
+    std::size_t with_runs = 0;
+    for (std::size_t j = 0; j < found.stripes; ++j)
+        with_runs += found.has_at(j);
+    if (with_runs < 2)
+        throw InputError(file_, 0,
+                         "[optimise]: a frequency needs realizations at two intensities of which is known in all of "
+                         "the points whether they reached the limit state, and there are some at one alone.");
     std::size_t first = 0;
     const auto none_at = [&](std::size_t j) {
         for (std::size_t i = 0; i < found.points; ++i)
@@ -149,8 +162,9 @@ PairedNoise SearchObjective::noise(const std::vector<const StudySide*>& sides, s
         ++index;
     if (index == sides.front()->size())
         throw InputError(file_, 0,
-                         "[optimise]: no realization is valid at all of the points that were run.\n  Choose ranges in "
-                         "which the study is valid; `stylobate info` of the points' results says why it is not.");
+                         "[optimise]: no realization is valid at all of the points that were run, and known to have "
+                         "reached the limit state or not.\n  Choose ranges in which the study is valid; `stylobate "
+                         "info` of the points' results says why it is not.");
     if (is_frequency())
         return frequency_noise(sides, limit, layout);
     const std::size_t m = sides.size(), groups = layout.groups;
@@ -176,41 +190,25 @@ PairedNoise SearchObjective::noise(const std::vector<const StudySide*>& sides, s
 FrequencyEstimate SearchObjective::frequency(const StudySide& side, std::size_t limit, const PairLayout& layout) const
 {
     const Counts found = counts({&side}, limit, layout);
-    std::vector<FragilityRun> runs;
-    for (std::size_t g = 0; g < found.groups; ++g)
-        for (std::size_t j = 0; j < found.stripes; ++j)
-            if (const double n = found.trials[g * found.stripes + j]; n > 0)
-                runs.push_back({static_cast<std::uint32_t>(g), {intensity_[j]}, found.of(g, j, 0), n});
-    const FragilityData data = grouped(runs);
+    const FragilityData data = grouped(intensity_, found.trials, found.reached);
     FrequencyOptions options;
     options.level = level_;
     return share_frequency(data, stripe_shares(data), *hazard_, options);
 }
 
-FrequencyDifference SearchObjective::difference(const StudySide& base, const StudySide& variant, std::size_t limit,
-                                                const PairLayout& layout) const
+ChangeNumber SearchObjective::change(const StudySide& base, const StudySide& variant, std::size_t limit,
+                                     const PairLayout& layout) const
 {
-    const auto own = counts({&base, &variant}, limit, layout).own(weight_);
-    const auto n = static_cast<double>(own.size());
-    FrequencyDifference found;
-    double square = 0, fourth = 0, deviation = 0;
-    for (const auto& y : own) {
-        const double d = y[1] - y[0];
-        found.value += d / n;
-        square += d * d;
-        fourth += d * d * d * d;
+    const Counts found = counts({&base, &variant}, limit, layout);
+    PairedStripes pairs{intensity_, found.trials, {}, {}};
+    for (std::size_t i = 0; i < found.reached.size(); i += 2) {
+        pairs.base.push_back(found.reached[i]);
+        pairs.variant.push_back(found.reached[i + 1]);
     }
-    if (!(square > 0)) {
-        const double unseen = 1 - std::pow((1 - level_) / 2, 1 / n);
-        const double most = frequency_noise({&base, &variant}, limit, layout).most;
-        return {0, -most * unseen, most * unseen};
-    }
-    for (const auto& y : own)
-        deviation += (y[1] - y[0] - found.value) * (y[1] - y[0] - found.value);
-    const double freedom = std::max(1.0, square * square / fourth - 1);
-    const double reach =
-        n > 1 ? student_quantile((1 + level_) / 2, freedom) * std::sqrt(deviation / (n * (n - 1))) : INFINITY;
-    return {found.value, found.value - reach, found.value + reach};
+    ChangeOptions options;
+    options.level = level_;
+    options.years.clear();
+    return frequency_change(pairs, *hazard_, options).frequency;
 }
 
 } // namespace stylobate

@@ -7,7 +7,7 @@
 /// It is linear in the shares, so it is the mean over the motions of each one's own frequency y_g, and the errors of
 /// two points are those of the y_g of their common motions.
 
-#include "ensemble/estimators/risk/frequency_estimate.hpp"
+#include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/estimators/search/paired_noise.hpp"
 #include "io/study/decisions/study_variants.hpp"
 #include "studies/decisions/compare/pairing.hpp"
@@ -17,11 +17,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// A difference of two frequencies with its interval [1/year].
-struct FrequencyDifference {
-    double value = 0, lower = 0, upper = 0;
-};
 
 class SearchObjective {
 public:
@@ -37,11 +32,9 @@ public:
     /// Of one point by itself, as of `stylobate risk`. @pre is_frequency()
     FrequencyEstimate frequency(const StudySide& side, std::size_t limit, const PairLayout& layout) const;
 
-    /// variant - base, motion by motion: Student's interval with (sum d^2)^2 / sum d^4 - 1 degrees of freedom, those of
-    /// the motions in which the two differ (own choice, of the form of `PairedNoise::freedom`). Where they differ in
-    /// none, limits of a share of motions that was not seen. @pre is_frequency()
-    FrequencyDifference difference(const StudySide& base, const StudySide& variant, std::size_t limit,
-                                   const PairLayout& layout) const;
+    /// variant - base, as of `stylobate risk` of a comparison. @pre is_frequency()
+    ChangeNumber change(const StudySide& base, const StudySide& variant, std::size_t limit,
+                        const PairLayout& layout) const;
 
 private:
     struct Counts;

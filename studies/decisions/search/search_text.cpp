@@ -53,7 +53,7 @@ std::string point_text(const SearchResult& r)
     };
     std::string text = fmt::format("{} a year, base {}, difference {:+.3g} ({:+.3g} to {:+.3g})",
                                    number(point.frequency), number(r.base_frequency), r.frequency_change.value,
-                                   r.frequency_change.lower, r.frequency_change.upper);
+                                   r.frequency_change.fragility.lower, r.frequency_change.fragility.upper);
     if (r.unseen > 0)
         text += fmt::format(
             "\n    not excluded at intensities where no run reached it, and in no interval: {:.3g} a year", r.unseen);
@@ -141,8 +141,8 @@ Json search_json(const SearchResult& r)
             .member("probability_over_years_upper", over_years(r.upper))
             .member("base_frequency", frequency(r.base_frequency))
             .member("frequency_difference", r.frequency_change.value)
-            .member("frequency_difference_lower", r.frequency_change.lower)
-            .member("frequency_difference_upper", r.frequency_change.upper)
+            .member("frequency_difference_lower", r.frequency_change.fragility.lower)
+            .member("frequency_difference_upper", r.frequency_change.fragility.upper)
             .member("unseen", r.unseen)
             .member("outside", r.outside);
     return json;

@@ -37,7 +37,6 @@ PairedStripes pairs_of(std::size_t n, Base&& base, Variant&& variant)
 {
     PairedStripes pairs;
     pairs.intensity = {1, 2};
-    pairs.motions = n;
     for (std::size_t g = 0; g < n; ++g)
         for (std::size_t j = 0; j < 2; ++j) {
             pairs.trials.push_back(10);
@@ -127,6 +126,28 @@ TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
     EXPECT_GE(found.frequency.fragility.upper, std::hypot(up, down));
     EXPECT_LE(found.frequency.fragility.lower, -std::hypot(up, down));
     EXPECT_LE(found.frequency.fragility.upper, 1.2 * std::hypot(up, down));
+    // the hazard is in the draws, and not a second time in the distances
+    const FrequencyChange uncertain = frequency_change(pairs_of(20, base, base), law(0.01, 1, 0.5), {.years = {100}});
+    EXPECT_LE(uncertain.frequency.total.upper, 1.2 * std::hypot(up, down));
+    EXPECT_GE(uncertain.base.frequency.total.upper - f.value, 1.5 * up);
+}
+
+/// A stripe that no pair has, and a motion that has none, are as if they had not been run.
+TEST(FrequencyChange, WithoutPairsNothingIsAdded)
+{
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - 1; };
+    const FrequencyChange want = frequency_change(pairs_of(12, base, variant), law(0.01, 1), {});
+    PairedStripes pairs = pairs_of(13, base, variant);
+    pairs.intensity = {1, 1.5, 2};
+    for (std::vector<double>* of : {&pairs.trials, &pairs.base, &pairs.variant}) {
+        of->back() = (*of)[of->size() - 2] = 0;
+        for (std::ptrdiff_t g = 12; g >= 0; --g)
+            of->insert(of->begin() + 2 * g + 1, 0.0);
+    }
+    const FrequencyChange found = frequency_change(pairs, law(0.01, 1), {});
+    EXPECT_EQ(found.frequency.value, want.frequency.value);
+    EXPECT_EQ(found.frequency.fragility.upper, want.frequency.fragility.upper);
 }
 
 TEST(FrequencyChange, FewMotionsGiveNoInterval)
@@ -148,7 +169,6 @@ TEST(FrequencyChangeStatistics, IntervalsContainTheTruth)
     for (std::uint64_t r = 0; r < repeats; ++r) {
         PairedStripes pairs;
         pairs.intensity = {1, 2};
-        pairs.motions = 20;
         for (std::uint64_t g = 0; g < 20; ++g) {
             const double p = 0.6 * uniform01(5, 100 * r + g, Stream::virtual_specimen, 0); // its mean is 0.3
             for (const std::uint64_t j : {0, 1}) {
