@@ -133,6 +133,12 @@ void check(const FragilityData& data, const CurveOptions& options)
                                      data.points(), data.measures + 1));
 }
 
+/// "1 record", "8 records".
+std::string counted(double count, const std::string& what)
+{
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptions& options)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -159,14 +165,14 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
         : median.lower > 0            ? fmt::format("The median lies above {:.4g}.", median.lower)
         : std::isfinite(median.upper) ? fmt::format("The median lies below {:.4g}.", median.upper)
                                       : std::string("Only bounds of the probabilities can be given.");
+    const std::string runs =
+        counted(curve.trials, "run") + " of " + counted(static_cast<double>(curve.records), "record");
     if (curve.maximum == Maximum::none)
         curve.says.push_back(fmt::format(
-            "None of {} runs of {} records reached the limit state: there is no curve. {} Increase the intensities.",
-            curve.trials, curve.records, where));
+            "None of {} reached the limit state: there is no curve. {} Increase the intensities.", runs, where));
     else if (curve.maximum == Maximum::all)
-        curve.says.push_back(fmt::format(
-            "All {} runs of {} records reached the limit state: there is no curve. {} Reduce the intensities.",
-            curve.trials, curve.records, where));
+        curve.says.push_back(
+            fmt::format("All {} reached the limit state: there is no curve. {} Reduce the intensities.", runs, where));
     else
         curve.says.push_back("The stripes separate: one intensity divides all runs that reached the limit state from "
                              "all that did not. The likelihood has no maximum, so there is no curve. " +
@@ -187,9 +193,10 @@ void remark(FragilityCurve& curve, bool falls, const Jackknife& without, const C
         curve.says.emplace_back("All records have the same outcomes: their scatter is not known, and there is no "
                                 "interval. Are they the same motion?");
     if (curve.records < least_records)
-        curve.says.push_back(fmt::format("{} records are too few for an interval (at least {}): this curve has none "
-                                         "and must not be used alone.",
-                                         curve.records, least_records));
+        curve.says.push_back(fmt::format("{} {} too few for an interval (at least {}): this curve has none and must "
+                                         "not be used alone.",
+                                         counted(static_cast<double>(curve.records), "record"),
+                                         curve.records == 1 ? "is" : "are", least_records));
     else if (curve.records < enough_records)
         curve.says.push_back(
             fmt::format("With {} records, fewer than {}, the coverage of the intervals may be below the nominal level.",

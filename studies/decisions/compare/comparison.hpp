@@ -5,6 +5,7 @@
 #include "ensemble/estimators/paired/paired_counts.hpp"
 #include "studies/experiment/limit_state.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -85,6 +86,13 @@ struct VariantComparison {
     std::vector<std::string> notes; ///< what else differs, in sentences
     std::vector<LimitComparison> limits;
     std::vector<InputDependence> depends; ///< smallest p-value first; none where pairs share motions
+
+    /// Pairs that are not counted for a limit state: one of the two stands and still moved at the end, so that its
+    /// residual is not known.
+    std::uint64_t unknown(const LimitComparison& limit) const
+    {
+        return pairs - std::min(pairs, limit.overall.counts.pairs());
+    }
 };
 
 struct Comparison {

@@ -28,6 +28,12 @@ std::string side_text(const Share& share)
     return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
 }
 
+std::string unknown_text(const VariantComparison& variant, const LimitComparison& limit)
+{
+    const std::uint64_t unknown = variant.unknown(limit);
+    return unknown > 0 ? fmt::format(" ({} pairs left out: still moving at the end)", unknown) : std::string();
+}
+
 Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
 {
     switch (limit.verdict(place)) {
@@ -197,8 +203,8 @@ private:
             if (variant.dropped > 0)
                 table.caption += fmt::format(", {} dropped as invalid in either", variant.dropped);
             for (const LimitComparison& limit : variant.limits)
-                table.rows.push_back({limit.describe, side_text(limit.overall.base), side_text(limit.overall.variant),
-                                      difference_text(limit.overall),
+                table.rows.push_back({limit.describe + unknown_text(variant, limit), side_text(limit.overall.base),
+                                      side_text(limit.overall.variant), difference_text(limit.overall),
                                       std::isfinite(limit.overall.unpaired)
                                           ? fmt::format("a factor of {:.2g}", limit.overall.saving())
                                           : "unknown",

@@ -121,6 +121,7 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
     for (const LimitComparison& limit : variant.limits)
         limits.member(limit.name, Json::object()
                                       .member("describe", limit.describe)
+                                      .member("unknown_pairs", variant.unknown(limit))
                                       .member("overall", place_json(limit, limit.overall))
                                       .member("worse_cells", named_json(comparison, limit, true))
                                       .member("better_cells", named_json(comparison, limit, false))
@@ -161,6 +162,9 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
                             share_text(all.variant), difference_text(all), verdict_text(limit, all));
         text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); {}\n", all.counts.discordant(),
                             all.counts.base_only, all.counts.variant_only, saving_text(all));
+        if (const std::uint64_t unknown = variant.unknown(limit); unknown > 0)
+            text += fmt::format("    of {} pairs: in the other {} a structure still moved at the end\n",
+                                all.counts.pairs(), unknown);
         if (limit.cells.size() > 1)
             text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
     }

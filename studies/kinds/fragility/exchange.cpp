@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/tables/fragility_exchange.hpp"
 #include "io/tables/fragility_measure.hpp"
+#include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>
 
@@ -119,9 +120,9 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
             continue;
         FragilityModel model;
         model.id = group.id;
-        model.description = fmt::format(
-            "{}: {}; {} motions, {} structures under each; {}", study, group.describe, f.motions, f.structures,
-            f.different < least_records ? "too few motions for intervals" : "intervals clustered by motion");
+        model.description = fmt::format("{}: {}; {}; {}", study, group.describe, design_text(f),
+                                        f.different < least_records ? "too few motions for intervals"
+                                                                    : "intervals clustered by motion");
         for (const StateFragility* s : states)
             model.limit_states.push_back(s->state.name);
         if (states.front()->stripes)

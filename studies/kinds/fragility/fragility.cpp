@@ -252,11 +252,15 @@ private:
         StateFragility s;
         s.state = damage;
         s.moving = static_cast<std::uint64_t>(std::ranges::count_if(reached, [](const auto& r) { return !r; }));
+        if (s.moving == reached.size()) {
+            without_curve(s.curve, "No realization fell or came to rest: nothing is known of this limit state. Give "
+                                   "excitation.tail_s = \"rest\", or more damping.");
+            return s;
+        }
         try {
             estimate(reached, s);
-        } catch (const InputError& error) { // what these data do not bear is said, and the other states are told
-            s.curve.maximum = Maximum::none;
-            s.curve.says.emplace_back(error.what());
+        } catch (const InputError& error) { // the reason is reported, and the other states have their curves
+            without_curve(s.curve, error.what());
         }
         return s;
     }
@@ -294,9 +298,14 @@ private:
             curve.trials += row.trials;
             curve.reached += row.reached;
         }
+        without_curve(curve, "All runs have one intensity: there is a share and no curve.");
+    }
+
+    static void without_curve(FragilityCurve& curve, const std::string& why)
+    {
         curve.maximum = Maximum::none;
         curve.median.value = curve.dispersion.value = std::nan("");
-        curve.says.emplace_back("All runs have one intensity: there is a share and no curve.");
+        curve.says.push_back(why);
     }
 
     /// Of too few motions an interval over motions would be a guess.

@@ -85,7 +85,7 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
                                   k, style.colour, style.point, gnuplot_text(s.state.describe));
     }
     const std::string said =
-        fmt::format("{} motions, {} structures under each · {}", f.motions, f.structures,
+        fmt::format("{} · {}", design_text(f),
                     f.different < least_records ? "too few motions for intervals"
                                                 : "bands and bars: 95 % intervals, clustered by motion");
     const std::string script =

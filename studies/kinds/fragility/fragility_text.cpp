@@ -93,14 +93,6 @@ std::vector<std::string> remarks(const StateFragility& s)
     return all;
 }
 
-/// "20 motions, 4 structures under each"; equal motions are mentioned.
-std::string design_text(const Fragility& f)
-{
-    return fmt::format("{}{}, {} under each", counted(f.motions, "motion"),
-                       f.different < f.motions ? fmt::format(" ({} different)", f.different) : "",
-                       counted(f.structures, "structure"));
-}
-
 std::string share_text(const DispersionShares& shares)
 {
     std::string text;
@@ -114,6 +106,13 @@ std::string share_text(const DispersionShares& shares)
 }
 
 } // namespace
+
+std::string design_text(const Fragility& f)
+{
+    return fmt::format("{}{}, {} under each", counted(f.motions, "motion"),
+                       f.different < f.motions ? fmt::format(" ({} different)", f.different) : "",
+                       counted(f.structures, "structure"));
+}
 
 std::string fragility_text(const Fragility& f)
 {

@@ -16,6 +16,9 @@ namespace stylobate {
 std::string fragility_text(const Fragility& fragility);
 Json fragility_json(const Fragility& fragility);
 
+/// "20 motions (18 different), 4 structures under each".
+std::string design_text(const Fragility& fragility);
+
 /// Whether a lognormal curve could be fitted.
 bool has_curve(const StateFragility& state);
 

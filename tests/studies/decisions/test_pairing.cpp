@@ -145,6 +145,32 @@ TEST(Pairing, AFragilityStudyIsGroupedByItsMotions)
     EXPECT_EQ(collapse.overall.counts, (PairedCounts{0, 12, 0, 60}));
 }
 
+/// The residual of what still moves is not known: such pairs are left out of its limit states, and counted.
+TEST(Pairing, CountsWhatStillMoves)
+{
+    Sides s(fragility);
+    for (std::uint64_t index = 0; index < 72; ++index) {
+        ResultRow base = row(index, State::stood), variant = base;
+        base.outcome.at_rest = index >= 5;
+        variant.outcome.at_rest = index < 70;
+        s.base.add(base);
+        s.variant.add(variant);
+    }
+    const VariantComparison found = s.compared();
+    const auto residual = std::ranges::find_if(
+        found.limits, [](const LimitComparison& limit) { return limit.name.starts_with("residual"); });
+    ASSERT_NE(residual, found.limits.end());
+    EXPECT_EQ(found.pairs, 72U);
+    EXPECT_EQ(found.unknown(found.limits.front()), 0U);
+    EXPECT_EQ(found.unknown(*residual), 7U);
+    Comparison comparison;
+    comparison.variants = {found};
+    EXPECT_NE(comparison_text(comparison).find("of 65 pairs: in the other 7 a structure still moved at the end"),
+              std::string::npos)
+        << comparison_text(comparison);
+    EXPECT_NE(comparison_json(comparison).text().find("\"unknown_pairs\": 7"), std::string::npos);
+}
+
 TEST(Pairing, FindsWhichDrawsAreCommon)
 {
     std::vector<StudySide::Draws> base, variant;

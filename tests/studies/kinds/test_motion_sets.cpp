@@ -276,6 +276,7 @@ TEST_F(MotionSets, FewMotionsGiveSharesWithoutIntervals)
         EXPECT_EQ(text.find("too few for an interval over motions") == std::string::npos, interval) << text;
         EXPECT_EQ(json.find("too few for an interval over motions") == std::string::npos, interval) << json;
         EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+        EXPECT_EQ(text.find("1 records"), std::string::npos) << text;
 
         for (const char* format : {"nrml", "json", "csv"})
             EXPECT_NO_THROW(model_files(fragility_models(f, "few"), format)) << format << ", " << count;
@@ -285,6 +286,30 @@ TEST_F(MotionSets, FewMotionsGiveSharesWithoutIntervals)
         EXPECT_EQ(counts.interval(), interval ? "motions 0.95" : "none");
         EXPECT_EQ(std::isnan(counts.share(LimitState::collapse).lower), !interval);
     }
+}
+
+TEST_F(MotionSets, NothingIsKnownOfResidualsWhereAllStillMove)
+{
+    motions(8);
+    const LoadedStudy loaded = of_folder();
+    std::vector<FragilityOutcome> rows;
+    for (std::uint64_t i = 0; i < loaded.study().total(); ++i) {
+        rows.push_back({i, loaded.study().cell(i), loaded.sampler().realization(i).pga_m_s2, {}});
+        rows.back().outcome.state = State::stood;
+    }
+    const Fragility f = fragility_of(loaded.study(), loaded.result_header(), std::move(rows));
+    const auto state = std::ranges::find_if(
+        f.states, [](const StateFragility& s) { return s.state.kind == DamageState::Kind::residual; });
+    ASSERT_NE(state, f.states.end());
+    EXPECT_EQ(state->moving, 48U);
+    EXPECT_TRUE(std::isnan(state->curve.median.value) && std::isnan(state->curve.dispersion.value));
+    ASSERT_EQ(state->curve.says.size(), 1U);
+    EXPECT_EQ(state->curve.says[0], "No realization fell or came to rest: nothing is known of this limit state. Give "
+                                    "excitation.tail_s = \"rest\", or more damping.");
+    const std::string text = fragility_text(f);
+    EXPECT_NE(text.find("The other 48 stand and still moved at the end"), std::string::npos) << text;
+    EXPECT_EQ(f.states.front().curve.says[0].find("None of 48 runs of 8 records"), 0U)
+        << f.states.front().curve.says[0];
 }
 
 TEST_F(MotionSets, WeakMotionsAreNotScaledFarWithoutAWord)
