@@ -300,8 +300,7 @@ void Pipeline::list_candidates()
     const auto add = [&](const JudgedCause& j, Decision decision) {
         const bool listed = decision != Decision::not_shown || d_.candidates.size() < most_candidates;
         if (listed && told.emplace(j.fit.cause.mechanism, j.fit.cause.place).second)
-            d_.candidates.push_back(
-                candidate_of(j, measured_, decision, ensemble_.has_value(), better_than_candidates(decided_)));
+            d_.candidates.push_back(candidate_of(j, measured_, decision, ensemble_.has_value(), decided_));
     };
     for (const JudgedCause& j : decided_.named)
         add(j, Decision::named);

@@ -45,19 +45,35 @@ std::vector<std::string> names_words(std::vector<std::string> mechanisms)
     return mechanisms;
 }
 
-} // namespace
-
-Better better_than_candidates(const Decided& decided)
+/// Why a cause is named, in the set, or neither.
+std::string reason(const JudgedCause& j, Decision decision, const Decided& decided)
 {
+    if (!j.why_not.empty())
+        return j.why_not;
+    if (j.channel == Channel::direct)
+        return "found by a direct test";
+    if (j.channel == Channel::forces)
+        return fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores is {:.2g}", j.fit.gain,
+                           j.chance);
+    if (j.nearer > 0)
+        return fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one as healthy ones, none "
+                           "of which is like it (p = {:.2g})",
+                           j.nearer, j.chance);
+    if (decision != Decision::not_shown)
+        return fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution {:.1f} (95 %)",
+                           j.fit.gain, j.chance95);
     if (decided.unexplained)
-        return Better::unknown_force;
-    const bool named = std::any_of(decided.named.begin(), decided.named.end(),
-                                   [](const JudgedCause& j) { return j.channel != Channel::direct; });
-    return named ? Better::named_cause : Better::nothing;
+        return "a force of unknown kind has a significantly larger gain";
+    if (std::ranges::any_of(decided.named, [](const JudgedCause& named) { return named.channel != Channel::direct; }))
+        return "another cause explains the same data better";
+    return j.chance > EnsembleRule{}.named ? fmt::format("the p-value of the gain is {:.2g}", j.chance)
+                                           : "the candidate of the largest gain is not named, and this one gains less";
 }
 
+} // namespace
+
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
-                       Better better)
+                       const Decided& decided)
 {
     Candidate c;
     const Cause& cause = j.fit.cause;
@@ -90,24 +106,7 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         if (j.fit.gain_by_run[r] != 0)
             c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
     c.decision = decision;
-    const std::string found =
-        j.channel == Channel::direct ? "found by a direct test"
-        : j.channel == Channel::forces
-            ? fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores "
-                          "is {:.2g}",
-                          j.fit.gain, j.chance)
-        : j.nearer > 0 ? fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one "
-                                     "as healthy ones, none of which is like it (p = {:.2g})",
-                                     j.nearer, j.chance)
-        : decision != Decision::not_shown
-            ? fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution "
-                          "{:.1f} (95 %)",
-                          j.fit.gain, j.chance95)
-        : better == Better::unknown_force ? "a force of unknown kind has a significantly larger gain"
-        : better == Better::named_cause   ? "another cause explains the same data better"
-        : j.chance > EnsembleRule{}.named ? fmt::format("the p-value of the gain is {:.2g}", j.chance)
-                                          : "the candidate of the largest gain is not named, and this one gains less";
-    c.why += (c.why.empty() ? "" : "; ") + (j.why_not.empty() ? found : j.why_not);
+    c.why += (c.why.empty() ? "" : "; ") + reason(j, decision, decided);
     if (j.forces_too)
         c.why +=
             fmt::format("; the balance of forces names it, too (p = {:.2g}): place and size are its", *j.forces_too);

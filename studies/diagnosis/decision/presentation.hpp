@@ -13,19 +13,10 @@
 /// Findings of the stages of a diagnosis as tables, figures and sentences.
 namespace stylobate {
 
-/// What explains the campaign's statistics in the place of a candidate that is not named.
-enum class Better {
-    nothing,      ///< no cause of joints or blocks is named
-    named_cause,  ///< a cause of joints or blocks is
-    unknown_force ///< a force of unknown kind
-};
-
-Better better_than_candidates(const Decided& decided);
-
 /// A cause as a row of the table of candidates.
 /// @param chance_known whether campaigns with nothing hidden were simulated
 Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision decision, bool chance_known,
-                       Better better);
+                       const Decided& decided);
 
 /// Gains of the candidates beside what chance gives; those that are named among them, however they were found.
 DiagnosisFigure candidates_figure(const std::vector<Candidate>& candidates);

@@ -82,7 +82,7 @@ private:
     void verdict()
     {
         page_.section("Verdict");
-        // `none` is no acquittal: it has no colour
+        // no colour for `none`: it does not show that the model is right
         const char* tone = d_.verdict == Verdict::none ? "" : d_.verdict == Verdict::named ? "warn" : "bad";
         const std::string said = verdict_words(d_);
         page_.box(tone, verdict_heading(d_), said);

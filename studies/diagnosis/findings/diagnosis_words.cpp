@@ -129,12 +129,10 @@ namespace {
 /// "friction of joint 0 x 0.63", "corner loss at joint 2, 0.2 m"
 std::string candidate_words(const Candidate& c)
 {
-    std::string kind = c.mechanism;
-    std::replace(kind.begin(), kind.end(), '_', ' ');
-    const std::string_view of_joint = "joint ";
-    std::string text = c.mechanism == "tie"         ? fmt::format("a force of unknown kind {}", place_words(c.place))
-                       : kind.starts_with(of_joint) ? fmt::format("{} of {}", kind.substr(of_joint.size()), c.place)
-                                                    : kind + " " + place_words(c.place);
+    std::string kind = c.mechanism == "tie" ? "a force of unknown kind" : c.mechanism;
+    std::ranges::replace(kind, '_', ' ');
+    const std::string text =
+        c.mechanism == "joint_friction" ? "friction of " + c.place : kind + " " + place_words(c.place);
     if (!c.size)
         return text;
     const std::string size = fmt::format("{:.3g}", *c.size);

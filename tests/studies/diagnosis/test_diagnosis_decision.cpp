@@ -93,14 +93,11 @@ TEST(Decision, NothingBeyondHealthyCampaignsIsNone)
 TEST(Decision, AnotherCauseIsSaidToBeBetterOnlyWhereOneIsNamed)
 {
     const auto why = [](const Decided& decided, std::size_t judged) {
-        return candidate_of(decided.judged[judged], Campaign{}, Decision::not_shown, true,
-                            better_than_candidates(decided))
-            .why;
+        return candidate_of(decided.judged[judged], Campaign{}, Decision::not_shown, true, decided).why;
     };
     const EnsembleDiagnosis none = ensemble_of(9, 8, 1);
     const Decided without = decide({}, {}, &none, {});
     ASSERT_EQ(without.verdict, Verdict::none);
-    EXPECT_EQ(better_than_candidates(without), Better::nothing);
     EXPECT_EQ(why(without, 1), "the p-value of the gain is 0.22"); // 22 of 101
 
     DirectResult direct; // a sensor explains other data
