@@ -165,8 +165,11 @@ TEST_F(Sensitivity, TellsWhatItsRowsSay)
             EXPECT_TRUE(same(table.find("total")->of.upper[i], again.of_mean[k].total.upper));
             EXPECT_TRUE(same(table.find("value_total")->of.lower[i], again.of_value[k].total.lower));
             const JsonValue& told = found["outcomes"][table.outcomes[outcome]]["factors"][table.factors[k]];
-            EXPECT_TRUE(std::isnan(again.of_value[k].first.value) ||
-                        told["value_first"]["value"].number == again.of_value[k].first.value);
+            const JsonValue& first = told["value_first"]["value"];
+            if (std::isnan(again.of_value[k].first.value))
+                EXPECT_EQ(first.kind, JsonValue::Kind::null);
+            else
+                EXPECT_EQ(first.number, again.of_value[k].first.value);
         }
         EXPECT_TRUE(same(table.find("value_total")->of.value[outcome * 7 + 6], again.of_value[6].total.value));
         EXPECT_TRUE(std::isnan(table.find("total")->of.value[outcome * 7 + 6]));

@@ -41,7 +41,7 @@ void DecisionVerbs::add_compare()
 void DecisionVerbs::add_past()
 {
     auto* past = app_.add_subcommand(
-        "past", "what several structures of one site tell of the shaking that all of them have been through");
+        "past", "the past shaking of a site, from the results of survival studies of several of its structures");
     past->add_option("RESULTS", files_, "results of survival studies, of two structures or more")->required();
     past->add_option("-o,--output", picture_, "picture of their likelihoods: .png, .svg or .pdf (default: none)");
     add_force(*past, options_);

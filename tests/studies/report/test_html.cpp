@@ -328,6 +328,7 @@ pga_m_s2 = { from = 1, to = 9, count = 3 }
     EXPECT_NE(fact(all, "Excitation").find("5 from 0.5 to 8 Hz"), std::string::npos);
     EXPECT_NE(fact(all, "Structure").find("7 drums: width"), std::string::npos);
     EXPECT_NE(fact(all, "Structure").find("1 capital: width 0.06 m"), std::string::npos);
+    EXPECT_EQ(fact(all, "Randomized"), "nothing");
     ResultRow row;
     row.frequency_hz = 2.375;
     row.pga_m_s2 = 5;
