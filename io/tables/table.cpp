@@ -121,4 +121,12 @@ std::uint64_t Table::count(const std::string& attribute) const
     return value<std::uint64_t>(attribute);
 }
 
+const Table& table_named(const std::vector<Table>& tables, const std::string& name, const std::string& file)
+{
+    const auto found = std::ranges::find(tables, name, &Table::name);
+    if (found == tables.end())
+        Table(name, file).refuse("the table " + name + " is missing");
+    return *found;
+}
+
 } // namespace stylobate

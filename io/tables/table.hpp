@@ -80,4 +80,7 @@ private:
     std::vector<Column> columns_;
 };
 
+/// @param file for messages   @throws InputError "FILE: is damaged" if there is no table of this name
+const Table& table_named(const std::vector<Table>& tables, const std::string& name, const std::string& file);
+
 } // namespace stylobate

@@ -288,13 +288,7 @@ std::vector<Table> tables_of(const Comparison& comparison)
 
 Comparison comparison_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const Table missing("comparison", file);
-    const auto named = [&](const std::string& name) -> const Table& {
-        const auto found = std::ranges::find_if(tables, [&](const Table& table) { return table.name() == name; });
-        if (found == tables.end())
-            missing.refuse("the table " + name + " is missing");
-        return *found;
-    };
+    const auto named = [&](const std::string& name) -> const Table& { return table_named(tables, name, file); };
     const Table& general = named("comparison");
     Comparison c;
     c.kind = general.text("study_kind");

@@ -45,7 +45,7 @@ StateChange change_of(const Comparison& comparison, const LimitComparison& limit
         found.base_share.push_back(cell.base.probability);
         found.variant_share.push_back(cell.variant.probability);
     }
-    found.probability.resize(options.years.size());
+    found.change.probability.resize(options.years.size());
     if (!has_pairs_everywhere(limit)) {
         found.determined = false;
         found.note = "At an intensity no pair of realizations is valid in both studies.";
@@ -54,20 +54,13 @@ StateChange change_of(const Comparison& comparison, const LimitComparison& limit
     ChangeOptions wanted;
     wanted.level = options.level;
     wanted.years = options.years;
-    const FrequencyChange change = frequency_change(pairs_of(comparison, limit), hazard, wanted);
-    found.base = change.base.frequency;
-    found.variant = change.variant.frequency;
-    found.base_unseen = change.base.unseen;
-    found.variant_unseen = change.variant.unseen;
-    found.frequency = change.frequency;
-    found.ratio = change.ratio;
-    found.probability = change.probability;
-    for (const auto& [name, of] : {std::pair{"base", &change.base}, {"variant", &change.variant}})
+    found.change = frequency_change(pairs_of(comparison, limit), hazard, wanted);
+    for (const auto& [name, of] : {std::pair{"base", &found.change.base}, {"variant", &found.change.variant}})
         if (const std::string why = why_undetermined(*of, options.most_outside); !why.empty() && found.determined) {
             found.determined = false;
             found.note = fmt::format("{}: {}", name, why);
         }
-    if (found.determined && change.few)
+    if (found.determined && found.change.few)
         found.note = "Few motions show a change: the limits allow for a further motion that has the largest one.";
     return found;
 }
@@ -76,10 +69,10 @@ StateChange change_of(const Comparison& comparison, const LimitComparison& limit
 
 const char* StateChange::verdict() const
 {
-    return !determined                 ? "not determined"
-           : frequency.total.upper < 0 ? "lower"
-           : frequency.total.lower > 0 ? "higher"
-                                       : "undecided";
+    return !determined                        ? "not determined"
+           : change.frequency.total.upper < 0 ? "lower"
+           : change.frequency.total.lower > 0 ? "higher"
+                                              : "undecided";
 }
 
 const StateChange& VariantChange::principal() const

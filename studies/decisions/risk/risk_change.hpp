@@ -16,13 +16,10 @@ struct Comparison;
 /// One limit state of one variant. Frequencies are by the shares of the stripes, in both structures.
 struct StateChange {
     std::string state, meaning;
-    bool damage = true;       ///< whether more of it is worse
-    bool determined = true;   ///< otherwise too much comes from outside of the intensities of the study or the hazard
-    std::string note;         ///< why it is not determined, and what else must be known
-    RiskNumber base, variant; ///< [1/year]
-    double base_unseen = 0, variant_unseen = 0;    ///< not excluded where no run reached it, in no interval [1/year]
-    ChangeNumber frequency, ratio;                 ///< variant - base [1/year], variant / base
-    std::vector<ChangeNumber> probability;         ///< (years) variant - base
+    bool damage = true;     ///< whether more of it is worse
+    bool determined = true; ///< otherwise too much comes from outside of the intensities of the study or the hazard
+    std::string note;       ///< why it is not determined, and what else must be known
+    FrequencyChange change; ///< of a file that was read: without the parts of base and variant
     std::vector<double> base_share, variant_share; ///< (stripes)
 
     /// "lower", "higher", "undecided" or "not determined", by the limits of the change of the frequency.

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace stylobate {
 
@@ -39,35 +38,6 @@ Table change_table(const RiskChange& change)
     return table;
 }
 
-/// NAME, and its limits by the motions and by motions and hazard.
-void add_change(Table& table, const std::string& name, const std::vector<ChangeNumber>& numbers,
-                const Table::Shape& shape, const std::string& unit)
-{
-    const auto column = [&](const char* ending, auto&& of) {
-        std::vector<double> values;
-        for (const ChangeNumber& n : numbers)
-            values.push_back(of(n));
-        table.add(name + ending, std::move(values), shape, unit);
-    };
-    column("", [](const ChangeNumber& n) { return n.value; });
-    column("_lower", [](const ChangeNumber& n) { return n.total.lower; });
-    column("_upper", [](const ChangeNumber& n) { return n.total.upper; });
-    column("_fragility_lower", [](const ChangeNumber& n) { return n.fragility.lower; });
-    column("_fragility_upper", [](const ChangeNumber& n) { return n.fragility.upper; });
-}
-
-std::vector<ChangeNumber> changes_of(const Table& table, const std::string& name, const Table::Shape& shape)
-{
-    const auto &value = table.numbers(name, shape), &lower = table.numbers(name + "_lower", shape),
-               &upper = table.numbers(name + "_upper", shape),
-               &fragility_lower = table.numbers(name + "_fragility_lower", shape),
-               &fragility_upper = table.numbers(name + "_fragility_upper", shape);
-    std::vector<ChangeNumber> numbers;
-    for (std::size_t i = 0; i < value.size(); ++i)
-        numbers.push_back({value[i], {fragility_lower[i], fragility_upper[i]}, {lower[i], upper[i]}});
-    return numbers;
-}
-
 /// A row for each limit state of each variant.
 Table changes_table(const RiskChange& change)
 {
@@ -86,12 +56,12 @@ Table changes_table(const RiskChange& change)
             verdicts.emplace_back(s.verdict());
             damage.push_back(s.damage);
             determined.push_back(s.determined);
-            base.push_back(s.base);
-            other.push_back(s.variant);
-            base_unseen.push_back(s.base_unseen);
-            variant_unseen.push_back(s.variant_unseen);
-            frequency.push_back(s.frequency);
-            ratio.push_back(s.ratio);
+            base.push_back(s.change.base.frequency);
+            other.push_back(s.change.variant.frequency);
+            base_unseen.push_back(s.change.base.unseen);
+            variant_unseen.push_back(s.change.variant.unseen);
+            frequency.push_back(s.change.frequency);
+            ratio.push_back(s.change.ratio);
         }
     const std::size_t n = states.size();
     Table table("changes");
@@ -104,8 +74,8 @@ Table changes_table(const RiskChange& change)
     table.add("verdict", std::move(verdicts));
     add_numbers(table, "base_annual_frequency", base);
     add_numbers(table, "variant_annual_frequency", other);
-    add_change(table, "change", frequency, {n}, "1/year");
-    add_change(table, "ratio", ratio, {n}, "");
+    add_numbers(table, "change", frequency);
+    add_numbers(table, "ratio", ratio, "");
     table.add("base_unseen_annual_frequency", std::move(base_unseen), {n}, "1/year");
     table.add("variant_unseen_annual_frequency", std::move(variant_unseen), {n}, "1/year");
     table.add("note", std::move(notes));
@@ -130,13 +100,13 @@ Table years_table(const RiskChange& change)
         for (const StateChange& s : variant.states) {
             ++rows;
             years.insert(years.end(), change.years.begin(), change.years.end());
-            probability.insert(probability.end(), s.probability.begin(), s.probability.end());
+            probability.insert(probability.end(), s.change.probability.begin(), s.change.probability.end());
         }
     Table table("over_years");
     const Table::Shape shape{years.size()};
     table.add("row", rows_of(rows, change.years.size()), shape);
     table.add("years", std::move(years), shape, "year");
-    add_change(table, "probability_change", probability, shape, "");
+    add_numbers(table, "probability_change", probability, "");
     return table;
 }
 
@@ -170,10 +140,11 @@ void read_states(const Table& table, const Table& over_years, const Table& share
     const std::size_t n = names.size(), years = change.years.size(), stripes = change.intensity.size();
     const auto &variant = table.integers("variant", shape), &damage = table.integers("damage", shape),
                &determined = table.integers("determined", shape);
-    const auto base = numbers_of(table, "base_annual_frequency", shape),
-               other = numbers_of(table, "variant_annual_frequency", shape);
-    const auto frequency = changes_of(table, "change", shape), ratio = changes_of(table, "ratio", shape),
-               probability = changes_of(over_years, "probability_change", {n * years});
+    const auto base = numbers_of<RiskNumber>(table, "base_annual_frequency", shape),
+               other = numbers_of<RiskNumber>(table, "variant_annual_frequency", shape);
+    const auto frequency = numbers_of<ChangeNumber>(table, "change", shape),
+               ratio = numbers_of<ChangeNumber>(table, "ratio", shape),
+               probability = numbers_of<ChangeNumber>(over_years, "probability_change", {n * years});
     const auto &base_unseen = table.numbers("base_unseen_annual_frequency", shape),
                &variant_unseen = table.numbers("variant_unseen_annual_frequency", shape),
                &base_share = shares.numbers("base_share", {n * stripes}),
@@ -185,10 +156,22 @@ void read_states(const Table& table, const Table& over_years, const Table& share
     for (std::size_t i = 0; i < n; ++i) {
         if (variant[i] < 0 || static_cast<std::size_t>(variant[i]) >= change.variants.size())
             table.refuse("a row is of no variant");
-        change.variants[static_cast<std::size_t>(variant[i])].states.push_back(
-            {names[i], meanings[i], damage[i] != 0, determined[i] != 0, notes[i], base[i], other[i], base_unseen[i],
-             variant_unseen[i], frequency[i], ratio[i], part(probability, i, years), part(base_share, i, stripes),
-             part(variant_share, i, stripes)});
+        StateChange state{names[i],
+                          meanings[i],
+                          damage[i] != 0,
+                          determined[i] != 0,
+                          notes[i],
+                          {},
+                          part(base_share, i, stripes),
+                          part(variant_share, i, stripes)};
+        state.change.base.frequency = base[i];
+        state.change.base.unseen = base_unseen[i];
+        state.change.variant.frequency = other[i];
+        state.change.variant.unseen = variant_unseen[i];
+        state.change.frequency = frequency[i];
+        state.change.ratio = ratio[i];
+        state.change.probability = part(probability, i, years);
+        change.variants[static_cast<std::size_t>(variant[i])].states.push_back(std::move(state));
     }
     for (const VariantChange& v : change.variants)
         if (v.states.empty())
@@ -205,29 +188,19 @@ std::vector<Table> tables_of(const RiskChange& change)
 
 RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const Table missing("risk_change", file);
-    const auto named = [&](const char* name) -> const Table& {
-        const auto found = std::ranges::find(tables, name, &Table::name);
-        if (found == tables.end())
-            missing.refuse(fmt::format("the table {} is missing", name));
-        return *found;
-    };
+    const auto named = [&](const char* name) -> const Table& { return table_named(tables, name, file); };
     const Table& general = named("risk_change");
     RiskChange change;
     change.title = general.text("title");
     change.comparison_file = general.text("comparison_file");
     change.base_name = general.text("base");
-    change.level = general.number("level");
+    change.level = level_of(general, "level");
     change.most_outside = general.number("most_outside");
     change.motions = general.count("motions");
     change.code_version = general.text("code_version");
     change.says = general.texts("notes");
-    change.years = general.numbers("years", general.shape("years"));
+    change.years = years_of(general);
     change.intensity = general.numbers("intensity", general.shape("intensity"));
-    if (!(change.level > 0 && change.level < 1))
-        general.refuse("the level of its intervals is not between 0 and 1");
-    if (change.years.empty() || !std::ranges::all_of(change.years, [](double y) { return y > 0 && std::isfinite(y); }))
-        general.refuse("its years are not above 0 and finite");
     if (change.intensity.size() < 2)
         general.refuse("it has fewer than two intensities");
     const std::vector<std::string>&names = general.texts("variants"), &results = general.texts("variant_results");

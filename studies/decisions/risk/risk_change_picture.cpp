@@ -54,7 +54,7 @@ void plot_risk_change(const RiskChange& change, const std::string& state, const 
         data += shares_block(fmt::format("variant{}", v), change.intensity, s.variant_share);
         curves += ", " + line(fmt::format("variant{}", v), v + 1, variant.name);
         tics += fmt::format("{}{} {}", v > 0 ? ", " : "", gnuplot_text(variant.name), v);
-        if (const ChangeNumber& p = s.probability.back(); s.determined)
+        if (const ChangeNumber& p = s.change.probability.back(); s.determined)
             changes += fmt::format("{} {} {} {}\n", v, 100 * p.value, 100 * p.total.lower, 100 * p.total.upper);
     }
     if (changes.ends_with("EOD\n"))

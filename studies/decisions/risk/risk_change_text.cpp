@@ -40,17 +40,19 @@ std::string state_text(const RiskChange& change, const VariantChange& variant, c
     std::string text = fmt::format("  {} ({}): {}\n", s.state, s.meaning, s.verdict());
     if (!s.determined)
         return text + "    " + s.note + "\n";
-    text += fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
-                        frequency_text(s.base), variant.name, frequency_text(s.variant), change_text(s.frequency),
-                        ratio_text(s.ratio));
+    text +=
+        fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
+                    frequency_text(s.change.base.frequency), variant.name, frequency_text(s.change.variant.frequency),
+                    change_text(s.change.frequency), ratio_text(s.change.ratio));
     for (std::size_t i = 0; i < change.years.size(); ++i)
-        text += fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
-                            change.base_name, over_text(s.base, change.years[i]), variant.name,
-                            over_text(s.variant, change.years[i]), points_text(s.probability[i]));
-    if (s.base_unseen > 0 || s.variant_unseen > 0)
+        text +=
+            fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
+                        change.base_name, over_text(s.change.base.frequency, change.years[i]), variant.name,
+                        over_text(s.change.variant.frequency, change.years[i]), points_text(s.change.probability[i]));
+    if (s.change.base.unseen > 0 || s.change.variant.unseen > 0)
         text += fmt::format("    not excluded where no run reached it, and in no interval: {} {:.2g} a year, {} {:.2g} "
                             "a year\n",
-                            change.base_name, s.base_unseen, variant.name, s.variant_unseen);
+                            change.base_name, s.change.base.unseen, variant.name, s.change.variant.unseen);
     if (!s.note.empty())
         text += "    " + s.note + "\n";
     return text;
@@ -89,19 +91,19 @@ Json json_of(const StateChange& s, const std::vector<double>& years)
         .member("note", s.note);
     if (!s.determined)
         return json;
-    json.member("base_1_year", limits_json(s.base))
-        .member("variant_1_year", limits_json(s.variant))
-        .member("change_1_year", json_of(s.frequency))
-        .member("ratio", json_of(s.ratio))
-        .member("base_unseen_1_year", s.base_unseen)
-        .member("variant_unseen_1_year", s.variant_unseen);
+    json.member("base_1_year", limits_json(s.change.base.frequency))
+        .member("variant_1_year", limits_json(s.change.variant.frequency))
+        .member("change_1_year", json_of(s.change.frequency))
+        .member("ratio", json_of(s.change.ratio))
+        .member("base_unseen_1_year", s.change.base.unseen)
+        .member("variant_unseen_1_year", s.change.variant.unseen);
     Json over = Json::list();
     for (std::size_t i = 0; i < years.size(); ++i)
         over.item(Json::object()
                       .member("years", years[i])
-                      .member("base", limits_json(probability_over(s.base, years[i])))
-                      .member("variant", limits_json(probability_over(s.variant, years[i])))
-                      .member("change", json_of(s.probability[i])));
+                      .member("base", limits_json(probability_over(s.change.base.frequency, years[i])))
+                      .member("variant", limits_json(probability_over(s.change.variant.frequency, years[i])))
+                      .member("change", json_of(s.change.probability[i])));
     return json.member("over_years", over);
 }
 
@@ -155,8 +157,9 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
     const std::string verdict = s.verdict();
     return fmt::format("In {:g} years the limit state '{}' is reached with a probability of {} in {} and of {} with "
                        "{}: a change of {} ({:g} % interval). {}",
-                       years, s.meaning, over_text(s.base, years), change.base_name, over_text(s.variant, years),
-                       variant.name, points_text(s.probability.back()), 100 * change.level,
+                       years, s.meaning, over_text(s.change.base.frequency, years), change.base_name,
+                       over_text(s.change.variant.frequency, years), variant.name,
+                       points_text(s.change.probability.back()), 100 * change.level,
                        verdict == "undecided" ? "The sign of the change is undecided."
                                               : "The risk is " + verdict + ".");
 }
@@ -193,10 +196,10 @@ HtmlPage risk_change_page(const RiskChange& change, const std::string& file, con
         for (const StateChange& s : variant.states) {
             std::vector<Html> row{s.meaning};
             if (s.determined) {
-                row.emplace_back(frequency_text(s.base));
-                row.emplace_back(frequency_text(s.variant));
-                row.emplace_back(change_text(s.frequency));
-                for (const ChangeNumber& p : s.probability)
+                row.emplace_back(frequency_text(s.change.base.frequency));
+                row.emplace_back(frequency_text(s.change.variant.frequency));
+                row.emplace_back(change_text(s.change.frequency));
+                for (const ChangeNumber& p : s.change.probability)
                     row.emplace_back(points_text(p));
             }
             row.resize(table.head.size() - 1);
@@ -210,11 +213,11 @@ HtmlPage risk_change_page(const RiskChange& change, const std::string& file, con
         for (const StateChange& s : variant.states) {
             if (!s.note.empty())
                 notes.emplace_back(fmt::format("{}, {}: {}", variant.name, s.state, s.note));
-            if (s.determined && (s.base_unseen > 0 || s.variant_unseen > 0))
+            if (s.determined && (s.change.base.unseen > 0 || s.change.variant.unseen > 0))
                 notes.emplace_back(fmt::format("{}, {}: not excluded at intensities where no run reached it, and in no "
                                                "interval: {:.2g} a year in {}, {:.2g} with {}.",
-                                               variant.name, s.state, s.base_unseen, change.base_name, s.variant_unseen,
-                                               variant.name));
+                                               variant.name, s.state, s.change.base.unseen, change.base_name,
+                                               s.change.variant.unseen, variant.name));
         }
     notes.insert(notes.end(), change.says.begin(), change.says.end());
     if (!notes.empty()) {

@@ -38,16 +38,11 @@ Risk general_of(const Table& table)
     risk.title = table.text("title");
     risk.fragility_file = table.text("fragility_file");
     risk.study_text = table.text("study_toml");
-    risk.level = table.number("level");
-    risk.fragility_level = table.number("fragility_level");
+    risk.level = level_of(table, "level");
+    risk.fragility_level = level_of(table, "fragility_level");
     risk.most_outside = table.number("most_outside");
     risk.code_version = table.text("code_version");
-    risk.years = table.numbers("years", table.shape("years"));
-    if (risk.years.empty() || !std::ranges::all_of(risk.years, [](double y) { return y > 0 && std::isfinite(y); }))
-        table.refuse("its years are not above 0 and finite");
-    for (const double level : {risk.level, risk.fragility_level})
-        if (!(level > 0 && level < 1))
-            table.refuse("a level of its intervals is not between 0 and 1");
+    risk.years = years_of(table);
     risk.says = table.texts("notes");
     return risk;
 }
@@ -140,7 +135,7 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
     if (meanings.size() != names.size() || forms.size() != names.size() || notes.size() != names.size())
         states.refuse("its lists of states differ in length");
     const auto &chosen = states.integers("chosen", shape), &determined = states.integers("determined", shape);
-    const std::vector<RiskNumber> frequency = numbers_of(states, "annual_frequency", shape);
+    const std::vector<RiskNumber> frequency = numbers_of<RiskNumber>(states, "annual_frequency", shape);
     const auto &below = states.numbers("share_below", shape), &above = states.numbers("share_above", shape),
                &beyond = states.numbers("share_beyond_hazard", shape),
                &lowest = states.numbers("lowest_annual_frequency", shape),
@@ -170,7 +165,7 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
     const Table::Shape all = parts.shape("row");
     const auto& rows = parts.integers("row", all);
     const auto &from = parts.numbers("from", all), &to = parts.numbers("to", all);
-    const std::vector<RiskNumber> numbers = numbers_of(parts, "annual_frequency", all);
+    const std::vector<RiskNumber> numbers = numbers_of<RiskNumber>(parts, "annual_frequency", all);
     for (std::size_t i = 0; i < rows.size(); ++i)
         state(parts, rows[i]).estimate.parts.push_back({from[i], to[i], numbers[i]});
     for (const StateRisk& s : found)
@@ -268,21 +263,14 @@ std::vector<Table> tables_of(const Risk& risk)
 
 Risk risk_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const Table missing("risk", file);
-    const auto find = [&](const char* name) { return std::ranges::find(tables, name, &Table::name); };
-    const auto named = [&](const char* name) -> const Table& {
-        const auto found = find(name);
-        if (found == tables.end())
-            missing.refuse(fmt::format("the table {} is missing", name));
-        return *found;
-    };
+    const auto named = [&](const char* name) -> const Table& { return table_named(tables, name, file); };
     Risk risk = general_of(named("risk"));
     risk.hazard = hazard_of(named("hazard"));
     risk.states = states_of(named("states"), named("disaggregation"), named("fragility"), risk.hazard.measure);
     if (risk.chosen().empty())
-        missing.refuse("it has no limit state");
-    if (const auto found = find("sequences"); found != tables.end())
-        risk.sequences = sequences_of(*found);
+        named("states").refuse("it has no limit state");
+    if (std::ranges::find(tables, "sequences", &Table::name) != tables.end())
+        risk.sequences = sequences_of(named("sequences"));
     return risk;
 }
 

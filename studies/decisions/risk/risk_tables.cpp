@@ -5,47 +5,83 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
 namespace stylobate {
 
-/// The columns of a number with all its limits.
-void add_numbers(Table& table, const std::string& name, const std::vector<RiskNumber>& numbers)
+namespace {
+
+/// Every number of it, by the ending of its column: written and read by one list.
+template <class Number, class Each>
+void for_each_number(Each&& each)
 {
-    const auto column = [&](const std::string& ending, auto&& of) {
-        std::vector<double> values;
-        for (const RiskNumber& n : numbers)
-            values.push_back(of(n));
-        table.add(name + ending, std::move(values), {numbers.size()}, "1/year");
-    };
-    column("", [](const RiskNumber& n) { return n.value; });
-    column("_lower", [](const RiskNumber& n) { return n.total.lower; });
-    column("_upper", [](const RiskNumber& n) { return n.total.upper; });
-    column("_fragility_lower", [](const RiskNumber& n) { return n.fragility.lower; });
-    column("_fragility_upper", [](const RiskNumber& n) { return n.fragility.upper; });
-    column("_hazard_lower", [](const RiskNumber& n) { return n.hazard.lower; });
-    column("_hazard_upper", [](const RiskNumber& n) { return n.hazard.upper; });
-    std::vector<double> parts;
-    for (const RiskNumber& n : numbers)
-        parts.push_back(n.fragility_part);
-    table.add(name + "_fragility_part", std::move(parts));
+    each(
+        "", [](auto& n) -> auto& { return n.value; });
+    each(
+        "_lower", [](auto& n) -> auto& { return n.total.lower; });
+    each(
+        "_upper", [](auto& n) -> auto& { return n.total.upper; });
+    each(
+        "_fragility_lower", [](auto& n) -> auto& { return n.fragility.lower; });
+    each(
+        "_fragility_upper", [](auto& n) -> auto& { return n.fragility.upper; });
+    if constexpr (std::is_same_v<Number, RiskNumber>) {
+        each(
+            "_hazard_lower", [](auto& n) -> auto& { return n.hazard.lower; });
+        each(
+            "_hazard_upper", [](auto& n) -> auto& { return n.hazard.upper; });
+        each(
+            "_fragility_part", [](auto& n) -> auto& { return n.fragility_part; });
+    }
 }
 
-std::vector<RiskNumber> numbers_of(const Table& table, const std::string& name, const Table::Shape& shape)
+} // namespace
+
+template <class Number>
+void add_numbers(Table& table, const std::string& name, const std::vector<Number>& numbers, const std::string& unit)
 {
-    const auto column = [&](const char* ending) -> const std::vector<double>& {
-        return table.numbers(name + ending, shape);
-    };
-    const auto &value = column(""), &lower = column("_lower"), &upper = column("_upper"),
-               &fragility_lower = column("_fragility_lower"), &fragility_upper = column("_fragility_upper"),
-               &hazard_lower = column("_hazard_lower"), &hazard_upper = column("_hazard_upper"),
-               &part = column("_fragility_part");
-    std::vector<RiskNumber> numbers;
-    for (std::size_t i = 0; i < value.size(); ++i)
-        numbers.push_back({value[i],
-                           {lower[i], upper[i]},
-                           {fragility_lower[i], fragility_upper[i]},
-                           {hazard_lower[i], hazard_upper[i]},
-                           part[i]});
+    for_each_number<Number>([&](const std::string& ending, auto&& of) {
+        std::vector<double> values;
+        for (const Number& n : numbers)
+            values.push_back(of(n));
+        table.add(name + ending, std::move(values), {numbers.size()}, ending == "_fragility_part" ? "" : unit);
+    });
+}
+template void add_numbers(Table&, const std::string&, const std::vector<RiskNumber>&, const std::string&);
+template void add_numbers(Table&, const std::string&, const std::vector<ChangeNumber>&, const std::string&);
+
+template <class Number>
+std::vector<Number> numbers_of(const Table& table, const std::string& name, const Table::Shape& shape)
+{
+    std::vector<Number> numbers;
+    for_each_number<Number>([&](const std::string& ending, auto&& of) {
+        const std::vector<double>& values = table.numbers(name + ending, shape);
+        numbers.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            of(numbers[i]) = values[i];
+    });
     return numbers;
+}
+template std::vector<RiskNumber> numbers_of(const Table&, const std::string&, const Table::Shape&);
+template std::vector<ChangeNumber> numbers_of(const Table&, const std::string&, const Table::Shape&);
+
+double level_of(const Table& table, const char* name)
+{
+    const double level = table.number(name);
+    if (!(level > 0 && level < 1))
+        table.refuse("a level of its intervals is not between 0 and 1");
+    return level;
+}
+
+std::vector<double> years_of(const Table& table)
+{
+    const std::vector<double>& years = table.numbers("years", table.shape("years"));
+    if (years.empty() || !std::ranges::all_of(years, [](double y) { return y > 0 && std::isfinite(y); }))
+        table.refuse("its years are not above 0 and finite");
+    return years;
 }
 
 Table hazard_table(const HazardModel& hazard)

@@ -139,7 +139,7 @@ TEST_F(DecisionFiles, ARiskOfAComparisonWithoutMeaningIsRefused)
         EXPECT_NE(message.find(why), std::string::npos) << message;
     };
     refused([](RiskChange& c) { c.years = {50, NAN}; }, "its years");
-    refused([](RiskChange& c) { c.level = 0; }, "the level of its intervals");
+    refused([](RiskChange& c) { c.level = 0; }, "a level of its intervals");
     refused([](RiskChange& c) { c.variants[1].states.clear(); }, "a variant has no limit state");
     refused([](RiskChange& c) { c.variants.clear(); }, "its variants are no list");
     refused([](RiskChange& c) { c.hazard.frequency[1] = 1; }, "its hazard is none");
@@ -169,7 +169,7 @@ TEST_F(DecisionFiles, OnlyComparisonsOfFragilityStudiesHaveARisk)
     const RiskChange change = risk_change_of(sample_comparison(true), "c.h5", hazard, options);
     ASSERT_EQ(change.variants.size(), 2U);
     ASSERT_EQ(change.variants[0].states.size(), 1U);
-    EXPECT_EQ(change.variants[0].states[0].probability.size(), 2U);
+    EXPECT_EQ(change.variants[0].states[0].change.probability.size(), 2U);
 }
 
 TEST_F(DecisionFiles, EveryChangedByteOfARiskEstimateIsFound)
