@@ -56,6 +56,12 @@ struct Risk {
 /// determined.
 std::string why_undetermined(const FrequencyEstimate& estimate, double most_outside);
 
+/// @throws InputError for a limit state that is asked for and is not among these   @param of "the study"
+void check_state(const std::string& state, const std::vector<std::string>& names, const std::string& of);
+
+/// What a reader must know of a hazard, in sentences.
+std::vector<std::string> hazard_notes(const HazardModel& hazard);
+
 /// Of each limit state both forms where the data bear them. The lognormal curve is chosen where it fits (lack of fit, p
 /// of at least 0.05) or where there are no stripes, else the shares.
 /// @throws InputError for an unknown limit state, and where no limit state has an estimate

@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "io/files/suggest.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 
 #include <fmt/format.h>
@@ -116,9 +115,7 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
     change.years = options.years;
     change.intensity = comparison.intensity;
     change.motions = comparison.motions;
-    change.says = hazard.says;
-    if (hazard.fractiles.empty())
-        change.says.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
+    change.says = hazard_notes(hazard);
     for (const VariantComparison& variant : comparison.variants) {
         VariantChange of{variant.name, variant.results, {}};
         std::vector<const LimitComparison*> wanted;
@@ -128,12 +125,7 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
             if (options.state.empty() || options.state == limit.name)
                 wanted.push_back(&limit);
         }
-        if (wanted.empty()) {
-            const std::string meant = nearest_word(options.state, names);
-            throw InputError(fmt::format("--state {}: is no limit state of {} with {}; there are {}.{}", options.state,
-                                         file, variant.name, fmt::join(names, ", "),
-                                         meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
-        }
+        check_state(options.state, names, file + " with " + variant.name);
         of.states.resize(wanted.size());
         in_parallel(std::size_t{0}, wanted.size(),
                     [&](std::size_t i) { of.states[i] = change_of(comparison, *wanted[i], hazard, options); });

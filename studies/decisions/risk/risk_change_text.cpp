@@ -29,12 +29,6 @@ std::string ratio_text(const ChangeNumber& n)
                : std::string("not determined");
 }
 
-std::string over_text(const RiskNumber& frequency, double years)
-{
-    const RiskNumber p = probability_over(frequency, years);
-    return percent_text(p.value, p.total);
-}
-
 std::string state_text(const RiskChange& change, const VariantChange& variant, const StateChange& s)
 {
     std::string text = fmt::format("  {} ({}): {}\n", s.state, s.meaning, s.verdict());
@@ -111,9 +105,8 @@ Json json_of(const StateChange& s, const std::vector<double>& years)
 
 std::string risk_change_text(const RiskChange& change)
 {
-    std::string text = fmt::format("{}: change of risk by {} and the hazard {}{}, {:g} % intervals\n", change.title,
-                                   change.comparison_file, change.hazard.source,
-                                   change.hazard.site.empty() ? "" : " at " + change.hazard.site, 100 * change.level);
+    std::string text = fmt::format("{}: change of risk by {} and the hazard {}, {:g} % intervals\n", change.title,
+                                   change.comparison_file, hazard_text(change.hazard), 100 * change.level);
     text += intervals_text(change) + "\nEach earthquake meets the structure as new; years are of a Poisson process.\n";
     for (const VariantChange& variant : change.variants) {
         text += variant.name + "\n";
@@ -167,9 +160,8 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
 HtmlPage risk_change_page(const RiskChange& change, const std::string& file, const std::string& title)
 {
     HtmlPage page(title.empty() ? "Change of risk: " + change.title : title,
-                  fmt::format("Comparison {}, hazard {}{}. Made by stylobate {}.", change.comparison_file,
-                              change.hazard.source, change.hazard.site.empty() ? "" : " at " + change.hazard.site,
-                              change.code_version));
+                  fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,
+                              hazard_text(change.hazard), change.code_version));
     page.section("The answer");
     for (const VariantChange& variant : change.variants) {
         const StateChange& s = variant.principal();

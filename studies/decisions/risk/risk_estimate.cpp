@@ -121,6 +121,23 @@ std::string why_undetermined(const FrequencyEstimate& e, double most_outside)
     return "";
 }
 
+void check_state(const std::string& state, const std::vector<std::string>& names, const std::string& of)
+{
+    if (state.empty() || std::ranges::find(names, state) != names.end())
+        return;
+    const std::string meant = nearest_word(state, names);
+    throw InputError(fmt::format("--state {}: is no limit state of {}; it has {}.{}", state, of, fmt::join(names, ", "),
+                                 meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
+}
+
+std::vector<std::string> hazard_notes(const HazardModel& hazard)
+{
+    std::vector<std::string> notes = hazard.says;
+    if (hazard.fractiles.empty())
+        notes.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
+    return notes;
+}
+
 Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOptions& options)
 {
     std::vector<const StateFragility*> wanted;
@@ -130,12 +147,7 @@ Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOp
         if (options.state.empty() || options.state == s.state.name)
             wanted.push_back(&s);
     }
-    if (wanted.empty() && !options.state.empty()) {
-        const std::string meant = nearest_word(options.state, names);
-        throw InputError(fmt::format("--state {}: is no limit state of the study; it has {}.{}", options.state,
-                                     fmt::join(names, ", "),
-                                     meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
-    }
+    check_state(options.state, names, "the study");
     Risk risk;
     risk.hazard = hazard;
     risk.level = options.level;
@@ -144,9 +156,8 @@ Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOp
     risk.says = fragility.says;
     if (fragility.invalid > 0)
         risk.says.push_back(fmt::format("{} invalid realizations are left out.", fragility.invalid));
-    risk.says.insert(risk.says.end(), hazard.says.begin(), hazard.says.end());
-    if (hazard.fractiles.empty())
-        risk.says.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
+    for (std::string& note : hazard_notes(hazard))
+        risk.says.push_back(std::move(note));
     std::vector<std::vector<StateRisk>> found(wanted.size());
     in_parallel(std::size_t{0}, wanted.size(),
                 [&](std::size_t i) { found[i] = risks_of(*wanted[i], hazard, options); });

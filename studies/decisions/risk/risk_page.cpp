@@ -109,10 +109,8 @@ void add_result(const Risk& risk, HtmlPage& page)
         std::vector<Html> row{s->meaning, to_string(s->form)};
         if (s->determined) {
             row.emplace_back(frequency_text(s->estimate.frequency));
-            for (const double years : risk.years) {
-                const RiskNumber p = probability_over(s->estimate.frequency, years);
-                row.emplace_back(percent_text(p.value, p.total));
-            }
+            for (const double years : risk.years)
+                row.emplace_back(over_text(s->estimate.frequency, years));
             const double part = s->estimate.frequency.fragility_part;
             row.emplace_back(std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part));
         } else {
@@ -189,9 +187,8 @@ std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
 HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string& title)
 {
     HtmlPage page(title.empty() ? "Risk: " + risk.title : title,
-                  fmt::format("Fragility of {}, hazard {}{}. Made by stylobate {}.", risk.fragility_file,
-                              risk.hazard.source, risk.hazard.site.empty() ? "" : " at " + risk.hazard.site,
-                              risk.code_version));
+                  fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
+                              hazard_text(risk.hazard), risk.code_version));
     page.section("The answer");
     page.box(risk.principal().determined ? "good" : "warn", risk.principal().meaning, risk_answer(risk));
     page.paragraph(risk_grounds(risk));

@@ -28,10 +28,8 @@ std::string table_text(const Risk& risk)
             continue;
         }
         text += fmt::format("{:<34}", frequency_text(s->estimate.frequency));
-        for (const double years : risk.years) {
-            const RiskNumber p = probability_over(s->estimate.frequency, years);
-            text += fmt::format(" {:<26}", percent_text(p.value, p.total));
-        }
+        for (const double years : risk.years)
+            text += fmt::format(" {:<26}", over_text(s->estimate.frequency, years));
         text += fmt::format(" {}\n", part_text(s->estimate.frequency.fragility_part));
     }
     return text;
@@ -187,6 +185,17 @@ std::string percent_text(double value, const Limits& limits)
     return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * value, 100 * limits.lower, 100 * limits.upper);
 }
 
+std::string over_text(const RiskNumber& frequency, double years)
+{
+    const RiskNumber p = probability_over(frequency, years);
+    return percent_text(p.value, p.total);
+}
+
+std::string hazard_text(const HazardModel& hazard)
+{
+    return hazard.site.empty() ? hazard.source : hazard.source + " at " + hazard.site;
+}
+
 std::string bounds_text(const Limits& bounds)
 {
     const std::string low = fmt::format("{:.2g}", bounds.lower), high = fmt::format("{:.2g}", bounds.upper);
@@ -219,9 +228,8 @@ std::string range_text(const FrequencyPart& part)
 
 std::string risk_text(const Risk& risk)
 {
-    std::string text =
-        fmt::format("{}: limit states of {} by the hazard {}{}, {:g} % intervals\n", risk.title, risk.fragility_file,
-                    risk.hazard.source, risk.hazard.site.empty() ? "" : " at " + risk.hazard.site, 100 * risk.level);
+    std::string text = fmt::format("{}: limit states of {} by the hazard {}, {:g} % intervals\n", risk.title,
+                                   risk.fragility_file, hazard_text(risk.hazard), 100 * risk.level);
     text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
     text += table_text(risk) + parts_text(risk);
     for (const StateRisk* s : risk.chosen())

@@ -18,6 +18,12 @@ Json risk_json(const Risk& risk);
 /// "0.31 % (0.22 to 0.45)" of a probability or a share.
 std::string percent_text(double value, const Limits& limits);
 
+/// The same of the probability over years that a frequency gives.
+std::string over_text(const RiskNumber& frequency, double years);
+
+/// "hazard.csv at 23.7,37.9".
+std::string hazard_text(const HazardModel& hazard);
+
 /// "9e-05 to 0.02", or "at least 9e-05" where there is no upper one.
 std::string bounds_text(const Limits& bounds);
 
