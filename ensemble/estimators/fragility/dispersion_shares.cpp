@@ -181,34 +181,29 @@ Limits within(const Limits& set, double estimate)
     return cut.lower <= 0 && cut.upper >= 1 ? Limits{} : cut;
 }
 
-/// The variances that are nearest to the estimates and none of which is negative: half differences that do not increase
-/// from a level to the next one below, by pooling neighbours (Ayer & others 1955, as in stripe_shares.cpp).
+/// The variances that are nearest to the estimates and none of which is negative: of half differences that do not
+/// increase from a level to the next one below, the least over the levels above of the largest mean of a row of levels
+/// (Ayer & others 1955, as in stripe_shares.cpp).
 Components possible(const Differences& differences, const std::array<bool, dispersion_levels>& known)
 {
-    struct Pool {
-        double sum, levels;
-        double mean() const { return sum / levels; }
-    };
-    std::vector<Pool> pools;
-    for (std::size_t l = 0; l < dispersion_levels; ++l) {
-        if (!known[l])
-            continue;
-        pools.push_back({std::max(differences[l], 0.0), 1});
-        while (pools.size() > 1 && pools[pools.size() - 2].mean() < pools.back().mean()) {
-            const Pool last = pools.back();
-            pools.pop_back();
-            pools.back() = {pools.back().sum + last.sum, pools.back().levels + last.levels};
+    std::vector<std::size_t> levels;
+    for (std::size_t l = 0; l < dispersion_levels; ++l)
+        if (known[l])
+            levels.push_back(l);
+    Differences nearest{};
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        double& least = nearest[levels[i]] = std::numeric_limits<double>::infinity();
+        for (std::size_t from = 0; from <= i; ++from) {
+            double sum = 0, most = 0;
+            for (std::size_t to = from; to < levels.size(); ++to) {
+                sum += std::max(differences[levels[to]], 0.0);
+                if (to >= i)
+                    most = std::max(most, sum / static_cast<double>(to - from + 1));
+            }
+            least = std::min(least, most);
         }
     }
-    Differences pooled{};
-    std::size_t l = 0;
-    for (const Pool& pool : pools)
-        for (double i = 0; i < pool.levels; ++l)
-            if (known[l]) {
-                pooled[l] = pool.mean();
-                ++i;
-            }
-    return components(pooled, known);
+    return components(nearest, known);
 }
 
 } // namespace

@@ -268,6 +268,14 @@ TEST(FragilityCurve, WeakerShakingThatDamagesMoreBearsNoCurve)
     EXPECT_NE(joined(curve.says).find("no curve that rises"), std::string::npos) << joined(curve.says);
 }
 
+TEST(FragilityCurve, OneRecordIsOneRecord)
+{
+    const std::string none = joined(fragility_curve(stripes(1, {1, 2, 3}, {0, 0, 0}), {}).says);
+    EXPECT_EQ(none.find("None of 30 runs of 1 record reached"), 0U) << none;
+    const std::string few = joined(fragility_curve(stripes(1, {1, 2, 3}, {0.2, 0.5, 0.7}), {}).says);
+    EXPECT_NE(few.find("1 record is too few for an interval"), std::string::npos) << few;
+}
+
 /// Equal records (the same motion several times) show no scatter, and an interval without a width would be false.
 TEST(FragilityCurve, EqualRecordsHaveNoInterval)
 {
