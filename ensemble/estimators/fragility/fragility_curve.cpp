@@ -158,13 +158,9 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
         for (CurvePoint& point : curve.at)
             point.probability = same_everywhere(nan, bounds.probability(point.intensity[0]));
     }
-    const Limits& median = curve.median.records;
+    const std::string median = median_text(curve.median.records);
     const std::string where =
-        median.lower > 0 && std::isfinite(median.upper)
-            ? fmt::format("The median lies between {:.4g} and {:.4g}.", median.lower, median.upper)
-        : median.lower > 0            ? fmt::format("The median lies above {:.4g}.", median.lower)
-        : std::isfinite(median.upper) ? fmt::format("The median lies below {:.4g}.", median.upper)
-                                      : std::string("Only bounds of the probabilities can be given.");
+        median.empty() ? "Only bounds of the probabilities can be given." : "The median lies " + median + ".";
     const std::string runs =
         counted(curve.trials, "run") + " of " + counted(static_cast<double>(curve.records), "record");
     if (curve.maximum == Maximum::none)
@@ -204,6 +200,15 @@ void remark(FragilityCurve& curve, bool falls, const Jackknife& without, const C
 }
 
 } // namespace
+
+std::string median_text(const Limits& median, double scale)
+{
+    const double lower = scale * median.lower, upper = scale * median.upper;
+    return lower > 0 && std::isfinite(upper) ? fmt::format("between {:.4g} and {:.4g}", lower, upper)
+           : lower > 0                       ? fmt::format("above {:.4g}", lower)
+           : std::isfinite(upper)            ? fmt::format("below {:.4g}", upper)
+                                             : std::string();
+}
 
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options)
 {

@@ -63,4 +63,9 @@ struct FragilityCurve {
 ///         coefficients
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options);
 
+/// "between 0.1 and 0.2", "above 0.1", "below 0.2" of the limits of a median without a curve; empty: they bound
+/// nothing.
+/// @param scale from their unit to that of the text
+std::string median_text(const Limits& median, double scale = 1);
+
 } // namespace stylobate

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -47,13 +46,8 @@ FragilityValue value_of(const CurveEstimate& e)
 /// In OpenQuake's unit of the measure.
 std::string median_bounds(const Limits& median, const std::string& measure)
 {
-    const double scale = per_si_unit(measure);
-    const char* const unit = openquake_unit(measure);
-    return median.lower > 0 && std::isfinite(median.upper)
-               ? fmt::format("median between {:.4g} and {:.4g} {}", scale * median.lower, scale * median.upper, unit)
-           : median.lower > 0            ? fmt::format("median above {:.4g} {}", scale * median.lower, unit)
-           : std::isfinite(median.upper) ? fmt::format("median below {:.4g} {}", scale * median.upper, unit)
-                                         : std::string("no bounds of the median");
+    const std::string bounds = median_text(median, per_si_unit(measure));
+    return bounds.empty() ? "no bounds of the median" : "median " + bounds + " " + openquake_unit(measure);
 }
 
 FragilityFunction lognormal(const Fragility& f, const std::vector<const StateFragility*>& states)

@@ -29,21 +29,6 @@ std::string percent(double share)
     return fmt::format("{:.3g} %", 100 * share);
 }
 
-/// Whether there are bounds of the median where there is no curve.
-bool has_median_bounds(const StateFragility& s)
-{
-    const Limits& median = s.curve.median.records;
-    return !has_curve(s) && (median.lower > 0 || (median.upper > 0 && std::isfinite(median.upper)));
-}
-
-std::string median_bounds_text(const Limits& median)
-{
-    return median.lower > 0 && std::isfinite(median.upper)
-               ? fmt::format("between {} and {}", number(median.lower), number(median.upper))
-           : median.lower > 0 ? "above " + number(median.lower)
-                              : "below " + number(median.upper);
-}
-
 /// A part of the scatter: "76 % (73 to 79)"; of too few motions without an interval.
 std::string level_text(const DispersionShare& share, std::size_t records)
 {
@@ -125,8 +110,8 @@ std::string fragility_text(const Fragility& f)
             text += fmt::format("; median {} ({}), dispersion {} ({})", number(s.curve.median.value),
                                 interval(s.curve.median.records), number(s.curve.dispersion.value),
                                 interval(s.curve.dispersion.records));
-        else if (has_median_bounds(s))
-            text += fmt::format("; no curve, median {}", median_bounds_text(s.curve.median.records));
+        else if (const std::string median = median_text(s.curve.median.records); !median.empty())
+            text += "; no curve, median " + median;
         text += "\n";
         for (const std::string& remark : remarks(s))
             text += fmt::format("      {}\n", remark);
@@ -283,8 +268,7 @@ void fragility_section(const Fragility& f, HtmlPage& page)
             row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
                                    number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
         else
-            row.insert(row.end(),
-                       {"no curve", has_median_bounds(s) ? median_bounds_text(s.curve.median.records) : "", "", ""});
+            row.insert(row.end(), {"no curve", median_text(s.curve.median.records), "", ""});
         table.rows.push_back(std::move(row));
     }
     page.table(table);
