@@ -46,6 +46,7 @@ Study release_of(const Study& study)
     s.structure = study.structure;
     s.structure.kind = StructureKind::column;
     s.structure.columns.resize(1);
+    s.structure.columns.front().x_m = 0; // as a column that stands alone
     s.structure.epistyles.clear();
     s.contact = study.contact;
     s.excitation.kind = ExcitationKind::none;

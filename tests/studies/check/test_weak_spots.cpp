@@ -278,6 +278,23 @@ TEST(WeakSpots, RockingThatHardlyDecays)
     EXPECT_FALSE(free_motion(ready("rigid_column").study()).mode);
 }
 
+/// Of a colonnade the first column alone, wherever it stands: `check` refused every colonnade of studies/inputs.
+TEST(WeakSpots, RockingOfAColonnadeIsThatOfItsFirstColumn)
+{
+    const Study colonnade = ready("full_scale_colonnade_one").study();
+    Study column = colonnade;
+    column.structure.kind = StructureKind::column;
+    column.structure.columns = {colonnade.structure.columns.front()};
+    column.structure.columns.front().x_m = 0;
+    column.structure.epistyles.clear();
+    const FreeMotion of_colonnade = free_motion(colonnade), of_column = free_motion(column);
+    ASSERT_TRUE(of_colonnade.decay && of_column.decay && of_colonnade.decay->rigid);
+    EXPECT_NEAR(of_colonnade.decay->housner, 0.40321, 1e-5); // 1 x 4.4 m
+    EXPECT_NEAR(*of_colonnade.decay->rigid, 0.40321, 0.01);
+    EXPECT_EQ(of_colonnade.decay->law, of_column.decay->law);
+    EXPECT_GT(of_colonnade.decay->law, *of_colonnade.decay->rigid);
+}
+
 TEST(WeakSpots, WhatStillMovesAtTheEnd)
 {
     Trial trial = trial_of(100, 20);
