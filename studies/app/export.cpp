@@ -286,9 +286,7 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
         throw InputError(fmt::format("{} is a risk estimate: of the options of pictures only --limit and --title apply "
                                      "to its picture, none to its tables",
                                      file));
-    if (!options.set.empty())
-        throw InputError(fmt::format("--set {}: {} is a risk estimate and contains no study whose keys could be set",
-                                     options.set.front(), file));
+    check_no_settings(options.set, file);
     const bool change = recognise(file).detail == risk_of_comparison;
     if (!picture) {
         const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);

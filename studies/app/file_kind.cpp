@@ -284,4 +284,11 @@ void check_option_kind(const std::string& file, FileKind wanted, const std::stri
                                      file, describe(found), words_of(wanted).taken, file));
 }
 
+void check_no_settings(const std::vector<std::string>& set, const std::string& file)
+{
+    if (!set.empty())
+        throw InputError(
+            fmt::format("--set {}: only a study can be set; {} is {}", set.front(), file, describe(recognise(file))));
+}
+
 } // namespace stylobate

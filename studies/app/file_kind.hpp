@@ -55,4 +55,7 @@ void check_kind(const std::string& file, std::string_view verb);
 /// @throws InputError if it was recognised and is of another kind
 void check_option_kind(const std::string& file, FileKind wanted, const std::string& option);
 
+/// @param set given by --set   @throws InputError if there are any: the file has no study whose keys could be set
+void check_no_settings(const std::vector<std::string>& set, const std::string& file);
+
 } // namespace stylobate

@@ -364,9 +364,8 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
 void print_file(const CommonOptions& options, const std::string& file, bool all)
 {
     const RecognisedFile known = recognise(file);
-    if (known.kind != FileKind::study && !options.set.empty())
-        throw InputError(
-            fmt::format("--set {}: only a study can be set; {} is {}", options.set.front(), file, describe(known)));
+    if (known.kind != FileKind::study)
+        check_no_settings(options.set, file);
     Told told;
     switch (known.kind) {
     case FileKind::study:

@@ -58,9 +58,7 @@ AnimationOptions animation_options(const CommonOptions& options, const ReportOpt
 void check_no_realizations(const CommonOptions& options, const ReportOptions& wanted, const std::string& file,
                            const char* kind)
 {
-    if (!options.set.empty())
-        throw InputError(fmt::format("--set {}: {} is a {} and contains no study whose keys could be set",
-                                     options.set.front(), file, kind));
+    check_no_settings(options.set, file);
     if (wanted.animate || wanted.animate_mb || wanted.animate_seconds)
         throw InputError(
             fmt::format("--animate{}: {} is a {} and contains no realizations to choose from; its page has "

@@ -59,23 +59,21 @@ RiskOptions checked(const RiskCommandOptions& wanted)
 }
 
 /// Histories are run again, which a comparison cannot: it has counts of realizations, and no realization.
-void check_no_sequences(const CommonOptions& options, const std::string& file, const RiskCommandOptions& wanted)
+void check_no_sequences(const std::string& file, const RiskCommandOptions& wanted)
 {
     if (wanted.sequences > 0)
         throw InputError(
             fmt::format("--sequences: {} is a comparison; histories are of one study.\n  Give its results: "
                         "stylobate risk RESULTS.h5 --hazard HAZARD --sequences {}",
                         file, wanted.sequences));
-    if (!options.set.empty())
-        throw InputError(fmt::format("--set {}: {} is a comparison and contains no study whose keys could be set",
-                                     options.set.front(), file));
 }
 
 int risk_of_change(const CommonOptions& options, const std::string& file, const std::string& output,
                    const RiskCommandOptions& wanted)
 {
     const RiskOptions asked = checked(wanted);
-    check_no_sequences(options, file, wanted);
+    check_no_sequences(file, wanted);
+    check_no_settings(options.set, file);
     const Comparison comparison = read_comparison(file);
     check_has_risk(comparison, file);
     const HazardModel hazard = read_hazard(wanted.hazard, comparison.measure, wanted.site);
