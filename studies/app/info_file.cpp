@@ -111,15 +111,21 @@ void add_lines(const char* word, const char* member, const std::vector<std::stri
     told.json.member(member, Json::list(texts));
 }
 
+/// "VERB: MESSAGE", without the name of the file that the message begins with.
+std::string refusal(const std::string& verb, const InputError& error, const std::string& file)
+{
+    std::string message = error.what();
+    if (message.starts_with(file + ": "))
+        message.erase(0, file.size() + 2);
+    return verb + ": " + message;
+}
+
 std::vector<std::string> refusals_of(const Campaign& campaign, const std::string& file)
 {
     try {
         track_scales(campaign);
     } catch (const InputError& error) {
-        std::string message = error.what();
-        if (message.starts_with(file + ": "))
-            message.erase(0, file.size() + 2);
-        return {"diagnose: " + message};
+        return {refusal("diagnose", error, file)};
     }
     return {};
 }
@@ -318,7 +324,7 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
     try {
         found = LoadedStudy::from_file(file, options.set).doubts();
     } catch (const InputError& error) { // without its motions
-        refusals.push_back(std::string("run: ") + error.what());
+        refusals.push_back(refusal("run", error, file));
         found = doubts(study);
     }
     for (const Doubt& doubt : found)
@@ -336,12 +342,13 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
     told.json.member("holds", "record").member("format", known.detail);
     told.text = describe(known) + "\n";
     std::vector<Record> records;
+    std::vector<std::string> refusals;
     try {
         records = read_records(file, "");
     } catch (const InputError& error) { // it lacks its unit, for example: it is a record nevertheless
-        told.json.member("note", error.what());
-        told.text += fmt::format("note: {}\n", error.what());
+        refusals.push_back(refusal("record", error, file));
     }
+    add_lines("refused", "refused", refusals, told);
     Json components = Json::list();
     for (const Record& record : records) {
         double pga = 0;

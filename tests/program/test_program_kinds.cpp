@@ -149,6 +149,13 @@ TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
     const Ended missing = run(Words{"info", record_study, "--set", "excitation.file=none.at2"});
     EXPECT_EQ(missing.status, 0) << testing::PrintToString(missing);
     EXPECT_NE(missing.out.find("refused: run: none.at2: "), std::string::npos) << missing.out;
+    // a record without its unit
+    std::string columns;
+    for (int i = 0; i < 40; ++i)
+        columns += fmt::format("{:.2f} {:.1f}\n", 0.01 * i, 0.1 * (i * 7 % 5 - 2));
+    write_bytes(folder / "plain.txt", columns);
+    EXPECT_EQ(run(Words{"record", "plain.txt"}).status, 2);
+    EXPECT_NE(run(Words{"info", "plain.txt"}).out.find("refused: record: plain columns do not contain the unit"), std::string::npos);
     // what diagnose refuses
     Campaign campaign = sample_campaign();
     for (MeasuredRun& each : campaign.runs)
