@@ -29,26 +29,33 @@ std::string ratio_text(const ChangeNumber& n)
                : std::string("not determined");
 }
 
+/// What a reader must know of a state besides its numbers.
+std::vector<std::string> remarks(const RiskChange& change, const VariantChange& variant, const StateChange& s)
+{
+    std::vector<std::string> all;
+    if (s.determined && (s.change.base.unseen > 0 || s.change.variant.unseen > 0))
+        all.push_back(fmt::format("Not excluded at intensities where no run reached it, and in no interval: {:.2g} a "
+                                  "year in {}, {:.2g} with {}.",
+                                  s.change.base.unseen, change.base_name, s.change.variant.unseen, variant.name));
+    if (!s.note.empty())
+        all.push_back(s.note);
+    return all;
+}
+
 std::string state_text(const RiskChange& change, const VariantChange& variant, const StateChange& s)
 {
+    const RiskNumber &base = s.change.base.frequency, &other = s.change.variant.frequency;
     std::string text = fmt::format("  {} ({}): {}\n", s.state, s.meaning, s.verdict());
-    if (!s.determined)
-        return text + "    " + s.note + "\n";
-    text +=
-        fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
-                    frequency_text(s.change.base.frequency), variant.name, frequency_text(s.change.variant.frequency),
-                    change_text(s.change.frequency), ratio_text(s.change.ratio));
-    for (std::size_t i = 0; i < change.years.size(); ++i)
-        text +=
-            fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
-                        change.base_name, over_text(s.change.base.frequency, change.years[i]), variant.name,
-                        over_text(s.change.variant.frequency, change.years[i]), points_text(s.change.probability[i]));
-    if (s.change.base.unseen > 0 || s.change.variant.unseen > 0)
-        text += fmt::format("    not excluded where no run reached it, and in no interval: {} {:.2g} a year, {} {:.2g} "
-                            "a year\n",
-                            change.base_name, s.change.base.unseen, variant.name, s.change.variant.unseen);
-    if (!s.note.empty())
-        text += "    " + s.note + "\n";
+    if (s.determined)
+        text += fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
+                            frequency_text(base), variant.name, frequency_text(other), change_text(s.change.frequency),
+                            ratio_text(s.change.ratio));
+    for (std::size_t i = 0; s.determined && i < change.years.size(); ++i)
+        text += fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
+                            change.base_name, over_text(base, change.years[i]), variant.name,
+                            over_text(other, change.years[i]), points_text(s.change.probability[i]));
+    for (const std::string& remark : remarks(change, variant, s))
+        text += "    " + remark + "\n";
     return text;
 }
 
@@ -202,15 +209,9 @@ HtmlPage risk_change_page(const RiskChange& change, const std::string& file, con
     }
     std::vector<Html> notes;
     for (const VariantChange& variant : change.variants)
-        for (const StateChange& s : variant.states) {
-            if (!s.note.empty())
-                notes.emplace_back(fmt::format("{}, {}: {}", variant.name, s.state, s.note));
-            if (s.determined && (s.change.base.unseen > 0 || s.change.variant.unseen > 0))
-                notes.emplace_back(fmt::format("{}, {}: not excluded at intensities where no run reached it, and in no "
-                                               "interval: {:.2g} a year in {}, {:.2g} with {}.",
-                                               variant.name, s.state, s.change.base.unseen, change.base_name,
-                                               s.change.variant.unseen, variant.name));
-        }
+        for (const StateChange& s : variant.states)
+            for (const std::string& remark : remarks(change, variant, s))
+                notes.emplace_back(fmt::format("{}, {}: {}", variant.name, s.state, remark));
     notes.insert(notes.end(), change.says.begin(), change.says.end());
     if (!notes.empty()) {
         page.section("Notes");
