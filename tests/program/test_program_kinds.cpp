@@ -155,7 +155,8 @@ TEST_F(Kinds, InfoSaysWhatTheVerbsRefuse)
         columns += fmt::format("{:.2f} {:.1f}\n", 0.01 * i, 0.1 * (i * 7 % 5 - 2));
     write_bytes(folder / "plain.txt", columns);
     EXPECT_EQ(run(Words{"record", "plain.txt"}).status, 2);
-    EXPECT_NE(run(Words{"info", "plain.txt"}).out.find("refused: record: plain columns do not contain the unit"), std::string::npos);
+    EXPECT_NE(run(Words{"info", "plain.txt"}).out.find("refused: record: plain columns do not contain the unit"),
+              std::string::npos);
     // what diagnose refuses
     Campaign campaign = sample_campaign();
     for (MeasuredRun& each : campaign.runs)
