@@ -9,18 +9,6 @@ namespace stylobate {
 
 namespace {
 
-/// The law for which `better(p, best so far)` holds last; values that are not finite are passed over.
-template <class Better>
-std::size_t best_of(const std::vector<double>& probability, const Better& better)
-{
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < probability.size(); ++i)
-        if (std::isfinite(probability[i]) &&
-            (!std::isfinite(probability[best]) || better(probability[i], probability[best])))
-            best = i;
-    return best;
-}
-
 std::string number(double value)
 {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "none";
@@ -103,12 +91,14 @@ HtmlTable cells_table(const LawBand& band)
 
 std::size_t LawBand::Place::lowest() const
 {
-    return best_of(probability, [](double p, double least) { return p < least; });
+    const auto known = [](double p) { return std::isnan(p) ? 2 : p; };
+    return static_cast<std::size_t>(std::ranges::min_element(probability, {}, known) - probability.begin());
 }
 
 std::size_t LawBand::Place::highest() const
 {
-    return best_of(probability, [](double p, double most) { return p > most; });
+    const auto known = [](double p) { return std::isnan(p) ? -1 : p; };
+    return static_cast<std::size_t>(std::ranges::max_element(probability, {}, known) - probability.begin());
 }
 
 std::size_t LawBand::Limit::widest() const
