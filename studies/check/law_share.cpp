@@ -33,22 +33,20 @@ std::string seconds_words(double seconds)
 
 } // namespace
 
-LawShare::End LawShare::lowest() const
+std::vector<std::string> LawShare::names() const
 {
-    End end{"as given", base_probability()};
+    std::vector<std::string> all = {"as given"};
     for (const LawResult& law : laws)
-        if (law.pairs.realizations > 0 && law.probability() < end.probability)
-            end = {law.name, law.probability()};
-    return end;
+        all.push_back(law.name);
+    return all;
 }
 
-LawShare::End LawShare::highest() const
+LawBand::Place LawShare::probabilities() const
 {
-    End end{"as given", base_probability()};
+    LawBand::Place all{{base_probability()}};
     for (const LawResult& law : laws)
-        if (law.pairs.realizations > 0 && law.probability() > end.probability)
-            end = {law.name, law.probability()};
-    return end;
+        all.probability.push_back(law.probability()); // NaN without a valid realization
+    return all;
 }
 
 LawShare measure_law_share(const Experiment& study, const RunOptions& options, const PartRun& plain, double seconds,
@@ -117,9 +115,7 @@ std::string law_share_text(const LawShare& share, const NumericsCheck* numerics,
 {
     std::string text;
     if (share.measured()) {
-        const LawShare::End low = share.lowest(), high = share.highest();
-        text = fmt::format("contact law: {:.3g} to {:.3g} ({} to {})", low.probability, high.probability, low.name,
-                           high.name);
+        text = law_range_words(share.probabilities(), share.names());
         if (numerics)
             text += fmt::format("; numerics: {:+.3f} ± {:.3f}", numerics->difference, numerics->sd);
         text += fmt::format("; of the same {} realizations, collapse probability {:.3g} as given\n", share.realizations,
@@ -155,7 +151,8 @@ Json law_share_json(const LawShare& share)
         json.member("cost_of_the_whole_study", share.whole_run);
     if (!share.measured())
         return json.member("why_not", share.why_none);
-    const LawShare::End low = share.lowest(), high = share.highest();
+    const LawBand::Place all = share.probabilities();
+    const std::vector<std::string> names = share.names();
     Json laws = Json::list();
     for (const LawResult& law : share.laws)
         laws.item(Json::object()
@@ -172,10 +169,10 @@ Json law_share_json(const LawShare& share)
     return json.member("realizations", share.realizations)
         .member("estimated_seconds", share.estimated_s)
         .member("as_given", share.base_probability())
-        .member("lowest", low.probability)
-        .member("lowest_law", low.name)
-        .member("highest", high.probability)
-        .member("highest_law", high.name)
+        .member("lowest", all.low())
+        .member("lowest_law", names[all.lowest()])
+        .member("highest", all.high())
+        .member("highest_law", names[all.highest()])
         .member("laws", laws);
 }
 

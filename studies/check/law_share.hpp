@@ -4,6 +4,7 @@
 
 #include "studies/experiment/contact_laws.hpp"
 #include "studies/experiment/numerics.hpp"
+#include "studies/kinds/law_band.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstdint>
@@ -32,13 +33,9 @@ struct LawShare {
 
     bool measured() const { return why_none.empty(); }
     double base_probability() const { return static_cast<double>(base_collapsed) / static_cast<double>(base_valid); }
-    /// Of the study and of each law, by name: the one with the lowest, and with the highest probability.
-    struct End {
-        std::string name; ///< "as given" of the study
-        double probability = 0;
-    };
-    End lowest() const;
-    End highest() const;
+    /// "as given" and the laws, and the probability of each.
+    std::vector<std::string> names() const;
+    LawBand::Place probabilities() const;
 };
 
 /// Realizations that are run under each law, at least.

@@ -127,11 +127,15 @@ std::string LawBand::place(std::size_t cell) const
     return intensity.empty() ? "all" : fmt::format("{} = {:.4g}", measure, intensity[cell]);
 }
 
+std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws)
+{
+    return fmt::format("contact law: {} to {} ({} to {})", number(place.low()), number(place.high()),
+                       laws[place.lowest()], laws[place.highest()]);
+}
+
 std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
 {
-    const LawBand::Place& all = limit.overall;
-    const std::string text = fmt::format("contact law: {} to {} ({} to {})", number(all.low()), number(all.high()),
-                                         band.laws[all.lowest()], band.laws[all.highest()]);
+    const std::string text = law_range_words(limit.overall, band.laws);
     if (limit.cells.size() < 2)
         return text;
     const LawBand::Place& widest = limit.cells[limit.widest()]; // laws may move cells with both signs

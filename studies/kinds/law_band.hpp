@@ -48,7 +48,9 @@ struct LawBand {
     std::string place(std::size_t cell) const;
 };
 
-/// "contact law: 0.61 (rigid) to 0.88 (stiffer); ..." Lines for a terminal.
+/// "contact law: 0.61 to 0.88 (rigid to stiffer)"
+std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws);
+/// "contact law: 0.61 to 0.88 (rigid to stiffer); ..." Lines for a terminal.
 std::string law_band_text(const LawBand& band);
 /// For pages and pictures: "contact law: 0.61 to 0.88 (rigid to stiffer) in all, 0 to 0.97 at 0.61 Hz, 2 m/s2", the
 /// second of the cell or stripe with the widest band.

@@ -191,8 +191,8 @@ TEST(LawShare, IsCountedFromTheRuns)
         EXPECT_EQ(static_cast<double>(share.laws[k].pairs.differ), apart);
         EXPECT_NEAR(share.laws[k].pairs.sd, std::sqrt(std::max(apart, 1.0) / 576 - d * d / 24), 1e-12);
     }
-    EXPECT_DOUBLE_EQ(share.lowest().probability, lowest);
-    EXPECT_DOUBLE_EQ(share.highest().probability, highest);
+    EXPECT_DOUBLE_EQ(share.probabilities().low(), lowest);
+    EXPECT_DOUBLE_EQ(share.probabilities().high(), highest);
     EXPECT_LT(lowest, highest);
     const NumericsCheck numerics{.difference = 0.005, .sd = 0.009};
     const std::string text = law_share_text(share, &numerics, "study.toml");
