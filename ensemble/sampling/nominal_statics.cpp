@@ -12,9 +12,7 @@
 #include <stdexcept>
 
 namespace stylobate {
-namespace {
 
-/// The structure on its beds, without shaking and without anything drawn.
 Realization still_realization(const Study& study)
 {
     Study still;
@@ -24,8 +22,6 @@ Realization still_realization(const Study& study)
     still.excitation.duration_s = 1;
     return Sampler(still, nullptr).realization(0);
 }
-
-} // namespace
 
 std::vector<double> static_sinkage_m(const Study& study)
 {

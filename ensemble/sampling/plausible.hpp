@@ -4,6 +4,7 @@
 /// `Study::allow`.
 
 #include "ensemble/model/motion.hpp"
+#include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
 
 #include <cstdint>
@@ -43,6 +44,9 @@ std::vector<std::string> check_names();
 /// What the checks find, those that `study.allow` names left out. In the order of the table.
 /// @throws InputError if the structure cannot stand (`lay_out`)
 std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts = {});
+
+/// The structure of a study on its beds, without shaking, without mechanisms and without anything drawn.
+Realization still_realization(const Study& study);
 
 /// For each bed between the layout's blocks: how deep the weight on it presses the blocks into each other, W / (K_N B),
 /// W the weight above and B the length of the bed [m] (Winkler bed, `kernels/THEORY.md` section 1). The weight of an

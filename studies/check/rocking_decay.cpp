@@ -2,6 +2,7 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/sampling/plausible.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "kernels/isa.hpp"
 
@@ -131,12 +132,7 @@ FreeMotion free_motion(const Study& study)
     FreeMotion free;
     if (study.contact.form == ContactForm::rigid)
         return free;
-    Study still;
-    still.structure = study.structure;
-    still.contact = study.contact;
-    still.excitation.kind = ExcitationKind::none;
-    still.excitation.duration_s = 1;
-    free.mode = first_mode(Sampler(still, nullptr).realization(0));
+    free.mode = first_mode(still_realization(study));
     free.decay = rocking_decay(study);
     return free;
 }
