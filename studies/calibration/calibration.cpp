@@ -105,7 +105,7 @@ std::string interval_words(const FittedParameter& p)
 {
     if (!p.determined && !p.effective)
         return "no interval";
-    return fmt::format("95 % {}from {:.4g} to {:.4g}", p.effective ? "of the model's value " : "", p.low, p.high);
+    return fmt::format("({}{:.4g} to {:.4g}, 95 %)", p.effective ? "of the model's value " : "", p.low, p.high);
 }
 
 Study default_study(const Campaign& campaign)

@@ -71,7 +71,7 @@ struct FittedParameter {
     std::vector<ProfilePoint> profile;
 };
 
-/// "95 % from 0.4 to 0.5", "95 % of the model's value from 1 to 2", or "no interval".
+/// "(0.4 to 0.5, 95 %)", "(of the model's value 1 to 2, 95 %)", or "no interval".
 std::string interval_words(const FittedParameter& parameter);
 
 /// Score of one run, in nats, by parameters that it did and did not help to find.

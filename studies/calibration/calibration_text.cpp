@@ -74,8 +74,8 @@ std::string form_text(const FormCalibration& form, bool from_outcomes)
     for (const RunScore& run : form.runs)
         units += run.units;
     text += fmt::format(
-        "  on held-out motions: score {:+.1f} nats above that of the start study in {} {} (95 % from {:+.1f} to "
-        "{:+.1f}): {}\n",
+        "  on held-out motions: score {:+.1f} nats above that of the start study in {} {} ({:+.1f} to {:+.1f}, "
+        "95 %): {}\n",
         form.held_out.total, units, from_outcomes ? "runs" : "windows", form.held_out.low, form.held_out.high,
         form.held_out.low > 0    ? "better prediction"
         : form.held_out.high < 0 ? "worse prediction"

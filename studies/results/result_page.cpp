@@ -40,7 +40,7 @@ std::string interval_text(const Share& share)
 {
     if (std::isnan(share.lower))
         return "–";
-    return fmt::format("{:.1f} – {:.1f} %", 100 * share.lower, 100 * share.upper);
+    return fmt::format("{:.1f} to {:.1f} %", 100 * share.lower, 100 * share.upper);
 }
 
 std::string number(double value)

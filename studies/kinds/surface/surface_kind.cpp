@@ -53,7 +53,7 @@ HtmlTable cell_table(const SurfaceTable& surface)
             }
             std::string text = fmt::format("{:.0f}", 100 * surface.probability[cell]);
             if (intervals)
-                text += fmt::format("<br><small>{:.0f}–{:.0f}</small>", 100 * surface.lower[cell],
+                text += fmt::format("<br><small>{:.0f} to {:.0f}</small>", 100 * surface.lower[cell],
                                     100 * surface.upper[cell]);
             row.push_back(Html::ready(std::move(text)));
         }
