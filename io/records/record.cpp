@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -183,6 +184,7 @@ RecordText lines_of(const std::string& file, std::string_view content)
 void refuse_decimal_commas(const RecordText& text)
 {
     std::size_t with_commas = 0, with_points = 0, first = 0;
+    double before = -std::numeric_limits<double>::infinity();
     std::string_view example;
     for (std::size_t i = 0; i < text.lines.size(); ++i) {
         const std::string_view line = trimmed(text.lines[i]);
@@ -203,7 +205,11 @@ void refuse_decimal_commas(const RecordText& text)
             if (comma.empty() && has_decimal_comma(token))
                 comma = token;
         }
-        const bool decimal = !comma.empty() && (tokens > 1 || line.find('.') == std::string_view::npos);
+        double whole = 0;
+        decimal_number(comma.substr(0, comma.find(',')), whole);
+        const bool time = whole > before; // "5,12" and "10,13" are a growing time and a whole number
+        before = whole;
+        const bool decimal = !comma.empty() && (tokens > 1 || (!time && line.find('.') == std::string_view::npos));
         if (decimal && with_commas++ == 0) {
             first = i;
             example = comma;
@@ -317,6 +323,11 @@ std::string lower_case(std::string_view text)
     return lower;
 }
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words)
+{
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 std::string squeezed(std::string_view line)
 {
     std::string words;
@@ -354,6 +365,12 @@ bool is_number(std::string_view token)
     return decimal_number(token, value).ec == std::errc();
 }
 
+bool is_row(std::string_view line)
+{
+    const auto parts = parts_of(line, true);
+    return std::all_of(parts.begin(), parts.end(), is_number);
+}
+
 double number(const RecordText& text, std::size_t i, std::string_view token)
 {
     double value = 0;
@@ -371,6 +388,25 @@ double number(const RecordText& text, std::size_t i, std::string_view token)
     if (!std::isfinite(value))
         text.refuse(i, fmt::format("\"{}\" is not finite. A record must have a value at each time.", token));
     return value;
+}
+
+void add_row(const RecordText& text, std::size_t i, std::vector<std::vector<double>>& columns)
+{
+    const auto parts = parts_of(text.lines[i], true);
+    if (parts.size() != columns.size())
+        text.refuse(i, fmt::format("the row has {} columns and those above have {}: the file is damaged or truncated.",
+                                   parts.size(), columns.size()));
+    for (std::size_t c = 0; c < parts.size(); ++c)
+        columns[c].push_back(number(text, i, parts[c]));
+}
+
+void refuse_other_quantity(const RecordText& text, std::size_t i)
+{
+    for (const std::string& word : words_of(text.lines[i]))
+        if (is_one_of(word, {"velocity", "displacement", "spectrum", "spectra"}))
+            text.refuse(i, fmt::format("the file holds a {} and not an acceleration. Give the file with the "
+                                       "acceleration.",
+                                       word));
 }
 
 namespace {

@@ -16,11 +16,6 @@ namespace {
 
 using Quantity = ColumnMeaning::Quantity;
 
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words)
-{
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 bool begins_with(std::string_view word, std::initializer_list<std::string_view> beginnings)
 {
     return std::any_of(beginnings.begin(), beginnings.end(),
@@ -40,39 +35,20 @@ Quantity quantity_of_unit(std::string_view spelling)
         return Quantity::displacement;
     if (is_one_of(unit, {"s", "seconds", "second", "ms", "min", "us"}))
         return Quantity::time;
-    if (is_one_of(unit, {"hz",
-                         "rad",
-                         "deg",
-                         "kn",
-                         "count",
-                         "counts",
-                         "volt",
-                         "volts",
-                         "mv",
-                         "mg",
-                         "%g",
-                         "g*s",
-                         "gs",
-                         "ft/s2",
-                         "in/s2",
-                         "in/s/s",
-                         "ft/s/s",
-                         "rad/s",
-                         "strain",
-                         "kpa",
-                         "mpa",
-                         "\xc2\xb0"
-                         "c",
-                         "%",
-                         "m2/s3",
-                         "cm*s",
-                         "cm/s3",
-                         "m/s3"}))
+    if (is_one_of(unit,
+                  {"hz", "rad", "deg", "rad/s", "\xc2\xb0\x63", "%", "%g", "mg", "gs", "g*s", "cm*s", "strain"}) ||
+        is_one_of(unit, {"kn", "kpa", "mpa", "volt", "volts", "mv", "count", "counts"}) ||
+        is_one_of(unit, {"ft/s2", "in/s2", "in/s/s", "ft/s/s", "m2/s3", "cm/s3", "m/s3"}))
         return Quantity::other;
     return Quantity::unnamed;
 }
 
-/// "1" of "v1": the word without the number of its sensor.
+bool names_acceleration(std::string_view word)
+{
+    return begins_with(word, {"acc", "acel", "beschl", "ivme"}) || word == "ag";
+}
+
+/// "v" of "v1": the word without the number of its sensor.
 std::string_view without_number(std::string_view word)
 {
     while (word.size() > 1 && word.back() >= '0' && word.back() <= '9')
@@ -92,7 +68,7 @@ Quantity quantity_of_words(std::string_view name, bool& plain)
             return Quantity::other;
     }
     for (const std::string& word : words) {
-        if (begins_with(word, {"acc", "acel", "aceler", "beschl", "ivme"}) || word == "ag")
+        if (names_acceleration(word))
             return Quantity::acceleration;
         if (begins_with(word, {"vel", "vitess", "geschw", "speed", "pgv"}) || word == "hiz")
             return Quantity::velocity;
@@ -214,10 +190,11 @@ std::string unit_in_line(std::string_view line)
             return std::string(word);
     }
     const UnitInName found = unit_in(line);
-    bool plain = false;
-    if (!canonical_unit(found.unit).empty() && quantity_of_words(found.rest, plain) == Quantity::acceleration && plain)
-        return found.unit;
-    return {};
+    const std::vector<std::string> words = words_of(found.rest);
+    bool plain = false; // a spectral acceleration is another quantity
+    const bool named = std::any_of(words.begin(), words.end(), names_acceleration) &&
+                       quantity_of_words(found.rest, plain) != Quantity::other;
+    return named && !canonical_unit(found.unit).empty() ? found.unit : "";
 }
 
 } // namespace stylobate

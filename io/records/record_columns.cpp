@@ -248,13 +248,7 @@ ColumnTable read_rows(const RecordText& text, std::size_t first_row)
     for (std::size_t i = first_row; i < end; ++i) {
         if (trimmed(text.lines[i]).empty())
             text.refuse(i, "an empty line between the rows: a sample is missing.");
-        const auto parts = parts_of(text.lines[i], true);
-        if (parts.size() != table.columns.size())
-            text.refuse(i, fmt::format("the row has {} columns and those above have {}: the file is damaged or "
-                                       "truncated.",
-                                       parts.size(), table.columns.size()));
-        for (std::size_t c = 0; c < parts.size(); ++c)
-            table.columns[c].push_back(number(text, i, parts[c]));
+        add_row(text, i, table.columns);
         table.line.push_back(i);
     }
     if (table.line.size() < 2)

@@ -153,11 +153,7 @@ void read_pairs(const RecordText& text, std::size_t units, std::size_t& line, co
     const std::size_t count = sample_count(text, points, word_after(text.lines[points], "no. of points"));
     record.unit = unit_of_file(text, units, word_after(text.lines[units], " sec and "), given);
     std::size_t numbers = units + 1;
-    const auto all_numbers = [&](std::size_t i) {
-        const auto parts = parts_of(text.lines[i], false);
-        return std::all_of(parts.begin(), parts.end(), is_number);
-    };
-    while (numbers < text.lines.size() && !all_numbers(numbers))
+    while (numbers < text.lines.size() && !is_row(text.lines[numbers]))
         ++numbers;
     std::size_t first_value = numbers + integer_lines + real_header_lines;
     if (first_value >= text.lines.size())

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 
 namespace stylobate {
 
@@ -26,11 +25,6 @@ bool is_digit(char c)
 bool is_lower_letter(char c)
 {
     return c >= 'a' && c <= 'z';
-}
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words)
-{
-    return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 /// Words that mean the vertical wherever they stand: in a title, at the end of a file's name.

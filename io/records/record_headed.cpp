@@ -12,14 +12,13 @@
 /// the time in the first one. The line above the rows names the columns. A unit that stands beside the peak only is
 /// taken if the samples have about that peak.
 
+#include "io/files/csv_fields.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <initializer_list>
 
 namespace stylobate {
 
@@ -105,13 +104,6 @@ bool is_peak(const Entry& entry)
            has_one_of(entry.name, {"pga", "peak ground acc", "peak acc", "max acc", "maximum acc", "max. acc"});
 }
 
-/// A row of numbers and nothing else.
-bool is_row(std::string_view line)
-{
-    const auto parts = parts_of(line, true);
-    return !parts.front().empty() && std::all_of(parts.begin(), parts.end(), is_number);
-}
-
 struct Header {
     std::optional<Entry> count, interval, unit, peak;
     std::string station, orientation;
@@ -123,7 +115,7 @@ Header header_of(const RecordText& text)
     Header header;
     std::size_t& i = header.end;
     for (; i < std::min(text.lines.size(), longest_header); ++i) {
-        if (!trimmed(text.lines[i]).empty() && is_row(text.lines[i]))
+        if (is_row(text.lines[i]))
             break;
         const std::optional<Entry> entry = entry_of(text, i);
         if (!entry)
@@ -165,15 +157,10 @@ double interval_s(const RecordText& text, const Entry& entry)
 /// Refuses a file whose header names another series than the acceleration.
 void refuse_other_series(const RecordText& text, const Header& header)
 {
-    for (std::size_t i = 0; i < header.end; ++i) {
-        const std::string line = lower_case(squeezed(text.lines[i]));
-        for (const char* other : {"velocity", "displacement", "spectrum", "spectra"})
-            if (line.find(other) != std::string::npos &&
-                has_one_of(line, {"time series", "time history", "data type", "series in", "quantity"}))
-                text.refuse(i, fmt::format("the file holds a {} and not an acceleration. Give the file with the "
-                                           "acceleration.",
-                                           other));
-    }
+    for (std::size_t i = 0; i < header.end; ++i)
+        if (has_one_of(lower_case(squeezed(text.lines[i])),
+                       {"time series", "time history", "data type", "series in", "quantity"}))
+            refuse_other_quantity(text, i);
 }
 
 /// What a header states of the unit.
@@ -188,17 +175,10 @@ Unit unit_of(const RecordText& text, const Header& header, const std::string& gi
         const std::string spelled(parts_of(header.unit->value, true).front());
         return {unit_of_file(text, header.unit->line, spelled, given), false};
     }
-    // "Accelaration time series in m/s/s"
-    for (std::size_t i = 0; i < header.end; ++i) {
-        const std::string line = lower_case(squeezed(text.lines[i]));
-        const std::size_t in = line.rfind(" in ");
-        if (in != std::string::npos && line.find("acc") != std::string::npos &&
-            !canonical_unit(std::string_view(line).substr(in + 4)).empty())
-            return {unit_of_file(text, i, std::string_view(line).substr(in + 4), given), false};
+    for (std::size_t i = 0; i < header.end; ++i)
         if (const std::string unit = unit_in_line(text.lines[i]);
             !unit.empty() && (!header.peak || header.peak->line != i))
             return {unit_of_file(text, i, unit, given), false};
-    }
     if (header.peak && !canonical_unit(header.peak->inside).empty())
         return {unit_of_file(text, header.peak->line, header.peak->inside, given), given.empty()};
     if (given.empty())
@@ -218,10 +198,7 @@ std::optional<double> peak_of(const Header& header, const std::string& component
     std::string_view token = trimmed(rest.substr(std::min(rest.find_first_not_of(")]:= "), rest.size())));
     token = token.substr(0, token.find_first_of(" ,;("));
     double peak = 0;
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), peak);
-    if (error != std::errc() || end != token.data() + token.size())
-        return {};
-    return peak;
+    return decimal_number(token, peak).ec == std::errc() ? std::optional(peak) : std::nullopt;
 }
 
 /// A direction, a quantity or a letter.
@@ -260,13 +237,7 @@ std::vector<std::vector<double>> read_rows(const RecordText& text, std::size_t f
                                            count, series[0].size()));
         if (trimmed(text.lines[below]).empty())
             continue;
-        const auto parts = parts_of(text.lines[below], true);
-        if (parts.size() != columns)
-            text.refuse(below, fmt::format("the row has {} columns and those above have {}: the file is damaged or "
-                                           "truncated.",
-                                           parts.size(), columns));
-        for (std::size_t c = 0; c < columns; ++c)
-            series[c].push_back(number(text, below, parts[c]));
+        add_row(text, below, series);
         last = below;
     }
     refuse_cut_number(text, first, last, true);
@@ -299,7 +270,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const std::size_t columns = parts_of(text.lines[header.end], true).size();
     std::size_t numbers = 0, rows = 0;
     for (std::size_t i = header.end; i < text.lines.size(); ++i)
-        if (!trimmed(text.lines[i]).empty() && is_row(text.lines[i])) {
+        if (is_row(text.lines[i])) {
             ++rows;
             numbers += parts_of(text.lines[i], true).size();
         }

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace stylobate {
 
 namespace {
@@ -30,7 +27,7 @@ std::optional<Size> size_of(const RecordText& text)
 {
     for (std::size_t i = 0; i + 1 < text.lines.size() && i <= longest_top; ++i) {
         const auto parts = parts_of(text.lines[i], true);
-        if (!std::all_of(parts.begin(), parts.end(), is_number) || (i == 0 && parts.size() == 1))
+        if (!is_row(text.lines[i]) || (i == 0 && parts.size() == 1))
             continue; // text, or a number that is the name
         if (parts.size() != 2 || is_whole(parts[0]) == is_whole(parts[1]))
             return {};
@@ -62,12 +59,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     for (std::size_t i = 0; i < size.line; ++i) {
         if (record.title.empty())
             record.title = squeezed(text.lines[i]);
-        for (const std::string& word : words_of(text.lines[i]))
-            for (const char* other : {"velocity", "displacement"})
-                if (word == other)
-                    text.refuse(i, fmt::format("the file holds a {} and not an acceleration. Give the file with the "
-                                               "acceleration.",
-                                               other));
+        refuse_other_quantity(text, i);
         if (const std::string unit = unit_in_line(text.lines[i]); !unit.empty())
             record.unit = unit_of_file(text, i, unit, given);
     }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -127,6 +128,7 @@ Direction direction_of(const Record& record);
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words);
 
 /// The words of a line with one blank between them.
 std::string squeezed(std::string_view line);
@@ -141,8 +143,18 @@ std::vector<std::string_view> parts_of(std::string_view line, bool commas);
 /// Whether the whole of it is a decimal number or one of inf and nan.
 bool is_number(std::string_view token);
 
+/// A line of numbers and nothing else.
+bool is_row(std::string_view line);
+
 /// @throws InputError, naming line `i`, if `token` is not a finite decimal number
 double number(const RecordText& text, std::size_t i, std::string_view token);
+
+/// Appends the numbers of a row to the columns.
+/// @throws InputError, naming line `i`, if they are not as many, or not finite
+void add_row(const RecordText& text, std::size_t i, std::vector<std::vector<double>>& columns);
+
+/// Refuses a file whose line `i`, about its values, names a velocity, a displacement or a spectrum.
+void refuse_other_quantity(const RecordText& text, std::size_t i);
 
 /// Refuses a file that stops inside its last number. Such a number may still look like one (".123E-0"), but its end is
 /// not in line with the ends of those above it, or it has fewer digits where all others have equally many. Where the

@@ -190,7 +190,10 @@ TEST(RecordMakers, DecimalCommasAreNamedInEveryFormat)
     for (int i = 0; i < 12; ++i)
         mixed += fmt::format("{:.3f} {}\n", 0.005 * i, with_decimal_commas(fmt::format("{:.3f}", sample(i))));
     expect_says(message_for(mixed, "g"), {"decimal comma"});
-    // a comma between columns is none
+    // a comma between columns is none, of whole numbers neither
+    const Record whole = read_records("time_ms,acc_mm_s2\n0,12\n5,13\n10,4\n15,-8\n20,9\n", "record.txt", "")[0];
+    EXPECT_DOUBLE_EQ(whole.dt_s, 0.005);
+    EXPECT_DOUBLE_EQ(whole.acceleration_m_s2[1], 0.013);
     expect_samples(read_records(columns(12, 1, ","), "record.txt", "g")[0], 12, g);
     expect_samples(read_records("# dt = 0.01\n" + rows(12, 1, [](int i) { return fmt::format("{:.3f}", sample(i)); }),
                                 "record.txt", "g")[0],
@@ -255,6 +258,8 @@ TEST(RecordMakers, AUnitInANameIsComparedWithTheOneGiven)
     EXPECT_NEAR(two[1].acceleration_m_s2[0], 0.01 * sample(1), 1e-12);
     // one with and one without
     expect_says(message_for(named_columns("t,NS [g],EW", 2)), {"do not contain the unit"});
+    // a unit of a spectrum is not one of the samples
+    expect_says(message_for(named_columns("# Spectral acceleration (g)", 1)), {"do not contain the unit"});
 }
 
 TEST(RecordMakers, WhatIsMissingIsReportedTogether)
