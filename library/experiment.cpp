@@ -76,11 +76,11 @@ Record sampled(const std::function<double(double)>& acceleration_m_s2, double dt
 Experiment::Data Experiment::Data::checked(inner::Experiment experiment, const std::string& name)
 {
     Data data{inner::LoadedStudy(std::move(experiment)), name, {}};
-    for (const inner::Doubt& doubt : data.loaded.doubts()) {
-        if (doubt.refused)
+    for (const inner::Implausibility& one : data.loaded.implausibilities()) {
+        if (one.refused)
             throw InputError(
-                fmt::format("{}: {}\n  If it is intended: study.allow = [\"{}\"].", name, doubt.text, doubt.check));
-        data.warnings.push_back(doubt.text);
+                fmt::format("{}: {}\n  If it is intended: study.allow = [\"{}\"].", name, one.text, one.check));
+        data.warnings.push_back(one.text);
     }
     return data;
 }

@@ -32,7 +32,7 @@ struct StudyFacts {
 };
 
 /// What one check has found.
-struct Doubt {
+struct Implausibility {
     std::string check;
     bool refused = false; ///< beyond the limit of refusal: the study does not run, unless allowed; else a warning
     std::string text;     ///< value, limit, reason and likely intention: sentences
@@ -43,7 +43,7 @@ std::vector<std::string> check_names();
 
 /// What the checks find, those that `study.allow` names left out. In the order of the table.
 /// @throws InputError if the structure cannot stand (`lay_out`)
-std::vector<Doubt> doubts(const Study& study, const StudyFacts& facts = {});
+std::vector<Implausibility> implausibilities(const Study& study, const StudyFacts& facts = {});
 
 /// The structure of a study on its beds, without shaking, without mechanisms and without anything drawn.
 Realization still_realization(const Study& study);

@@ -66,7 +66,7 @@ bool Range::contains(double value) const
 std::string Range::meant(double value) const
 {
     std::string all;
-    for (const Slip& slip : slips)
+    for (const UnitSlip& slip : slips)
         if (contains(value * slip.factor))
             all += fmt::format("{} {} ({} {})", all.empty() ? "Did you mean" : " or", readable(value * slip.factor),
                                fmt::format("{:.6g}", value), slip.unit);

@@ -2,6 +2,7 @@
 /// The description of a key of a TOML file: its name, type, range, default and meaning, once. `KeyReader` reads by it,
 /// `toml_text` writes by it, and documentation, schema and templates are made from it (io/keys/).
 
+#include "ensemble/numerics/unit_slip.hpp"
 #include "io/files/toml_document.hpp"
 
 #include <array>
@@ -17,19 +18,13 @@ namespace stylobate {
 /// The least number of a range above 0: products and quotients of smaller ones would become 0 or infinite.
 inline constexpr double least_above_zero = 1e-30;
 
-/// A unit in which a number may have been given by mistake.
-struct Slip {
-    double factor;    ///< from it to the unit of the key
-    const char* unit; ///< "mm"
-};
-
 /// What a number may be; never NaN or infinite.
 struct Range {
     double low = 0;
     double high = 0;
-    bool open = false;                ///< `low` itself is outside
-    std::string hint = {};            ///< the unit, as a sentence
-    std::span<const Slip> slips = {}; ///< units in which a value outside may have been given
+    bool open = false;                    ///< `low` itself is outside
+    std::string hint = {};                ///< the unit, as a sentence
+    std::span<const UnitSlip> slips = {}; ///< units in which a value outside may have been given
 
     bool contains(double value) const;
     /// "(0, 10]"

@@ -9,14 +9,11 @@ namespace stylobate {
 
 inline constexpr double degree = std::numbers::pi / 180;
 
-// Units in which numbers are given by mistake.
-inline constexpr Slip from_lengths[] = {{1e-3, "mm"}, {1e-2, "cm"}};
-inline constexpr Slip from_ms[] = {{1e-3, "ms"}};
-inline constexpr Slip from_grams[] = {{1e-3, "g"}};
-inline constexpr Slip from_velocities[] = {{1e-2, "cm/s"}, {1e-3, "mm/s"}};
-inline constexpr Slip from_accelerations[] = {{1e-2, "cm/s2"}, {1e-3, "mm/s2"}};
-inline constexpr Slip from_percent[] = {{1e-2, "%"}};
-inline constexpr Slip from_degrees[] = {{degree, "degrees"}};
+// Units in which numbers are given by mistake, beside those of lengths, velocities and accelerations (unit_slip.hpp).
+inline constexpr UnitSlip from_ms[] = {{1e-3, "ms"}};
+inline constexpr UnitSlip from_grams[] = {{1e-3, "g"}};
+inline constexpr UnitSlip from_percent[] = {{1e-2, "%"}};
+inline constexpr UnitSlip from_degrees[] = {{degree, "degrees"}};
 
 /// Of a record.
 inline const std::vector<std::string> acceleration_units = {"m/s2", "cm/s2", "gal", "mm/s2", "g"};

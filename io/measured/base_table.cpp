@@ -119,7 +119,7 @@ Motion of_campaign(const std::filesystem::path& file, const std::string& run)
     throw InputError(file.string(), 0, fmt::format("has no run \"{}\". It has: {}.", run, fmt::join(names, ", ")));
 }
 
-Motion of_columns(const std::filesystem::path& file, bool any_pga)
+Motion of_columns(const std::filesystem::path& file, PgaRange pga)
 {
     const std::string content = content_of(file, "a table of the base motion");
     const RecordText text = lines_of(file.string(), content);
@@ -150,23 +150,23 @@ Motion of_columns(const std::filesystem::path& file, bool any_pga)
         run.base_acceleration_m_s2.values = *acceleration;
         run.base_displacement_m.values = *displacement;
         Motion motion = base_motion_of(run);
-        if (!any_pga)
+        if (pga == PgaRange::usual)
             check_peak(motion, file);
         return motion;
     }
     Motion motion =
         motion_of(acceleration ? *acceleration : acceleration_through(*displacement, table.dt_s), table.dt_s);
-    if (!acceleration && !any_pga) // a base that is hit is faster than any ground
+    if (!acceleration && pga == PgaRange::usual) // a base that is hit is faster than any ground
         check_peak(motion, file);
     return motion;
 }
 
 } // namespace
 
-Motion read_base_table(const std::filesystem::path& file, const std::string& run, bool any_pga)
+Motion read_base_table(const std::filesystem::path& file, const std::string& run, PgaRange pga)
 {
-    Motion motion = run.empty() ? of_columns(file, any_pga) : of_campaign(file, run);
-    if (!run.empty() && !any_pga)
+    Motion motion = run.empty() ? of_columns(file, pga) : of_campaign(file, run);
+    if (!run.empty() && pga == PgaRange::usual)
         check_peak(motion, file);
     if (!(motion.predominant_frequency_hz > 0))
         motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);

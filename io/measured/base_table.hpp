@@ -2,6 +2,7 @@
 /// The base motion of `excitation.kind = "table"`: samples as they stand, nothing corrected.
 
 #include "ensemble/model/motion.hpp"
+#include "io/records/record.hpp"
 
 #include <filesystem>
 #include <string>
@@ -18,10 +19,10 @@ namespace stylobate {
 ///
 /// Accelerations up to 1000 m/s2 are taken from a column of them (a base that is hit), up to 50 m/s2 from the others.
 ///
-/// @param any_pga take the others up to any acceleration
+/// @param pga `any`: of any acceleration
 /// @param run of a measured campaign (an HDF5 file, a folder, its TOML file); empty: the file is one of columns
 /// @throws InputError if it cannot be read, lacks the columns or the run, has times that are not uniform, too few
 ///         samples, does not move, or is faster than that
-Motion read_base_table(const std::filesystem::path& file, const std::string& run = {}, bool any_pga = false);
+Motion read_base_table(const std::filesystem::path& file, const std::string& run = {}, PgaRange pga = PgaRange::usual);
 
 } // namespace stylobate

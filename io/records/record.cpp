@@ -1,6 +1,7 @@
 #include "io/records/record.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/study.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/records/record_parser.hpp"
 
@@ -460,6 +461,11 @@ void check_dt(const RecordText& text, std::size_t i, double dt_s)
     if (!(dt_s >= shortest_dt_s && dt_s <= longest_dt_s))
         text.refuse(i, fmt::format("the sampling interval is {} s, outside [{}, {}] s. Times are in seconds.", dt_s,
                                    shortest_dt_s, longest_dt_s));
+}
+
+PgaRange pga_range(const Study& study)
+{
+    return study.allows("pga") ? PgaRange::any : PgaRange::usual;
 }
 
 std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,

@@ -11,6 +11,8 @@
 
 namespace stylobate {
 
+struct Study;
+
 /// Of a component's axis.
 enum class Direction {
     unknown, ///< the file does not contain it, or in no known words
@@ -44,6 +46,8 @@ inline constexpr double largest_pga_m_s2 = 50;
 
 /// Which peak accelerations a record may have: those of ground motions, or any.
 enum class PgaRange { usual, any };
+/// `any` where the study allows the plausibility check of its PGA to fail.
+PgaRange pga_range(const Study& study);
 
 /// Reads every component of a file; the format is recognised from its content, never from its name. What each format
 /// is stands on top of its io/records/record_NAME.cpp.

@@ -352,7 +352,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         if (!top.has("fragility"))
             top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
         study.fragility = read_fragility(top.table(fragility_keys::table), keys, study.excitation, study.realizations);
-        list_records(top.table(fragility_keys::table), folder, study.allows("pga"), *study.fragility);
+        list_records(top.table(fragility_keys::table), folder, pga_range(study), *study.fragility);
         if (study.sampling != Sampling::independent)
             keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
     }

@@ -78,12 +78,12 @@ struct ReadFolder {
     std::vector<Refused> refused;
 };
 
-ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const std::string& unit, bool any_pga)
+ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const std::string& unit, PgaRange pga)
 {
     ReadFolder folder;
     for (const std::filesystem::path& file : files)
         try {
-            const std::vector<Record> records = read_records(file, unit, any_pga ? PgaRange::any : PgaRange::usual);
+            const std::vector<Record> records = read_records(file, unit, pga);
             for (const Record& record : records)
                 folder.components.push_back(
                     {record.file, records.size() > 1 ? record.component : "", record.direction == Direction::vertical});
@@ -183,7 +183,7 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     return f;
 }
 
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, bool any_pga, FragilitySpec& fragility)
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, FragilitySpec& fragility)
 {
     if (!keys.has(fragility_keys::folder))
         return;
@@ -204,7 +204,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, bo
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
     const std::string unit = acceleration_unit(keys, fragility_keys::unit);
-    const ReadFolder read = read_folder(files, unit, any_pga);
+    const ReadFolder read = read_folder(files, unit, pga);
     check_refused(pattern, read);
     for (const ReadFolder::Refused& refused : read.refused)
         fragility.left_out.push_back(refused.file.filename().string());

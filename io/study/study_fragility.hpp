@@ -3,6 +3,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/files/key_reader.hpp"
+#include "io/records/record.hpp"
 
 #include <filesystem>
 
@@ -18,9 +19,9 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
 /// Fills in the records of a folder: every horizontal component of every file that its pattern names, by name. Files
 /// without accelerations and vertical components are listed in `FragilitySpec::left_out`.
 /// @param beside  a relative folder is looked for here first, then in the working folder
-/// @param any_pga as of `read_records`
+/// @param pga as of `read_records`
 /// @throws InputError if the folder cannot be read, if no file is named by the pattern, for a file that is damaged, and
 ///         if no horizontal component is left
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, bool any_pga, FragilitySpec& fragility);
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, FragilitySpec& fragility);
 
 } // namespace stylobate

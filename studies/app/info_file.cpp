@@ -320,19 +320,18 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.text += fmt::format("  {}: {}\n", what, is);
     }
     std::vector<std::string> warnings, refusals;
-    std::vector<Doubt> found;
+    std::vector<Implausibility> found;
     try {
-        found = LoadedStudy::from_file(file, options.set).doubts();
+        found = LoadedStudy::from_file(file, options.set).implausibilities();
     } catch (const InputError& error) { // without its motions
         refusals.push_back(refusal("run", error, file));
-        found = doubts(study);
+        found = implausibilities(study);
     }
-    for (const Doubt& doubt : found)
-        if (doubt.refused)
-            refusals.push_back(
-                fmt::format("run: {} If it is intended: study.allow = [\"{}\"].", doubt.text, doubt.check));
+    for (const Implausibility& one : found)
+        if (one.refused)
+            refusals.push_back(fmt::format("run: {} If it is intended: study.allow = [\"{}\"].", one.text, one.check));
         else
-            warnings.push_back(doubt.text);
+            warnings.push_back(one.text);
     add_lines("refused", "refused", refusals, told);
     add_lines("warning", "warnings", warnings, told);
 }

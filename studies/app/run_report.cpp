@@ -84,14 +84,21 @@ void print_text(const RunReport& r)
 
 } // namespace
 
-int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
+std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
 {
     if (invalid == 0 || static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
+        return {};
+    return fmt::format("{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. `stylobate "
+                       "replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
+                       invalid, total, study.run.max_invalid_fraction, results);
+}
+
+int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results)
+{
+    const std::string message = too_many_invalid(study, invalid, total, results);
+    if (message.empty())
         return exit_done;
-    say_error(
-        fmt::format("{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. "
-                    "`stylobate replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
-                    invalid, total, study.run.max_invalid_fraction, results));
+    say_error(message);
     return exit_invalid;
 }
 

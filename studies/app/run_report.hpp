@@ -26,8 +26,10 @@ struct RunReport {
     bool laws_interrupted = false;    ///< the study is complete, and its runs under other laws are not
 };
 
-/// Prints a message where more realizations are invalid than the study allows. @param results the file
-/// @returns the exit status
+/// A message where more realizations are invalid than the study allows; else empty. @param results the file
+std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
+                             const std::string& results);
+/// Prints it. @returns the exit status
 int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results);
 
 /// Prints it, as lines or as JSON, and a message where too many realizations are invalid.

@@ -27,12 +27,6 @@ std::string finer_text(const Study& study)
     return text;
 }
 
-/// Two digits, and a unit that suits.
-std::string seconds_text(double seconds)
-{
-    return seconds < 9.5 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
-}
-
 std::string bytes_text(double bytes)
 {
     return bytes < 1e6   ? fmt::format("{:.0f} kB", bytes / 1e3)

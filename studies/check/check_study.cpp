@@ -92,7 +92,7 @@ std::optional<CheckReport> StudyCheck::run(Observer& observer)
     tell("weak spots");
     report.counted = counted_trials(loaded_);
     report.free = free_motion(report.study);
-    report.weak = weak_spots(loaded_, loaded_.doubts(), trial, &report.free);
+    report.weak = weak_spots(loaded_, loaded_.implausibilities(), trial, &report.free);
     report.not_looked_for = not_looked_for(loaded_, trial, report.free);
     if (report.why_no_pilot.empty()) {
         tell(fmt::format("pilot of {} realizations, run twice", pilot_));

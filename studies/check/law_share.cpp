@@ -26,11 +26,6 @@ std::vector<std::uint64_t> chosen_indices(const Study& study, const PartRun& pla
     return chosen;
 }
 
-std::string seconds_words(double seconds)
-{
-    return seconds < 9.5 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
-}
-
 } // namespace
 
 std::vector<std::string> LawShare::names() const
@@ -80,7 +75,7 @@ LawShare measure_law_share(const Experiment& study, const RunOptions& options, c
         share.why_none = fmt::format("{} realizations under each law ({}) would take about {}: --law-seconds {:.0f} "
                                      "runs them.",
                                      least_law_realizations, names,
-                                     seconds_words(each_s * static_cast<double>(least_law_realizations)),
+                                     seconds_text(each_s * static_cast<double>(least_law_realizations)),
                                      std::ceil(1.5 * each_s * static_cast<double>(least_law_realizations)));
         return share;
     }
@@ -89,7 +84,7 @@ LawShare measure_law_share(const Experiment& study, const RunOptions& options, c
     share.estimated_s = each_s * static_cast<double>(indices.size());
     if (tell)
         tell(fmt::format("contact laws ({}): {} realizations under each, about {}", names, indices.size(),
-                         seconds_words(share.estimated_s)));
+                         seconds_text(share.estimated_s)));
     for (const std::uint64_t index : indices) {
         const auto at = std::ranges::lower_bound(plain.indices, index) - plain.indices.begin();
         if (const std::optional<bool>& fell = plain.collapsed[static_cast<std::size_t>(at)]) {
@@ -151,8 +146,6 @@ Json law_share_json(const LawShare& share)
         json.member("cost_of_the_whole_study", share.whole_run);
     if (!share.measured())
         return json.member("why_not", share.why_none);
-    const LawBand::Place all = share.probabilities();
-    const std::vector<std::string> names = share.names();
     Json laws = Json::list();
     for (const LawResult& law : share.laws)
         laws.item(Json::object()
@@ -166,14 +159,11 @@ Json law_share_json(const LawShare& share)
                       .member("its_standard_error", law.pairs.sd)
                       .member("end_differently", law.pairs.differ)
                       .member("seconds", law.seconds));
-    return json.member("realizations", share.realizations)
+    json.member("realizations", share.realizations)
         .member("estimated_seconds", share.estimated_s)
-        .member("as_given", share.base_probability())
-        .member("lowest", all.low())
-        .member("lowest_law", names[all.lowest()])
-        .member("highest", all.high())
-        .member("highest_law", names[all.highest()])
-        .member("laws", laws);
+        .member("as_given", share.base_probability());
+    add_law_range(json, share.probabilities(), share.names());
+    return json.member("laws", laws);
 }
 
 } // namespace stylobate

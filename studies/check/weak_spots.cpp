@@ -23,14 +23,15 @@ namespace {
 
 struct Subject {
     const LoadedStudy& loaded;
-    const std::vector<Doubt>& doubts;
+    const std::vector<Implausibility>& implausibilities;
     const Trial* trial;
     const FreeMotion* free;
     std::optional<StaticLimit> limit; ///< of the nominal structure
     const Study& study() const { return loaded.study(); }
-    bool doubts_of(std::string_view check) const
+    bool implausible_by(std::string_view check) const
     {
-        return std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) { return doubt.check == check; });
+        return std::any_of(implausibilities.begin(), implausibilities.end(),
+                           [&](const Implausibility& one) { return one.check == check; });
     }
     /// A few realizations, spread over the study.
     std::vector<Realization> sample(std::uint64_t count) const
@@ -72,7 +73,7 @@ Found below_limit(const Subject& s)
         return std::nullopt;
     const std::optional<StaticLimit>& limit = s.limit;
     const double pga = strongest_m_s2(s);
-    if (s.doubts_of("weak_shaking")) // that the number may be in g
+    if (s.implausible_by("weak_shaking")) // that the number may be in g
         return std::nullopt;
     if (!limit || pga >= limit->limit_m_s2)
         return std::nullopt;
@@ -125,8 +126,8 @@ Found soft_contacts(const Subject& s)
 {
     const Study& study = s.study();
     if (study.contact.form == ContactForm::rigid || study.chose("contact.normal_stiffness_n_m2") ||
-        study.names(Mechanism::hertz) || s.doubts_of("sinkage") || s.doubts_of("first_frequency") ||
-        s.doubts_of("stiffness"))
+        study.names(Mechanism::hertz) || s.implausible_by("sinkage") || s.implausible_by("first_frequency") ||
+        s.implausible_by("stiffness"))
         return std::nullopt;
     const std::string todo = "For stiff joints give contact.form = \"rigid\" or a larger normal_stiffness_n_m2, or "
                              "leave it out and give run.accuracy. For joints that do yield so, perturb it "
@@ -435,10 +436,11 @@ bool is_fair(const Trial* trial)
 
 } // namespace
 
-std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial,
-                                 const FreeMotion* free)
+std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Implausibility>& implausibilities,
+                                 const Trial* trial, const FreeMotion* free)
 {
-    const Subject subject{loaded, doubts, is_fair(trial) ? trial : nullptr, free, static_limit(loaded.study())};
+    const Subject subject{loaded, implausibilities, is_fair(trial) ? trial : nullptr, free,
+                          static_limit(loaded.study())};
     std::vector<WeakSpot> all;
     for (const Look& look : looks)
         if (Found found = look.find(subject)) {

@@ -23,10 +23,10 @@ struct WeakSpot {
 };
 
 /// All that are found, in the order of docs/check.md.
-/// @param doubts of the same study, so that nothing is said twice   @param trial null: none was run
+/// @param implausibilities of the same study, so that nothing is said twice   @param trial null: none was run
 /// @param free of the same study; null: not looked at
-std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Doubt>& doubts, const Trial* trial,
-                                 const FreeMotion* free = nullptr);
+std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Implausibility>& implausibilities,
+                                 const Trial* trial, const FreeMotion* free = nullptr);
 
 /// What `weak_spots` cannot look for in this study, and why: sentences.
 std::vector<std::string> not_looked_for(const LoadedStudy& loaded, const Trial* trial, const FreeMotion& free);

@@ -145,9 +145,9 @@ void complete(ContactLaw& law, Study study)
     study.chosen.clear();
     try {
         study = parse_study(study_text(study), "law");
-        for (const Doubt& doubt : doubts(study))
-            if (doubt.refused)
-                throw InputError(doubt.text);
+        for (const Implausibility& one : implausibilities(study))
+            if (one.refused)
+                throw InputError(one.text);
         law.study = std::move(study);
     } catch (const InputError& error) {
         law.why_not = reason_of(error);

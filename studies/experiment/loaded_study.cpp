@@ -114,7 +114,7 @@ Motions motions_of(const Study& study, const Record* record)
 {
     Motions motions;
     const ExcitationSpec& excitation = study.excitation;
-    const PgaRange pga = study.allows("pga") ? PgaRange::any : PgaRange::usual;
+    const PgaRange pga = pga_range(study);
     if (study.fragility)
         motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
     else if (excitation.kind == ExcitationKind::record) {
@@ -124,7 +124,7 @@ Motions motions_of(const Study& study, const Record* record)
             make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit, pga),
                         excitation.baseline, excitation.band_pass);
     } else if (excitation.kind == ExcitationKind::table)
-        motions.record = read_base_table(excitation.file, excitation.run, study.allows("pga"));
+        motions.record = read_base_table(excitation.file, excitation.run, pga);
     if (const std::optional<VerticalSpec>& spec = study.vertical)
         motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit, pga), spec->baseline);
     return motions;
@@ -196,24 +196,24 @@ LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeade
 ResultHeader LoadedStudy::result_header() const
 {
     ResultHeader header = plain_header();
-    for (const Doubt& doubt : doubts())
-        header.warnings.push_back(doubt.text);
+    for (const Implausibility& one : implausibilities())
+        header.warnings.push_back(one.text);
     return header;
 }
 
 std::vector<std::string> LoadedStudy::warnings(const std::string& file) const
 {
     std::vector<std::string> warnings;
-    for (const Doubt& doubt : doubts()) {
-        const std::string intended = fmt::format("If it is intended: study.allow = [\"{}\"].", doubt.check);
-        if (doubt.refused)
-            throw InputError(fmt::format("{}: {}\n  {}", file, doubt.text, intended));
-        warnings.push_back(doubt.text + " " + intended);
+    for (const Implausibility& one : implausibilities()) {
+        const std::string intended = fmt::format("If it is intended: study.allow = [\"{}\"].", one.check);
+        if (one.refused)
+            throw InputError(fmt::format("{}: {}\n  {}", file, one.text, intended));
+        warnings.push_back(one.text + " " + intended);
     }
     return warnings;
 }
 
-std::vector<Doubt> LoadedStudy::doubts() const
+std::vector<Implausibility> LoadedStudy::implausibilities() const
 {
     const ResultHeader header = plain_header();
     StudyFacts facts;
@@ -226,7 +226,7 @@ std::vector<Doubt> LoadedStudy::doubts() const
             facts.vertical_motion = vertical->source;
     if (header.has_rows())
         facts.file_bytes = static_cast<double>(header.total) * static_cast<double>(ResultLayout(header).row_bytes());
-    return stylobate::doubts(study(), facts);
+    return stylobate::implausibilities(study(), facts);
 }
 
 ResultHeader LoadedStudy::plain_header() const

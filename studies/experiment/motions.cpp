@@ -32,7 +32,7 @@ void stretch(Motion& motion, double scale)
 MotionSet read_motions(const Study& study)
 {
     const ExcitationSpec& excitation = study.excitation;
-    const PgaRange pga = study.allows("pga") ? PgaRange::any : PgaRange::usual;
+    const PgaRange pga = pga_range(study);
     MotionSet set;
     for (const RecordSpec& record : study.fragility->records) {
         Motion motion = make_motion(read_record(record.file, record.component, record.unit, pga), excitation.baseline,

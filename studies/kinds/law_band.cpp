@@ -24,12 +24,9 @@ Json place_json(const LawBand::Place& place, const LawBand& band)
     Json by_law = Json::object();
     for (std::size_t i = 0; i < band.laws.size(); ++i)
         by_law.member(band.laws[i], place.probability[i]);
-    return Json::object()
-        .member("lowest", place.low())
-        .member("lowest_law", band.laws[place.lowest()])
-        .member("highest", place.high())
-        .member("highest_law", band.laws[place.highest()])
-        .member("probability", by_law);
+    Json json = Json::object();
+    add_law_range(json, place, band.laws);
+    return json.member("probability", by_law);
 }
 
 /// Probability under each law over all, with the paired difference.
@@ -46,7 +43,7 @@ HtmlTable laws_table(const LawBand& band)
             row.insert(row.end(), {"", ""});
         else
             row.insert(row.end(), {fmt::format("{:+.1f}", 100 * limit.difference[i]),
-                                   fmt::format("{:+.1f} – {:+.1f}", 100 * limit.lower[i], 100 * limit.upper[i])});
+                                   fmt::format("{:+.1f} to {:+.1f}", 100 * limit.lower[i], 100 * limit.upper[i])});
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -54,7 +51,7 @@ HtmlTable laws_table(const LawBand& band)
 
 std::string range_words(const LawBand::Place& place)
 {
-    return std::isfinite(place.low()) ? fmt::format("{:.0f}–{:.0f}", 100 * place.low(), 100 * place.high()) : "–";
+    return std::isfinite(place.low()) ? fmt::format("{:.0f} to {:.0f}", 100 * place.low(), 100 * place.high()) : "–";
 }
 
 HtmlTable cells_table(const LawBand& band)
@@ -119,18 +116,18 @@ const LawBand::Limit* LawBand::limit(const std::string& name) const
     return found == limits.end() ? nullptr : &*found;
 }
 
-std::string LawBand::place(std::size_t cell) const
-{
-    if (!frequency_hz.empty())
-        return fmt::format("{:.3g} Hz, {:.3g} m/s2", frequency_hz[cell / pga_m_s2.size()],
-                           pga_m_s2[cell % pga_m_s2.size()]);
-    return intensity.empty() ? "all" : fmt::format("{} = {:.4g}", measure, intensity[cell]);
-}
-
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws)
 {
     return fmt::format("contact law: {} to {} ({} to {})", number(place.low()), number(place.high()),
                        laws[place.lowest()], laws[place.highest()]);
+}
+
+void add_law_range(Json& json, const LawBand::Place& place, const std::vector<std::string>& laws)
+{
+    json.member("lowest", place.low())
+        .member("lowest_law", laws[place.lowest()])
+        .member("highest", place.high())
+        .member("highest_law", laws[place.highest()]);
 }
 
 std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
@@ -139,23 +136,23 @@ std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
     if (limit.cells.size() < 2)
         return text;
     const LawBand::Place& widest = limit.cells[limit.widest()]; // laws may move cells with both signs
-    return fmt::format("{} in all, {} to {} at {}", text, number(widest.low()), number(widest.high()),
-                       band.place(limit.widest()));
+    return fmt::format("{} over all cells, {} to {} at {}", text, number(widest.low()), number(widest.high()),
+                       band.places[limit.widest()]);
 }
 
 std::string law_band_text(const LawBand& band)
 {
     const LawBand::Limit& limit = band.limits.front();
-    std::string text =
-        fmt::format("{}; probability of {}{}, {} as given\n", law_band_words(limit, band), limit.name,
-                    limit.cells.size() > 1 ? " over all cells" : "", number(limit.overall.probability.front()));
+    std::string text = fmt::format("{}, {} as given; probability of {}{}\n", law_range_words(limit.overall, band.laws),
+                                   number(limit.overall.probability.front()), limit.name,
+                                   limit.cells.size() > 1 ? " over all cells" : "");
     for (std::size_t i = 1; i < band.laws.size(); ++i)
         text += fmt::format("  {:<8} {:<50} {}, difference {:+.4f} ({:+.4f} to {:+.4f})\n", band.laws[i], band.words[i],
                             number(limit.overall.probability[i]), limit.difference[i], limit.lower[i], limit.upper[i]);
     if (limit.cells.size() > 1) {
         const std::size_t cell = limit.widest();
         const LawBand::Place& widest = limit.cells[cell];
-        text += fmt::format("  widest band at {}: {} to {} ({} to {}), {} as given\n", band.place(cell),
+        text += fmt::format("  widest band at {}: {} to {} ({} to {}), {} as given\n", band.places[cell],
                             number(widest.low()), number(widest.high()), band.laws[widest.lowest()],
                             band.laws[widest.highest()], number(widest.probability.front()));
     }
@@ -252,7 +249,7 @@ void law_band_section(PageWriter& writer, const LawBand& band)
     writer.page.table(laws_table(band));
     if (limit.cells.size() > 1) {
         const std::size_t cell = limit.widest();
-        writer.page.paragraph(fmt::format("The band is widest at {}: {} to {}.", band.place(cell),
+        writer.page.paragraph(fmt::format("The band is widest at {}: {} to {}.", band.places[cell],
                                           percent(limit.cells[cell].low()), percent(limit.cells[cell].high())));
         writer.page.table(cells_table(band));
     }

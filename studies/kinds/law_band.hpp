@@ -19,10 +19,11 @@ struct LawBand {
     std::vector<std::string> left_out; ///< sentences: laws that do not apply
     std::vector<std::string> notes;    ///< sentences: what else a law changes
     std::vector<double> frequency_hz, pga_m_s2;
-    std::string measure;           ///< of stripes
-    std::vector<double> intensity; ///< of stripes
-    double level = 0.95;           ///< of the intervals of differences
-    std::uint64_t pairs = 0;       ///< of realizations, of each law at least
+    std::string measure;             ///< of stripes
+    std::vector<double> intensity;   ///< of stripes
+    std::vector<std::string> places; ///< (cells) "2.5 Hz, 4 m/s2", "PGV 0.75 m/s"
+    double level = 0.95;             ///< of the intervals of differences
+    std::uint64_t pairs = 0;         ///< of realizations, of each law at least
 
     /// Probabilities of one limit state in one cell or stripe, or in all.
     struct Place {
@@ -44,16 +45,16 @@ struct LawBand {
 
     /// Null where there is no such limit state.
     const Limit* limit(const std::string& name) const;
-    /// "2.5 Hz, 4 m/s2"; "all" where there is one cell.
-    std::string place(std::size_t cell) const;
 };
 
 /// "contact law: 0.61 to 0.88 (rigid to stiffer)"
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws);
-/// "contact law: 0.61 to 0.88 (rigid to stiffer); ..." Lines for a terminal.
+/// The same as members: `lowest`, `lowest_law`, `highest`, `highest_law`.
+void add_law_range(Json& json, const LawBand::Place& place, const std::vector<std::string>& laws);
+/// "contact law: 0.61 to 0.88 (rigid to stiffer), ..." Lines for a terminal.
 std::string law_band_text(const LawBand& band);
-/// For pages and pictures: "contact law: 0.61 to 0.88 (rigid to stiffer) in all, 0 to 0.97 at 0.61 Hz, 2 m/s2", the
-/// second of the cell or stripe with the widest band.
+/// For pages and pictures: "contact law: 0.61 to 0.88 (rigid to stiffer) over all cells, 0 to 0.97 at 0.61 Hz, 2 m/s2",
+/// the second of the cell or stripe with the widest band.
 std::string law_band_words(const LawBand::Limit& limit, const LawBand& band);
 Json law_band_json(const LawBand& band);
 /// A row for each limit state and cell, and for all cells together.

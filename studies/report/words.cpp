@@ -16,6 +16,11 @@ std::string duration_text(double seconds)
     return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
+std::string seconds_text(double seconds)
+{
+    return seconds < 9.5 ? fmt::format("{:.2g} s", seconds) : duration_text(seconds);
+}
+
 std::string rate_text(double rate)
 {
     return rate >= 10 ? fmt::format("{:.0f}", rate) : fmt::format("{:.2g}", rate);

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -108,7 +109,9 @@ public:
         page_.section("Summary");
         if (!kind_.summary(writer_))
             summary();
-        page_.paragraph(laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_));
+        std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
+        laws.front() = static_cast<char>(std::toupper(laws.front()));
+        page_.paragraph(laws);
         studied();
         if (kind_.draws_plainly()) {
             outcomes();

@@ -72,6 +72,8 @@ LawBand band_of(const Comparison& comparison, const std::vector<ContactLaw>& law
     band.pga_m_s2 = comparison.pga_m_s2;
     band.measure = comparison.measure;
     band.intensity = comparison.intensity;
+    for (std::size_t cell = 0; cell < comparison.variants.front().limits.front().cells.size(); ++cell)
+        band.places.push_back(comparison.place(cell));
     band.level = comparison.level;
     band.pairs = comparison.variants.front().pairs;
     for (const VariantComparison& variant : comparison.variants)

@@ -59,23 +59,23 @@ std::string verdict(const Study& study, const std::string& check, const StudyFac
                     const std::vector<std::string>& others = {})
 {
     std::string found;
-    for (const Doubt& doubt : doubts(study, facts)) {
-        if (doubt.check == check)
-            found = doubt.refused ? "refuses" : "warns";
+    for (const Implausibility& one : implausibilities(study, facts)) {
+        if (one.check == check)
+            found = one.refused ? "refuses" : "warns";
         else
-            EXPECT_NE(std::find(others.begin(), others.end(), doubt.check), others.end())
-                << doubt.check << ": " << doubt.text;
-        EXPECT_TRUE(doubt.text.ends_with('.') || doubt.text.ends_with('?')) << doubt.text;
-        EXPECT_EQ(doubt.text.find('\n'), std::string::npos) << doubt.text;
+            EXPECT_NE(std::find(others.begin(), others.end(), one.check), others.end())
+                << one.check << ": " << one.text;
+        EXPECT_TRUE(one.text.ends_with('.') || one.text.ends_with('?')) << one.text;
+        EXPECT_EQ(one.text.find('\n'), std::string::npos) << one.text;
     }
     return found;
 }
 
 std::string text_of(const Study& study, const std::string& check)
 {
-    for (const Doubt& doubt : doubts(study))
-        if (doubt.check == check)
-            return doubt.text;
+    for (const Implausibility& one : implausibilities(study))
+        if (one.check == check)
+            return one.text;
     return "";
 }
 
@@ -291,9 +291,9 @@ TEST(Plausible, ProportionsOfOtherUnits)
     const std::string mass = "drum_mass_kg = 0.1355";
     stone.replace(stone.find(mass), mass.size(), "density_kg_m3 = 2028");
     const auto first_refusal = [&](const std::string& setting) {
-        for (const Doubt& doubt : doubts(read(stone, {setting})))
-            if (doubt.refused)
-                return doubt.check + ": " + doubt.text;
+        for (const Implausibility& one : implausibilities(read(stone, {setting})))
+            if (one.refused)
+                return one.check + ": " + one.text;
         return std::string();
     };
     const auto expect = [&](const std::string& setting, const std::string& part) {
@@ -332,9 +332,9 @@ TEST(Plausible, MotionsOfASet)
     study.fragility->motions = 9;
     study.fragility->measure = IntensityMeasure::arias;
     const auto found = [&](const std::string& check, const StudyFacts& facts) {
-        for (const Doubt& doubt : doubts(study, facts))
-            if (doubt.check == check)
-                return (doubt.refused ? "refuses: " : "warns: ") + doubt.text;
+        for (const Implausibility& one : implausibilities(study, facts))
+            if (one.check == check)
+                return (one.refused ? "refuses: " : "warns: ") + one.text;
         return std::string();
     };
     StudyFacts facts;
@@ -448,8 +448,8 @@ TEST(Plausible, EveryReadyStudyIsSilent)
             std::vector<std::string> settings;
             if (entry.path().filename() == "record.toml") // that the user names
                 settings = {"excitation.file=a.txt"};
-            for (const Doubt& doubt : doubts(read_study(entry.path(), settings)))
-                ADD_FAILURE() << entry.path() << ": " << doubt.check << ": " << doubt.text;
+            for (const Implausibility& one : implausibilities(read_study(entry.path(), settings)))
+                ADD_FAILURE() << entry.path() << ": " << one.check << ": " << one.text;
             ++studies;
         }
     EXPECT_GE(studies, 25);

@@ -19,7 +19,7 @@ namespace {
 std::set<std::string> names(const LoadedStudy& loaded, const Trial* trial = nullptr)
 {
     std::set<std::string> all;
-    for (const WeakSpot& spot : weak_spots(loaded, loaded.doubts(), trial)) {
+    for (const WeakSpot& spot : weak_spots(loaded, loaded.implausibilities(), trial)) {
         EXPECT_FALSE(spot.text.empty() || spot.todo.empty()) << spot.name;
         all.insert(spot.name);
     }
@@ -59,13 +59,13 @@ TEST(WeakSpots, TheStaticLimitIsThatOfOneBlock)
     EXPECT_NEAR(limit("0.2").rocking_m_s2, 9.81 * 48 / 174, 1e-9);
 }
 
-/// What the doubts say of weak shaking; empty: nothing.
+/// What the implausibilities say of weak shaking; empty: nothing.
 std::string weak_shaking(const LoadedStudy& loaded)
 {
-    for (const Doubt& doubt : loaded.doubts())
-        if (doubt.check == "weak_shaking") {
-            EXPECT_FALSE(doubt.refused);
-            return doubt.text;
+    for (const Implausibility& one : loaded.implausibilities())
+        if (one.check == "weak_shaking") {
+            EXPECT_FALSE(one.refused);
+            return one.text;
         }
     return {};
 }
@@ -265,7 +265,7 @@ TEST(WeakSpots, RockingThatHardlyDecays)
         EXPECT_NEAR(free.decay->law, law, 0.01) << height;
         EXPECT_NEAR(*free.decay->rigid, rigid, 0.004) << height;
         EXPECT_NEAR(free.decay->housner, rigid, 3e-4) << height;
-        const std::vector<WeakSpot> found = weak_spots(loaded, loaded.doubts(), nullptr, &free);
+        const std::vector<WeakSpot> found = weak_spots(loaded, loaded.implausibilities(), nullptr, &free);
         const auto spot = std::ranges::find(found, "hardly_damped", &WeakSpot::name);
         ASSERT_NE(spot, found.end()) << height;
         EXPECT_NE(spot->text.find("Housner"), std::string::npos) << spot->text;
@@ -273,7 +273,7 @@ TEST(WeakSpots, RockingThatHardlyDecays)
     }
     const LoadedStudy ends = block("0.4", {"contact.damping=\"ends\"", "contact.normal_damping_ratio=0.5"});
     const FreeMotion free = free_motion(ends.study());
-    const std::vector<WeakSpot> found = weak_spots(ends, ends.doubts(), nullptr, &free);
+    const std::vector<WeakSpot> found = weak_spots(ends, ends.implausibilities(), nullptr, &free);
     EXPECT_EQ(std::ranges::find(found, "hardly_damped", &WeakSpot::name), found.end());
     EXPECT_FALSE(free_motion(ready("rigid_column").study()).mode);
 }

@@ -103,16 +103,16 @@ protected:
         }
         return "";
     }
-    static std::string doubt(const LoadedStudy& loaded, const std::string& check)
+    static std::string implausible(const LoadedStudy& loaded, const std::string& check)
     {
-        for (const Doubt& doubt : loaded.doubts())
-            if (doubt.check == check)
-                return doubt.text;
+        for (const Implausibility& one : loaded.implausibilities())
+            if (one.check == check)
+                return one.text;
         return "";
     }
     static std::string weak(const LoadedStudy& loaded, const std::string& name)
     {
-        for (const WeakSpot& spot : weak_spots(loaded, loaded.doubts(), nullptr))
+        for (const WeakSpot& spot : weak_spots(loaded, loaded.implausibilities(), nullptr))
             if (spot.name == name)
                 return spot.text;
         return "";
@@ -146,10 +146,10 @@ TEST_F(MotionSets, ADownloadHasOtherFilesBesideTheAccelerations)
     EXPECT_EQ(loaded.study().fragility->motions, 8);
     for (const RecordSpec& record : loaded.study().fragility->records)
         EXPECT_TRUE(record.file.ends_with(".AT2")) << record.file;
-    const std::string said = doubt(loaded, "left_out");
+    const std::string said = implausible(loaded, "left_out");
     EXPECT_NE(said.find("18 files or components"), std::string::npos) << said;
     EXPECT_NE(said.find("RSN0_X_090.DT2"), std::string::npos) << said;
-    EXPECT_EQ(doubt(of_folder({"fragility.pattern=*.AT2"}), "left_out"), "");
+    EXPECT_EQ(implausible(of_folder({"fragility.pattern=*.AT2"}), "left_out"), "");
     // the canonical text names the files that were taken
     EXPECT_EQ(parse_study(loaded.study().text, "canonical").text, loaded.study().text);
 }
@@ -175,9 +175,9 @@ TEST_F(MotionSets, VerticalComponentsAreNoHorizontalMotions)
     write("RSN8_X_VER.AT2", at2(samples(10, 0.1), "Event, 1/1/1999, Station, VER"));
     const LoadedStudy loaded = of_folder();
     EXPECT_EQ(loaded.study().fragility->motions, 3);
-    EXPECT_NE(doubt(loaded, "left_out").find("RSN7_X-UP.AT2 (vertical) and RSN8_X_VER.AT2 (vertical)"),
+    EXPECT_NE(implausible(loaded, "left_out").find("RSN7_X-UP.AT2 (vertical) and RSN8_X_VER.AT2 (vertical)"),
               std::string::npos)
-        << doubt(loaded, "left_out");
+        << implausible(loaded, "left_out");
     EXPECT_EQ(weak(loaded, "unknown_direction"), "") << "all state an azimuth";
 
     // by its own name it is refused, unless it is meant
@@ -218,7 +218,7 @@ TEST_F(MotionSets, EqualMotionsAreFoundByTheirSamples)
     const MotionGroups groups = motion_groups(loaded.study(), motion_table(*loaded.experiment().motions().drawn));
     EXPECT_EQ(groups.group.size(), 11U);
     EXPECT_EQ(groups.groups, 8U);
-    const std::string said = doubt(loaded, "equal_motions");
+    const std::string said = implausible(loaded, "equal_motions");
     EXPECT_NE(said.find("RSN3_X_090.AT2, bigger.AT2 and copy.AT2"), std::string::npos) << said;
     EXPECT_NE(said.find("RSN5_X_090.AT2 and in_cm.AT2"), std::string::npos) << said;
     EXPECT_NE(said.find("3 of the 11 motions are"), std::string::npos) << said;
@@ -315,12 +315,12 @@ TEST_F(MotionSets, NothingIsKnownOfResidualsWhereAllStillMove)
 TEST_F(MotionSets, WeakMotionsAreNotScaledFarWithoutAWord)
 {
     motions(8, 0.002); // 0.02 to 0.03 m/s2
-    const std::string said = doubt(of_folder(), "scale");
+    const std::string said = implausible(of_folder(), "scale");
     EXPECT_NE(said.find("8 of 8 motions from files are scaled by more than a factor of 10: RSN"), std::string::npos)
         << said;
     EXPECT_NE(said.find("(factor "), std::string::npos) << said;
     motions(8, 0.1); // about 1.2 m/s2
-    EXPECT_EQ(doubt(of_folder(), "scale"), "");
+    EXPECT_EQ(implausible(of_folder(), "scale"), "");
 }
 
 TEST_F(MotionSets, TheVerticalMotionIsAVerticalComponent)
@@ -334,14 +334,15 @@ TEST_F(MotionSets, TheVerticalMotionIsAVerticalComponent)
         std::string of = single;
         return load(of.replace(of.find("FILE"), 4, file));
     };
-    EXPECT_EQ(doubt(with("up.AT2"), "direction"), "");
-    EXPECT_NE(doubt(with("RSN0_X_090.AT2"), "direction").find("the study has no vertical record"), std::string::npos);
+    EXPECT_EQ(implausible(with("up.AT2"), "direction"), "");
+    EXPECT_NE(implausible(with("RSN0_X_090.AT2"), "direction").find("the study has no vertical record"),
+              std::string::npos);
     // the vertical component as the horizontal motion
-    EXPECT_NE(
-        doubt(load(single.substr(0, single.find("[mechanisms]")), {"excitation.file=" + (folder / "up.AT2").string()}),
-              "direction")
-            .find("Vertical component would shake the base horizontally"),
-        std::string::npos);
+    EXPECT_NE(implausible(load(single.substr(0, single.find("[mechanisms]")),
+                               {"excitation.file=" + (folder / "up.AT2").string()}),
+                          "direction")
+                  .find("Vertical component would shake the base horizontally"),
+              std::string::npos);
 }
 
 TEST_F(MotionSets, AStrongerMotionThanAnyEarthquakeIsAllowedByName)
@@ -399,7 +400,7 @@ TEST_F(MotionSets, OfPublicKinds)
 
     const LoadedStudy same = set("records/same_record_eight_times");
     EXPECT_EQ(motion_groups(same.study(), same.result_header().motions).groups, 1U);
-    EXPECT_NE(doubt(same, "equal_motions"), "");
+    EXPECT_NE(implausible(same, "equal_motions"), "");
 
     std::string single = text("").substr(0, text("").find("[fragility]"));
     single.replace(single.find("fragility"), 9, "single").replace(single.find("realizations = 2\n"), 17, "");

@@ -103,7 +103,7 @@ TEST(StudyTemplate, OfEveryKindIsAStudyOfThatKind)
         EXPECT_EQ(study.kind, choice.study) << name_of(choice);
         EXPECT_EQ(study.structure.kind, choice.structure) << name_of(choice);
         EXPECT_EQ(study.excitation.kind, choice.excitation) << name_of(choice);
-        const std::vector<Doubt> found = doubts(study);
+        const std::vector<Implausibility> found = implausibilities(study);
         EXPECT_TRUE(found.empty()) << name_of(choice) << ": " << found.front().text;
     }
 }
