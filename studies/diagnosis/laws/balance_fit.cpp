@@ -157,11 +157,6 @@ constexpr std::size_t common_turning = 1;
 
 } // namespace
 
-double CauseFit::gain_without_best() const
-{
-    return gain_by_run.empty() ? gain : gain - *std::max_element(gain_by_run.begin(), gain_by_run.end());
-}
-
 bool stands_for_unknown(const Cause& cause)
 {
     return cause.mechanism == "tie";

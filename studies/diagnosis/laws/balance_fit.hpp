@@ -49,7 +49,6 @@ struct CauseFit {
     double sd = 0;
     double gain = 0;                 ///< log posterior gained over the baseline [nats]
     std::vector<double> gain_by_run; ///< (runs)
-    double gain_without_best() const;
 };
 
 /// Whether a fitted size is one that the mechanism can have.
