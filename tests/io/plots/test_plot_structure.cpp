@@ -104,7 +104,7 @@ TEST_F(Structure, OtherFormats)
     plot_structure(column(), "column", (folder / "column.svg"));
     plot_structure(column(), "column", (folder / "column.pdf"));
     EXPECT_TRUE(read_file((folder / "column.svg")).starts_with("<?xml"));
-    EXPECT_NE(read_file((folder / "column.svg")).find("drums 1 to 6: 48 × 29 mm, 0.1355 kg"), std::string::npos);
+    EXPECT_NE(read_file((folder / "column.svg")).find("drums 2 to 7: 48 × 29 mm, 0.1355 kg"), std::string::npos);
     EXPECT_NE(read_file((folder / "column.svg")).find("203 mm"), std::string::npos);
     EXPECT_TRUE(read_file((folder / "column.pdf")).starts_with("%PDF"));
 }

@@ -104,7 +104,7 @@ with tempfile.TemporaryDirectory() as folder:
         expect(probability.attrs["long_name"] == "probability of collapse", "the probability has no name")
         expect(int(surface.trials.sum()) == 12, "the surface does not count 12 realizations")
     with xarray.open_dataset(f"{folder}/surface.h5", group="realizations/outcome", engine="h5netcdf") as outcome:
-        expect(list(outcome.block.values) == [f"drum {i} of column 0" for i in range(7)], f"the blocks are {outcome.block.values}")
+        expect(list(outcome.block.values) == [f"drum {i + 1}" for i in range(7)], f"the blocks are {outcome.block.values}")
         expect(outcome.fall_time_s.dims == ("index", "block"), "the times of the falls are not by block")
     with xarray.open_dataset(f"{folder}/fragility.h5", group="fragility", engine="h5netcdf") as fragility:
         expect(fragility.curve.dims == ("states", "grid"), "the curves are not over the intensity")
