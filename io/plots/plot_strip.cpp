@@ -101,7 +101,7 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
         drawn.blocks.push_back(i);
         drawn.fixed.push_back(!moves);
         drawn.epistyles += t.role[i] == BlockRole::epistyle;
-        drawn.capitals += t.name[i].starts_with("capital ");
+        drawn.capitals += t.name[i].starts_with("capital");
         if (moves)
             drawn.top = i;
     }
