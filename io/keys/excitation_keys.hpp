@@ -145,9 +145,10 @@ inline const NumberKey tail{
     "tail_s",
     tail_range,
     "longest simulated time after the shaking",
-    {.absent = "\"rest\" in fragility and sensitivity studies, which count residual displacements: until the "
-               "realization lies still, at most 240 / p; else \"structure\": 12 / p, p = sqrt(3 g / (4 R)) of the "
-               "whole column of each realization, R half its diagonal",
+    {.absent = "\"rest\" in fragility and sensitivity studies, which count residual displacements, and in survival "
+               "studies with an observed state: until the realization lies still, at most 240 / p; else "
+               "\"structure\": 12 / p, p = sqrt(3 g / (4 R)) of the whole column of each realization, R half its "
+               "diagonal",
      .used = {moving},
      .words = {tail_names[0].word, tail_names[1].word}}};
 

@@ -137,13 +137,12 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
                             "Remove it: the motions and their intensities are given by [fragility].");
 }
 
-/// A number, or one of the words; without it the default of the kind of study.
-void read_tail(const KeyReader& keys, StudyKind kind, ExcitationSpec& e)
+/// A number, or one of the words; without it the default of the study.
+void read_tail(const KeyReader& keys, bool remains, ExcitationSpec& e)
 {
     const TomlValue* tail = keys.find(excitation_keys::tail.name);
-    const bool reports = kind == StudyKind::sensitivity || kind == StudyKind::fragility;
     if (tail == nullptr)
-        e.tail = reports ? Tail::rest : Tail::structure;
+        e.tail = remains ? Tail::rest : Tail::structure;
     else if (const auto* word = std::ranges::find_if(
                  tail_names,
                  [&](const auto& name) { return tail->type == TomlValue::Type::string && tail->text == name.word; });
@@ -163,7 +162,7 @@ std::string acceleration_unit(const KeyReader& keys, const TextKey& key)
     return unit == "gal" ? "cm/s2" : unit; // one name for one unit, so that equal studies have equal texts
 }
 
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind, bool remains)
 {
     ExcitationSpec e;
     e.kind = keys.read(excitation_keys::kind);
@@ -220,7 +219,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
         e.run = keys.read_or(excitation_keys::run, {});
         break;
     }
-    read_tail(keys, kind, e);
+    read_tail(keys, remains, e);
     return e;
 }
 

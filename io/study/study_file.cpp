@@ -312,6 +312,13 @@ void read_beside_surface(const KeyReader& top, Study& study, const std::filesyst
     }
 }
 
+/// Whether residual displacements are counted, or compared with those of a monument.
+bool needs_what_remains(const KeyReader& top, StudyKind kind)
+{
+    return kind == StudyKind::fragility || kind == StudyKind::sensitivity ||
+           (kind == StudyKind::survival && top.table(survival_keys::table).has(survival_keys::observed));
+}
+
 /// @param folder beside which the study's files are looked for
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
@@ -339,7 +346,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.structure = read_structure(top.table(structure_keys::table));
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
-    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
+    study.excitation =
+        read_excitation(top.table(excitation_keys::table), study.kind, needs_what_remains(top, study.kind));
     if (has_axes(study.kind)) {
         if (!top.has("surface"))
             top.missing("surface", fmt::format("study.kind = \"{}\" needs the axes frequency_hz and pga_m_s2 in "

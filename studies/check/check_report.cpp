@@ -148,9 +148,7 @@ std::string check_text(const CheckReport& r)
     if (!r.notice.empty())
         text += r.notice + "\n";
     if (r.counted)
-        text += fmt::format("interval: {} {}{} a probability near 0.5 to ±{:.2g} (95 %)\n", *r.counted,
-                            study.fragility ? "ground motion" : "run", *r.counted == 1 ? " fixes" : "s fix",
-                            worst_half_width(*r.counted));
+        text += fmt::format("interval: {}\n", width_text(study, *r.counted));
     if (const std::optional<FirstMode>& mode = r.free.mode)
         text += fmt::format("first mode: {:.3g} Hz, damping ratio {:.2g} % (contacts closed, nothing drawn)\n",
                             mode->frequency_hz, 100 * mode->damping_ratio);

@@ -163,11 +163,11 @@ Found wide_interval(const Subject& s)
     const std::optional<std::uint64_t> n = counted_trials(s.loaded);
     if (!n || worst_half_width(*n) <= wide)
         return std::nullopt;
-    return spot(fmt::format("{} {}{}{} a probability near 0.5 to ±{:.2f} (95 %, Jeffreys).", *n,
-                            study.fragility ? "ground motion" : "realization", *n == 1 ? "" : "s",
-                            study.surface ? " in each cell fix" : " fix", worst_half_width(*n)),
-                fmt::format("For ±{} give {} = {:.0f}; the width falls with the square root of the number.", wanted,
-                            study.fragility ? "fragility.motions (or more records)" : "study.realizations",
+    const char* more = !study.fragility                   ? "study.realizations = "
+                       : study.fragility->records.empty() ? "fragility.motions = "
+                                                          : "different ground motions: ";
+    return spot(width_text(study, *n) + ".",
+                fmt::format("For ±{} give {}{:.0f}; the width falls with the square root of the number.", wanted, more,
                             std::ceil(0.25 * std::pow(1.96 / wanted, 2))));
 }
 
@@ -378,10 +378,11 @@ Found hardly_damped(const Subject& s)
                                   centroid ? "contact.damping = \"ends\" and " : ""));
 }
 
-/// Whether the results of a study have residual displacements.
+/// Whether the results of a study have residual displacements, or compare them with those of a monument.
 bool reports_residuals(const Study& study)
 {
-    return study.kind == StudyKind::single || study.sensitivity || study.fragility;
+    return study.kind == StudyKind::single || study.sensitivity || study.fragility ||
+           (study.survival && study.survival->observed);
 }
 
 Found still_moving(const Subject& s)
@@ -522,6 +523,13 @@ double worst_half_width(std::uint64_t realizations)
 {
     const BinomialInterval interval = jeffreys(realizations, realizations / 2, 0.95);
     return (interval.upper - interval.lower) / 2;
+}
+
+std::string width_text(const Study& study, std::uint64_t trials)
+{
+    return fmt::format("{}{} {} a probability near 0.5 to ±{:.2g} (95 %)",
+                       counted(trials, study.fragility ? "ground motion" : "run"), study.surface ? " of a cell" : "",
+                       trials == 1 ? "fixes" : "fix", worst_half_width(trials));
 }
 
 Jumps jumps_of(const std::vector<std::uint64_t>& valid, const std::vector<std::uint64_t>& collapsed,

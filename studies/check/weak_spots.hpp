@@ -46,6 +46,9 @@ std::optional<std::uint64_t> counted_trials(const LoadedStudy& loaded);
 /// Half the width of the 95 % interval (Jeffreys) to which so many runs fix a probability near 0.5.
 double worst_half_width(std::uint64_t realizations);
 
+/// "32 runs of a cell fix a probability near 0.5 to ±0.17 (95 %)", for the `counted_trials` of the study.
+std::string width_text(const Study& study, std::uint64_t trials);
+
 /// Rows of a surface in which the probability rises from nearly none to nearly all between two neighbours.
 struct Jumps {
     std::uint64_t rows = 0;    ///< in which both are seen,

@@ -156,7 +156,7 @@ TEST_F(Check, ShowsWhatIsImplausibleAndWhatIsWeak)
     EXPECT_EQ(json["weak_spots"].items[1]["name"].text, "hardly_damped");
     const Ended text = run(with({"check", input("small_scale_monolith"), "--pilot", "0", "--trial-seconds", "0"},
                                 {"study.realizations=4"}));
-    EXPECT_NE(text.out.find("weak: wide_interval: 4 realizations in each cell"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("weak: wide_interval: 4 runs of a cell fix"), std::string::npos) << text.out;
 }
 
 TEST_F(Check, DrawsTheStructure)

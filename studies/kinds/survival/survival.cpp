@@ -91,6 +91,7 @@ void SurvivalCounts::add(const ResultRow& row)
         state.value.push_back((place.rotation ? o.rotation_rad : o.bed_offset_m).at(place.number));
     const StateDistance found = distance(measured_, state.value);
     agree_[cell].successes += found.agrees();
+    moving_ += found.agrees() && o.at_rest == 0;
     const bool nearer = !nearest_ || found.value < nearest_->distance ||
                         (found.value == nearest_->distance && row.index < nearest_->index);
     if (nearer && !state.value.empty())
@@ -155,6 +156,7 @@ Survival survival_of(const Study& study, const SurvivalCounts& counts)
     s.valid = sum_of(s.agreeing, &CellCount::trials);
     s.agree = sum_of(s.agreeing, &CellCount::successes);
     s.stand = sum_of(s.standing, &CellCount::successes);
+    s.moving = counts.moving();
     s.measured = counts.measured();
     s.names = counts.names();
     s.state_measured = !s.measured.value.empty();

@@ -40,6 +40,8 @@ public:
     const std::vector<CellCount>& agree() const { return agree_; }
     std::vector<CellCount> stand() const;
     const std::vector<CellCount>& collapse() const { return collapse_; }
+    /// Of those that agree, how many still moved at the end.
+    std::uint64_t moving() const { return moving_; }
     const std::optional<NearestState>& nearest() const { return nearest_; }
     /// In the order of the realizations.
     StandingStates standing() const;
@@ -64,6 +66,7 @@ private:
     std::vector<std::string> names_;
     std::vector<Place> places_; ///< that were measured, and then their counterparts that were not
     std::vector<CellCount> agree_, collapse_;
+    std::uint64_t moving_ = 0;
     std::vector<Standing> standing_;
     std::optional<NearestState> nearest_;
 };
@@ -72,7 +75,7 @@ struct Survival {
     PastAxes axes;
     std::string prior; ///< in words
     double level = 0.95;
-    std::uint64_t realizations = 0, valid = 0, stand = 0, agree = 0;
+    std::uint64_t realizations = 0, valid = 0, stand = 0, agree = 0, moving = 0; ///< moving: of those that agree
     bool state_measured = false; ///< else that it stands is all that is known
     std::vector<CellCount> agreeing, standing;
     MeasuredState measured;

@@ -21,8 +21,10 @@ Json estimate_json(const PastEstimate& e)
 std::string agreeing_words(const Survival& s)
 {
     return s.state_measured ? fmt::format("{} of {} valid realizations stand; {} agree with the observed state within "
-                                          "its tolerance{}",
-                                          s.stand, s.valid, s.agree, s.measured.mirrored ? ", or mirrored" : "")
+                                          "its tolerance{}{}",
+                                          s.stand, s.valid, s.agree, s.measured.mirrored ? ", or mirrored" : "",
+                                          s.moving > 0 ? fmt::format("; {} of these still moved at the end", s.moving)
+                                                       : std::string())
                             : fmt::format("{} of {} valid realizations stand; the only observation is that it stands",
                                           s.stand, s.valid);
 }
@@ -128,6 +130,7 @@ Json survival_json(const Survival& s)
     json.member("valid", s.valid)
         .member("standing", s.stand)
         .member("agreeing", s.agree)
+        .member("agreeing_still_moving", s.moving)
         .member("state_measured", s.state_measured)
         .member("judged", s.judged())
         .member("prior", s.prior)

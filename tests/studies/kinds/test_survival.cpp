@@ -107,6 +107,18 @@ TEST(Survival, ABlockThatSlidesUnderOneEventSlidesTwiceAndThriceAsFarUnderTwoAnd
     EXPECT_FALSE(follow(Experiment(plain), 0, Isa::scalar).outcome.bed_offset_m.empty());
 }
 
+/// A monument that was measured is at rest; that it stands is known without waiting.
+TEST(Survival, AnObservedStateIsComparedWithStatesAtRest)
+{
+    const auto tail = [](const std::string& observed, const std::vector<std::string>& settings) {
+        return parse_study(squat("kind = \"full_sine\"", observed), "squat", settings).excitation.tail;
+    };
+    const std::string observed = "observed = { tolerance_m = 0.001 }";
+    EXPECT_EQ(tail(observed, {}), Tail::rest);
+    EXPECT_EQ(tail(observed, {"excitation.tail_s=\"structure\""}), Tail::structure);
+    EXPECT_EQ(tail("", {}), Tail::structure);
+}
+
 /// Rows of known outcomes: of the cells of three intensities 10, 5 and 0 of 10 stand, with offsets that are their
 /// number in the cell in mm.
 std::vector<ResultRow> made_rows(const Study& study)
@@ -118,6 +130,7 @@ std::vector<ResultRow> made_rows(const Study& study)
         row.cell = study.cell(i);
         const std::uint64_t number = i % 10, stand = row.cell % 3 == 0 ? 10 : row.cell % 3 == 1 ? 5 : 0;
         row.outcome.state = number < stand ? State::slid : State::collapsed;
+        row.outcome.at_rest = number != 4;
         row.outcome.bed_offset_m = {0.001 * static_cast<double>(number)};
         row.outcome.rotation_rad = {0};
         rows.push_back(row);
@@ -157,6 +170,7 @@ TEST(Survival, CountsAreThoseOfTheRowsInAnyOrder)
         EXPECT_EQ(counts.agree()[cell].successes, cell % 3 == 2 ? 0U : 3U) << cell;
         EXPECT_EQ(counts.stand()[cell].successes, cell % 3 == 0 ? 10U : cell % 3 == 1 ? 5U : 0U);
     }
+    EXPECT_EQ(counts.moving(), 8U) << "those of 4 mm in the eight cells with any that stand";
     ASSERT_TRUE(counts.nearest());
     EXPECT_EQ(counts.nearest()->index, 3U);
     EXPECT_NEAR(counts.nearest()->distance, 0, 1e-12);
