@@ -73,7 +73,7 @@ void check_pga(const Record& record)
     }
     throw InputError(record.file, 0,
                      fmt::format("{}: the PGA is {:.6g} m/s2 (unit {}), outside [{}, {}] m/s2. {}\n  "
-                                 "A study with motions of another strength says so: study.allow = [\"pga\"].",
+                                 "If the unit is right, give study.allow = [\"pga\"].",
                                  record.component, pga, record.unit, smallest_pga_m_s2, largest_pga_m_s2,
                                  hint.empty() ? "Check the unit and the file." : "Is the unit right?" + hint + "."));
 }

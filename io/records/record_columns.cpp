@@ -300,8 +300,8 @@ std::vector<Use> uses_of(const RecordText& text, const ColumnTable& table)
         if (contradicts && (meaning.of_unit == Quantity::acceleration || meaning.of_words == Quantity::acceleration))
             text.refuse(
                 *table.heading_line,
-                fmt::format("the column \"{}\" is {} by its name and {} by its unit. Correct the name. Units of "
-                            "acceleration are g, g/10, m/s2, cm/s2, gal and mm/s2.",
+                fmt::format("the column \"{}\" is {} by its name and {} by its unit. Correct the name, or convert the "
+                            "values. Units of acceleration are g, g/10, m/s2, cm/s2, gal and mm/s2.",
                             table.headings[c], to_string(meaning.of_words), to_string(meaning.of_unit)));
         if (meaning.of_words == Quantity::unnamed)
             uses[c].quantity = meaning.of_unit;

@@ -120,8 +120,12 @@ bool has_vertical_name(const Record& record)
 std::vector<std::string> words_of(std::string_view name)
 {
     std::vector<std::string> words(1);
+    bool accented = false; // inside a character of UTF-8: "é" is a letter; "²", "°" and dashes (C2, E2) are none
     for (const char c : lower_case(name)) {
-        if (is_lower_letter(c) || is_digit(c))
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80 || byte >= 0xC0)
+            accented = byte > 0xC2 && byte != 0xE2;
+        if (accented || is_lower_letter(c) || is_digit(c))
             words.back() += c;
         else if (!words.back().empty())
             words.emplace_back();

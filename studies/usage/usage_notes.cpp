@@ -14,7 +14,7 @@ const std::vector<UsageSection>& usage_notes()
           {"3",
            "done, but more realizations are invalid than run.max_invalid_fraction allows; of check: run.accuracy is "
            "missed"},
-          {"130", "interrupted by Ctrl-C; the same command continues a run or a calibration"}}},
+          {"130", "interrupted by Ctrl-C; the same command continues a run, a comparison or a calibration"}}},
         {"Environment",
          {{"STYLOBATE_GNUPLOT", "path of the gnuplot that draws png, svg and pdf (default: the first in PATH)"},
           {"STYLOBATE_FFMPEG", "path of the ffmpeg that writes gif, mp4 and webm (default: the first in PATH)"},

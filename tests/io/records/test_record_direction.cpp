@@ -52,7 +52,8 @@ TEST(DirectionNames, OfAgencies)
                              "H1",     "H2",  "L",    "T",       "L1",      "T3",   "LONG", "Tran",       "Transverse",
                              "Radial", "FN",  "FP",   "HNE",     "HGN",     "HN1",  "BH2",  "acc_ns (g)", "501"})
         EXPECT_EQ(direction_of_name(name), Direction::horizontal) << name;
-    for (const char* name : {"", "x", "Y", "acceleration", "column 2", "a", "acc [g]", "500.5", "BN3", "720", "o"})
+    for (const char* name : {"", "x", "Y", "acceleration", "column 2", "a", "acc [g]", "500.5", "BN3", "720", "o",
+                             "accélération (m/s²)", "aceleración"}) // no L, and no N
         EXPECT_EQ(direction_of_name(name), Direction::unknown) << name;
 }
 

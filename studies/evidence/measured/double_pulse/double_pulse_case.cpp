@@ -353,7 +353,7 @@ std::string data_section(const PulseResults& r)
         "10.1504/IJMRI.2016.081279), the single block of scale 1: {} tests and {} simulations, read from the markers "
         "of two figures (accuracy about 0.004 m/s; circles are interpreted as no fall and triangles as a fall). "
         "The source gives the distance BD that the base moves to its stopper, and its peak velocity. It does **not** "
-        "give the block's size, the friction under it, and the time history of the base velocity. Every second test "
+        "give the block's size, the friction under it, or the time history of the base velocity. Every second test "
         "in the order of the file (BD, then velocity), from the first on, is for fitting ({}); the others are held out "
         "({}).\n\nThe published simulation, evaluated at its nearest point, is right in {:.3f} of the tests, with {} "
         "false falls and {} false stands.\n\n",
