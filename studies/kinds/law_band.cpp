@@ -118,6 +118,8 @@ const LawBand::Limit* LawBand::limit(const std::string& name) const
 
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws)
 {
+    if (place.low() == place.high())
+        return fmt::format("contact law: {} under each law", number(place.low()));
     return fmt::format("contact law: {} to {} ({} to {})", number(place.low()), number(place.high()),
                        laws[place.lowest()], laws[place.highest()]);
 }
@@ -136,6 +138,8 @@ std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
     if (limit.cells.size() < 2)
         return text;
     const LawBand::Place& widest = limit.cells[limit.widest()]; // laws may move cells with both signs
+    if (widest.low() == widest.high())
+        return text;
     return fmt::format("{} over all cells, {} to {} at {}", text, number(widest.low()), number(widest.high()),
                        band.places[limit.widest()]);
 }
@@ -149,8 +153,8 @@ std::string law_band_text(const LawBand& band)
     for (std::size_t i = 1; i < band.laws.size(); ++i)
         text += fmt::format("  {:<8} {:<50} {}, difference {:+.4f} ({:+.4f} to {:+.4f})\n", band.laws[i], band.words[i],
                             number(limit.overall.probability[i]), limit.difference[i], limit.lower[i], limit.upper[i]);
-    if (limit.cells.size() > 1) {
-        const std::size_t cell = limit.widest();
+    const std::size_t cell = limit.cells.size() > 1 ? limit.widest() : 0;
+    if (limit.cells.size() > 1 && limit.cells[cell].low() < limit.cells[cell].high()) {
         const LawBand::Place& widest = limit.cells[cell];
         text += fmt::format("  widest band at {}: {} to {} ({} to {}), {} as given\n", band.places[cell],
                             number(widest.low()), number(widest.high()), band.laws[widest.lowest()],

@@ -200,6 +200,13 @@ TEST(LawShare, IsCountedFromTheRuns)
     EXPECT_NE(text.find("; numerics: +0.005 ± 0.009;"), std::string::npos) << text;
 }
 
+TEST(LawShare, WordsOfARange)
+{
+    const std::vector<std::string> names = {"as given", "softer"};
+    EXPECT_EQ(law_range_words({{0.25, 0.5}}, names), "contact law: 0.25 to 0.5 (as given to softer)");
+    EXPECT_EQ(law_range_words({{0.25, 0.25}}, names), "contact law: 0.25 under each law");
+}
+
 /// Less time: fewer of the same realizations; too little: none, with the option that runs them.
 TEST(LawShare, StaysWithinItsTime)
 {
