@@ -497,6 +497,12 @@ std::vector<FullContact> contacts_of(const std::vector<Block>& blocks, const std
     return contacts;
 }
 
+Dynamics dynamics_of(const Realization& r)
+{
+    return dynamics_of(r.blocks, r.joints, is_extended(r) ? contacts_of(r) : contacts_of(r.blocks, r.joints, r.watched),
+                       r.gravity_m_s2);
+}
+
 /// Whether all normal dashpots are at the ends of their contacts, so that none of a smaller contact has more of them.
 bool damped_at_ends(const Realization& r)
 {
@@ -567,9 +573,7 @@ LinearResponse linear_response(const std::vector<Block>& blocks, const std::vect
 
 LinearResponse linear_response(const Realization& r)
 {
-    if (!is_extended(r))
-        return linear_response(r.blocks, r.joints, r.gravity_m_s2, r.watched);
-    return response_of(dynamics_of(r.blocks, r.joints, contacts_of(r), r.gravity_m_s2));
+    return response_of(dynamics_of(r));
 }
 
 FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
@@ -580,9 +584,7 @@ FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>&
 
 FirstMode first_mode(const Realization& r)
 {
-    if (!is_extended(r))
-        return first_mode(r.blocks, r.joints, r.gravity_m_s2, r.watched);
-    return first_mode_of(dynamics_of(r.blocks, r.joints, contacts_of(r), r.gravity_m_s2));
+    return first_mode_of(dynamics_of(r));
 }
 
 } // namespace stylobate

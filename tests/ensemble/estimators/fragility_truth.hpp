@@ -1,8 +1,9 @@
 #pragma once
-/// Outcomes drawn from a known fragility curve, with records that differ.
+/// Outcomes drawn from a known fragility curve, with records that differ, and a hazard of a power law.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/fragility/link.hpp"
+#include "ensemble/estimators/risk/hazard.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <cmath>
@@ -10,6 +11,21 @@
 #include <vector>
 
 namespace stylobate {
+
+inline HazardModel power_law(double k0, double k, double sigma_ln = 0)
+{
+    HazardModel hazard;
+    hazard.measure = "pga_m_s2";
+    hazard.intensity = {1, 10};
+    hazard.frequency = {k0, k0 * std::pow(10, -k)};
+    hazard.unbounded = true;
+    if (sigma_ln > 0)
+        for (const double p : {0.05, 0.95}) {
+            const double factor = std::exp(sigma_ln * link_quantile(Link::probit, p));
+            hazard.fractiles.push_back({p, {k0 * factor, k0 * factor * std::pow(10, -k)}});
+        }
+    return hazard;
+}
 
 /// ln capacity = ln median + record's own part + run's own part; so over all records the curve is lognormal with
 /// dispersion hypot(between, within), whatever its parts.

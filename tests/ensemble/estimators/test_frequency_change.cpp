@@ -3,6 +3,7 @@
 #include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "tests/ensemble/estimators/fragility_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +11,6 @@
 
 namespace stylobate {
 namespace {
-
-HazardModel law(double k0, double k, double sigma_ln = 0)
-{
-    HazardModel hazard;
-    hazard.measure = "pga_m_s2";
-    hazard.intensity = {1, 10};
-    hazard.frequency = {k0, k0 * std::pow(10, -k)};
-    hazard.unbounded = true;
-    if (sigma_ln > 0)
-        for (const double p : {0.05, 0.95}) {
-            const double factor = std::exp(sigma_ln * normal_quantile(p));
-            hazard.fractiles.push_back({p, {k0 * factor, k0 * factor * std::pow(10, -k)}});
-        }
-    return hazard;
-}
 
 double part(std::size_t g, std::size_t of)
 {
@@ -61,7 +47,7 @@ TEST(FrequencyChange, IsTheMeanOfTheMotionsOwnChanges)
     // motion g reaches it in 2 + g % 3 of ten at 1 and in 6 + g % 4 at 2; the variant in one less, and in two less
     const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
     const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1 : 1 + part(g, 2)); };
-    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1), {.years = {100}});
+    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), power_law(0.01, 1), {.years = {100}});
     const Weights w = weights();
     const double b = w.first * 0.3 + w.second * 0.75, v = w.first * 0.2 + w.second * 0.6;
     EXPECT_NEAR(found.base.frequency.value, b, 1e-12);
@@ -92,7 +78,7 @@ TEST(FrequencyChange, TheHazardIsCommonToBoth)
 {
     const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
     const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1 : 1 + part(g, 2)); };
-    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), law(0.01, 1, 0.5), {});
+    const FrequencyChange found = frequency_change(pairs_of(24, base, variant), power_law(0.01, 1, 0.5), {});
     const double value = found.frequency.value;
     EXPECT_NEAR(found.frequency.total.lower / value, std::exp(0.5 * 1.6449), 0.15);
     EXPECT_NEAR(found.frequency.total.upper / value, std::exp(-0.5 * 1.6449), 0.05);
@@ -104,7 +90,7 @@ TEST(FrequencyChange, WithoutAChangeTheLimitsAreThoseOfAFurtherMotion)
 {
     const auto same = [](std::size_t g, std::size_t j) { return j == 0 ? part(g, 2) : 3 + part(g, 4); };
     const FrequencyChange found =
-        frequency_change(pairs_of(20, same, same), law(0.01, 1), {.years = {100}, .draws = 20000});
+        frequency_change(pairs_of(20, same, same), power_law(0.01, 1), {.years = {100}, .draws = 20000});
     EXPECT_TRUE(found.few);
     EXPECT_EQ(found.frequency.value, 0);
     // the upper quantile of W0 / (W0 + ... + W20) is 1 - 0.05^(1/20); it counts from the first stripe with damage on
@@ -118,7 +104,7 @@ TEST(FrequencyChange, WithoutAChangeTheLimitsAreThoseOfAFurtherMotion)
 TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
 {
     const auto base = [](std::size_t, std::size_t j) { return j == 0 ? 0.0 : 10.0; };
-    const FrequencyChange found = frequency_change(pairs_of(20, base, base), law(0.01, 1), {.years = {100}});
+    const FrequencyChange found = frequency_change(pairs_of(20, base, base), power_law(0.01, 1), {.years = {100}});
     // 0.005 events a year lie between the stripes: the distances of both structures' limits from their values
     const RiskNumber& f = found.base.frequency;
     const double up = f.fragility.upper - f.value, down = f.value - f.fragility.lower;
@@ -127,7 +113,8 @@ TEST(FrequencyChange, SeparatedStripesLeaveTheChangeOpen)
     EXPECT_LE(found.frequency.fragility.lower, -std::hypot(up, down));
     EXPECT_LE(found.frequency.fragility.upper, 1.2 * std::hypot(up, down));
     // the hazard is in the draws, and not a second time in the distances
-    const FrequencyChange uncertain = frequency_change(pairs_of(20, base, base), law(0.01, 1, 0.5), {.years = {100}});
+    const FrequencyChange uncertain =
+        frequency_change(pairs_of(20, base, base), power_law(0.01, 1, 0.5), {.years = {100}});
     EXPECT_LE(uncertain.frequency.total.upper, 1.2 * std::hypot(up, down));
     EXPECT_GE(uncertain.base.frequency.total.upper - f.value, 1.5 * up);
 }
@@ -137,7 +124,7 @@ TEST(FrequencyChange, WithoutPairsNothingIsAdded)
 {
     const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
     const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - 1; };
-    const FrequencyChange want = frequency_change(pairs_of(12, base, variant), law(0.01, 1), {});
+    const FrequencyChange want = frequency_change(pairs_of(12, base, variant), power_law(0.01, 1), {});
     PairedStripes pairs = pairs_of(13, base, variant);
     pairs.intensity = {1, 1.5, 2};
     for (std::vector<double>* of : {&pairs.trials, &pairs.base, &pairs.variant}) {
@@ -145,7 +132,7 @@ TEST(FrequencyChange, WithoutPairsNothingIsAdded)
         for (std::ptrdiff_t g = 12; g >= 0; --g)
             of->insert(of->begin() + 2 * g + 1, 0.0);
     }
-    const FrequencyChange found = frequency_change(pairs, law(0.01, 1), {});
+    const FrequencyChange found = frequency_change(pairs, power_law(0.01, 1), {});
     EXPECT_EQ(found.frequency.value, want.frequency.value);
     EXPECT_EQ(found.frequency.fragility.upper, want.frequency.fragility.upper);
 }
@@ -154,7 +141,7 @@ TEST(FrequencyChange, FewMotionsGiveNoInterval)
 {
     const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 8; };
     const auto variant = [](std::size_t, std::size_t j) { return j == 0 ? 1.0 : 7.0; };
-    const FrequencyChange found = frequency_change(pairs_of(5, base, variant), law(0.01, 1), {});
+    const FrequencyChange found = frequency_change(pairs_of(5, base, variant), power_law(0.01, 1), {});
     EXPECT_TRUE(std::isinf(found.frequency.total.upper) && std::isinf(found.frequency.total.lower));
     EXPECT_EQ(found.probability[0].total.upper, 1);
 }
@@ -183,7 +170,7 @@ TEST(FrequencyChangeStatistics, IntervalsContainTheTruth)
                 pairs.variant.push_back(v);
             }
         }
-        const FrequencyChange found = frequency_change(pairs, law(0.01, 1), {.years = {100}, .draws = 500});
+        const FrequencyChange found = frequency_change(pairs, power_law(0.01, 1), {.years = {100}, .draws = 500});
         const double truth = -0.2 * (w.first * 0.3 + w.second * 0.6);
         covered += found.frequency.fragility.lower <= truth && truth <= found.frequency.fragility.upper;
         better += found.frequency.fragility.upper < 0;

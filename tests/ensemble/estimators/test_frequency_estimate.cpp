@@ -12,21 +12,6 @@
 namespace stylobate {
 namespace {
 
-HazardModel power_law(double k0, double k, double sigma_ln = 0)
-{
-    HazardModel hazard;
-    hazard.measure = "pga_m_s2";
-    hazard.intensity = {1, 10};
-    hazard.frequency = {k0, k0 * std::pow(10, -k)};
-    hazard.unbounded = true;
-    if (sigma_ln > 0)
-        for (const double p : {0.05, 0.95}) {
-            const double factor = std::exp(sigma_ln * link_quantile(Link::probit, p));
-            hazard.fractiles.push_back({p, {k0 * factor, k0 * factor * std::pow(10, -k)}});
-        }
-    return hazard;
-}
-
 FragilityData data_of(const FragilityTruth& truth, std::uint64_t seed = 1, std::uint64_t repeat = 0)
 {
     return grouped(truth.draw(seed, repeat));

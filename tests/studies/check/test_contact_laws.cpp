@@ -3,9 +3,9 @@
 
 #include "studies/experiment/contact_laws.hpp"
 
-#include "ensemble/engine/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/check/law_share.hpp"
+#include "tests/studies/kinds/single_runs.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -134,17 +134,6 @@ TEST(ContactLaws, AFixedStepFollowsTheStiffness)
     EXPECT_NEAR(*law_called(laws, "stiffer").study->run.step_s, 1e-6 / std::sqrt(3.0), 1e-20);
     EXPECT_FALSE(law_called(laws, "rigid").study->run.step_s);
     EXPECT_NEAR(law_cost(Experiment(base), Experiment(*law_called(laws, "stiffer").study)), std::sqrt(3.0), 1e-9);
-}
-
-std::map<std::uint64_t, bool> collapsed_of(const Study& study)
-{
-    std::map<std::uint64_t, bool> all;
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& r, const Outcome& o) { all[r.index] = o.state == State::collapsed; };
-    Observer quiet;
-    run_ensemble(Experiment(study), {Isa::scalar, 1}, plan, quiet);
-    return all;
 }
 
 TEST(LawShare, IsCountedFromTheRuns)

@@ -5,6 +5,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "io/study/study_file.hpp"
+#include "tests/studies/kinds/single_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,17 +24,6 @@ Study rigid_surface(const std::vector<std::string>& more = {})
                                       "surface.pga_m_s2={ from = 3.0, to = 7.0, count = 3 }"};
     settings.insert(settings.end(), more.begin(), more.end());
     return read_study(input, settings);
-}
-
-std::map<std::uint64_t, bool> collapsed_of(const Study& study)
-{
-    std::map<std::uint64_t, bool> all;
-    RunPlan plan;
-    plan.total = study.total();
-    plan.sink = [&](const Realization& r, const Outcome& o) { all[r.index] = o.state == State::collapsed; };
-    Observer quiet;
-    run_ensemble(Experiment(study), {Isa::scalar, 1}, plan, quiet);
-    return all;
 }
 
 TEST(Numerics, ThePilotCountsWhatTheRunsGive)

@@ -1,0 +1,24 @@
+#pragma once
+/// Outcomes of a study from single runs, for counts by another way.
+
+#include "ensemble/engine/executor.hpp"
+#include "ensemble/experiment.hpp"
+
+#include <cstdint>
+#include <map>
+
+namespace stylobate {
+
+/// Of each realization by its index, whether it collapsed.
+inline std::map<std::uint64_t, bool> collapsed_of(const Study& study)
+{
+    std::map<std::uint64_t, bool> all;
+    RunPlan plan;
+    plan.total = study.total();
+    plan.sink = [&](const Realization& r, const Outcome& o) { all[r.index] = o.state == State::collapsed; };
+    Observer quiet;
+    run_ensemble(Experiment(study), {Isa::scalar, 1}, plan, quiet);
+    return all;
+}
+
+} // namespace stylobate
