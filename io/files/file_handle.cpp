@@ -83,12 +83,12 @@ FileHandle FileHandle::claim(const std::filesystem::path& file)
 {
     const auto folder = folder_of(file);
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(folder, error);
-    if (status.type() == std::filesystem::file_type::not_found)
+    const std::filesystem::file_status there = std::filesystem::status(folder, error);
+    if (there.type() == std::filesystem::file_type::not_found)
         refuse(folder, "there is no such folder; create it first, or choose another output");
-    if (status.type() == std::filesystem::file_type::none)
+    if (there.type() == std::filesystem::file_type::none)
         refuse(folder, "cannot be written: " + error.message() + "; choose another output folder");
-    if (!std::filesystem::is_directory(status))
+    if (!std::filesystem::is_directory(there))
         refuse(folder, "is not a folder; choose another output");
     for (int attempt = 0; attempt < 2; ++attempt) {
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);

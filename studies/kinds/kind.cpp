@@ -46,7 +46,8 @@ void Kind::share(Progress& progress) const
 std::string Kind::text() const
 {
     return counts_.trials() == 0 ? ""
-                                 : limits_text(counts_, header_.block_names, study_.outcome.follow == Follow::rest);
+                                 : limits_text(counts_, header_.block_names, study_.outcome.follow == Follow::rest,
+                                               study_.events() > 1 ? "of one event: " : "");
 }
 
 Json Kind::limits_json() const

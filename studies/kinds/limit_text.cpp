@@ -66,10 +66,11 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
     return json;
 }
 
-std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest)
+std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
+                        const std::string& of)
 {
     const Share collapsed = counts.share(LimitState::collapse);
-    std::string text = "  collapsed " + share_text(collapsed);
+    std::string text = "  " + of + "collapsed " + share_text(collapsed);
     if (collapsed.count > 0)
         text += fmt::format(", median time {:.3g} s", counts.median_collapse_time_s());
     if (const Share unseated = counts.share(LimitState::unseated); unseated.count > 0)

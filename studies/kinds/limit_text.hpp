@@ -11,7 +11,9 @@ namespace stylobate {
 
 /// Outcomes of the valid realizations, over all cells.
 /// @param names of the blocks   @param to_rest whether realizations are followed beyond the first fall
-std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest);
+/// @param of which realizations are counted: "of one event: "
+std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
+                        const std::string& of = "");
 
 /// @param fair whether all cells have equally many realizations; else the shares among all mean nothing and are left
 /// out

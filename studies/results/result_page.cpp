@@ -158,7 +158,8 @@ private:
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         else
-            text = fmt::format("{} of {} valid realizations{} collapsed: {} ({}{}).", collapsed.count, collapsed.trials,
+            text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
+                               collapsed.trials, study_.events() > 1 ? " of one event" : "",
                                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA",
                                                       header_.frequency_hz.size(), header_.pga_m_s2.size())
                                         : "",

@@ -67,6 +67,9 @@ TEST_F(SurvivalProgram, OneEventIsTheSurfaceAndTheCountsAreThoseOfTheRows)
     EXPECT_TRUE(said["judged"].boolean);
     EXPECT_EQ(said["exclusion_by_events"].items.size(), 2U);
     EXPECT_LT(said["rates"]["factor_median"]["value"].number, 1);
+    // the summary is of one event, and states it
+    ASSERT_EQ(run({"report", "past.h5", "--animate", "0", "--quiet"}).status, 0);
+    EXPECT_NE(read_bytes(folder / "past.html").find(" valid realizations of one event over "), std::string::npos);
     // the table of the file has the same counts
     const Table table = past.table("survival");
     std::uint64_t in_table = 0;

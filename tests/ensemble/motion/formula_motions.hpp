@@ -135,7 +135,7 @@ inline std::vector<double> rocking(double arm_b, double arm_h, double inertia, d
 }
 
 /// A block that has turned by theta on a point of its lower face, `inside` of the corner.
-inline Pose turned(double half_width, double half_height, double theta, double inside = 0)
+inline Pose rocked_pose(double half_width, double half_height, double theta, double inside = 0)
 {
     const double side = theta > 0 ? -1 : 1, corner = side * (half_width - inside);
     const double c = std::cos(theta), s = std::sin(theta);

@@ -247,7 +247,7 @@ Campaign rocking_block(const Rocking& how, std::vector<double>* tops = nullptr)
         Pose at = at_rest(s, block);
         if (k < rest || k - rest >= angle.size() || block + 1 < s.blocks())
             return at;
-        const Pose moved = turned(b, h, angle[k - rest], how.inside_m);
+        const Pose moved = rocked_pose(b, h, angle[k - rest], how.inside_m);
         return Pose{moved.x, at.y + moved.y - h, moved.theta};
     };
     return campaign_of(

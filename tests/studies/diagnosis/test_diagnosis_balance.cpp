@@ -92,8 +92,8 @@ Campaign rocking_campaign(double offset_m)
         const std::vector<double> theta = rocking(b + sign * offset_m, h, inertia, 0.2 + 0.02 * (seed % 5), 0.08);
         campaign.runs.push_back(formula_run(
             campaign.specimen, static_cast<int>(theta.size()),
-            [&](int, int i) { return turned(b, h, sign * theta[static_cast<std::size_t>(i)]); }, camera_m, camera_rad,
-            ++seed));
+            [&](int, int i) { return rocked_pose(b, h, sign * theta[static_cast<std::size_t>(i)]); }, camera_m,
+            camera_rad, ++seed));
     }
     return campaign;
 }
@@ -286,8 +286,8 @@ Campaign inset_campaign(double inside_m)
         const std::vector<double> theta = rocking(b - inside_m, h, inertia, 0.15 + 0.02 * (seed % 5), 0.08);
         campaign.runs.push_back(formula_run(
             campaign.specimen, static_cast<int>(theta.size()),
-            [&](int, int i) { return turned(b, h, sign * theta[static_cast<std::size_t>(i)], inside_m); }, camera_m,
-            camera_rad, ++seed));
+            [&](int, int i) { return rocked_pose(b, h, sign * theta[static_cast<std::size_t>(i)], inside_m); },
+            camera_m, camera_rad, ++seed));
     }
     return campaign;
 }

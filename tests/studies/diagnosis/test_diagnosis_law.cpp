@@ -130,7 +130,7 @@ TEST(LawSamples, ABlockThatRocks)
         for (const int sign : {1, -1}) {
             const std::vector<double> theta = rocking(b - inside, h, (b * b + h * h) / 3, 0.3, 0.1);
             const Campaign campaign = campaign_of(s, static_cast<int>(theta.size()), [&](int, int i) {
-                return turned(b, h, sign * theta[static_cast<std::size_t>(i)], inside);
+                return rocked_pose(b, h, sign * theta[static_cast<std::size_t>(i)], inside);
             });
             int seen = 0;
             for (const LawSample& sample : samples_of(campaign, 0.5)) {

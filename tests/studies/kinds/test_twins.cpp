@@ -3,6 +3,7 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/study/study_file.hpp"
