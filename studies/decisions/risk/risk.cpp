@@ -1,5 +1,9 @@
 #include "studies/decisions/risk/risk.hpp"
 
+#include "studies/decisions/risk/risk_change.hpp"
+
+#include <algorithm>
+
 namespace stylobate {
 
 std::vector<const StateRisk*> Risk::chosen() const
@@ -18,6 +22,20 @@ const StateRisk& Risk::principal() const
         if (s->state == "collapse")
             return *s;
     return *all.back();
+}
+
+const char* StateChange::verdict() const
+{
+    return !determined                        ? "not determined"
+           : change.frequency.total.upper < 0 ? "lower"
+           : change.frequency.total.lower > 0 ? "higher"
+                                              : "undecided";
+}
+
+const StateChange& VariantChange::principal() const
+{
+    const auto collapse = std::ranges::find(states, "collapse", &StateChange::state);
+    return collapse == states.end() ? states.back() : *collapse;
 }
 
 } // namespace stylobate

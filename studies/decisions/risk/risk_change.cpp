@@ -66,20 +66,6 @@ StateChange change_of(const Comparison& comparison, const LimitComparison& limit
 
 } // namespace
 
-const char* StateChange::verdict() const
-{
-    return !determined                        ? "not determined"
-           : change.frequency.total.upper < 0 ? "lower"
-           : change.frequency.total.lower > 0 ? "higher"
-                                              : "undecided";
-}
-
-const StateChange& VariantChange::principal() const
-{
-    const auto collapse = std::ranges::find(states, "collapse", &StateChange::state);
-    return collapse == states.end() ? states.back() : *collapse;
-}
-
 void check_has_risk(const Comparison& comparison, const std::string& file)
 {
     if (comparison.kind != "fragility")
