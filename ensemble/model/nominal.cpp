@@ -79,4 +79,9 @@ double nominal_tail_s(const StructureSpec& structure)
     return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(half_width, 0.5 * (top - bottom)));
 }
 
+bool counts_residuals(const Study& study)
+{
+    return study.fragility || study.sensitivity || (study.survival && study.survival->observed);
+}
+
 } // namespace stylobate

@@ -45,7 +45,7 @@ Quantity quantity_of_unit(std::string_view spelling)
 
 bool names_acceleration(std::string_view word)
 {
-    return begins_with(word, {"acc", "acel", "beschl", "ivme", "\xc4\xb0vme"}) || word == "ag";
+    return begins_with(word, {"acc", "acel", "beschl", "ivme"}) || word == "ag";
 }
 
 /// "v" of "v1": the word without the number of its sensor.
@@ -70,9 +70,9 @@ Quantity quantity_of_words(std::string_view name, bool& plain)
     for (const std::string& word : words) {
         if (names_acceleration(word))
             return Quantity::acceleration;
-        if (begins_with(word, {"vel", "vitess", "geschw", "speed", "pgv"}) || is_one_of(word, {"hiz", "h\xc4\xb1z"}))
+        if (begins_with(word, {"vel", "vitess", "geschw", "speed", "pgv"}) || word == "hiz")
             return Quantity::velocity;
-        if (begins_with(word, {"disp", "despl", "depl", "d\xc3\xa9pl", "versch", "posit", "pgd"}) || word == "dis")
+        if (begins_with(word, {"disp", "despl", "depl", "versch", "posit", "pgd"}) || word == "dis")
             return Quantity::displacement;
         if (begins_with(word, {"time", "tiempo", "temps", "zeit", "zaman"}) || is_one_of(word, {"sec", "seconds"}))
             return Quantity::time;

@@ -115,17 +115,33 @@ bool has_vertical_name(const Record& record)
     return capitals && last.size() > code && is_one_of(std::string_view(last).substr(code), {"up", "dwn", "ver"});
 }
 
+/// In ASCII: "accélération" is acceleration, in UTF-8 and in Latin-1; blanks for all that is no letter of Latin-1.
+std::string without_accents(std::string_view name)
+{
+    constexpr std::string_view latin = "aaaaaaaceeeeiiiidnooooo ouuuuyts"; // À to ß, and à to ÿ
+    std::string plain;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(name[i]),
+                   next = static_cast<unsigned char>(i + 1 < name.size() ? name[i + 1] : 0);
+        const bool pair = byte >= 0xC2 && next >= 0x80 && next < 0xC0; // of UTF-8
+        if (byte < 0xC0)
+            plain += name[i];
+        else if (!pair || byte == 0xC3)
+            plain += latin[(pair ? next : byte) & 0x1F];
+        else
+            plain += byte == 0xC4 && (next | 1) == 0xB1 ? 'i' : ' '; // the two of Turkish
+        i += pair;
+    }
+    return plain;
+}
+
 } // namespace
 
 std::vector<std::string> words_of(std::string_view name)
 {
     std::vector<std::string> words(1);
-    bool accented = false; // inside a character of UTF-8: "é" is a letter; "²", "°" and dashes (C2, E2) are none
-    for (const char c : lower_case(name)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x80 || byte >= 0xC0)
-            accented = byte > 0xC2 && byte != 0xE2;
-        if (accented || is_lower_letter(c) || is_digit(c))
+    for (const char c : lower_case(without_accents(name))) {
+        if (is_lower_letter(c) || is_digit(c))
             words.back() += c;
         else if (!words.back().empty())
             words.emplace_back();

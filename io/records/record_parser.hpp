@@ -133,7 +133,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 /// The words of a line with one blank between them.
 std::string squeezed(std::string_view line);
 
-/// The runs of letters and digits of a name, in lower case (that of ASCII): "a (N-S)" is a, n, s.
+/// The runs of letters and digits of a name, in lower case and without accents: "a (N-S)" is a, n, s.
 std::vector<std::string> words_of(std::string_view name);
 
 /// The parts of a line between blanks, tabs, commas and semicolons; two separators with nothing between them other

@@ -137,16 +137,16 @@ void check_fragility_source(const KeyReader& keys, const ExcitationSpec& e)
                             "Remove it: the motions and their intensities are given by [fragility].");
 }
 
-/// A number, or one of the words; without it the default of the study.
-void read_tail(const KeyReader& keys, bool remains, ExcitationSpec& e)
+/// A number, or one of the words.
+void read_tail(const KeyReader& keys, ExcitationSpec& e)
 {
     const TomlValue* tail = keys.find(excitation_keys::tail.name);
     if (tail == nullptr)
-        e.tail = remains ? Tail::rest : Tail::structure;
-    else if (const auto* word = std::ranges::find_if(
-                 tail_names,
-                 [&](const auto& name) { return tail->type == TomlValue::Type::string && tail->text == name.word; });
-             word != tail_names.end())
+        return;
+    if (const auto* word = std::ranges::find_if(
+            tail_names,
+            [&](const auto& name) { return tail->type == TomlValue::Type::string && tail->text == name.word; });
+        word != tail_names.end())
         e.tail = word->value;
     else
         e.tail_s = keys.maybe(excitation_keys::tail);
@@ -162,7 +162,7 @@ std::string acceleration_unit(const KeyReader& keys, const TextKey& key)
     return unit == "gal" ? "cm/s2" : unit; // one name for one unit, so that equal studies have equal texts
 }
 
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind, bool remains)
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind)
 {
     ExcitationSpec e;
     e.kind = keys.read(excitation_keys::kind);
@@ -219,7 +219,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind, bool remai
         e.run = keys.read_or(excitation_keys::run, {});
         break;
     }
-    read_tail(keys, remains, e);
+    read_tail(keys, e);
     return e;
 }
 

@@ -10,9 +10,8 @@ namespace stylobate {
 
 /// @param kind in a surface frequency and PGA come from its axes; in a fragility study the records and how strong they
 ///        are from [fragility]
-/// @param remains whether the study needs what remains of the motion: by default it is then simulated until it rests
 /// @throws InputError naming the key
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind, bool remains);
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind kind);
 
 /// The unit of a record, canonical; empty where the key is absent.
 /// @param key whose words are units

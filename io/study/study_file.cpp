@@ -1,6 +1,7 @@
 #include "io/study/study_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/key_reader.hpp"
@@ -312,13 +313,6 @@ void read_beside_surface(const KeyReader& top, Study& study, const std::filesyst
     }
 }
 
-/// Whether residual displacements are counted, or compared with those of a monument.
-bool needs_what_remains(const KeyReader& top, StudyKind kind)
-{
-    return kind == StudyKind::fragility || kind == StudyKind::sensitivity ||
-           (kind == StudyKind::survival && top.table(survival_keys::table).has(survival_keys::observed));
-}
-
 /// @param folder beside which the study's files are looked for
 Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 {
@@ -346,8 +340,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.structure = read_structure(top.table(structure_keys::table));
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
-    study.excitation =
-        read_excitation(top.table(excitation_keys::table), study.kind, needs_what_remains(top, study.kind));
+    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
     if (has_axes(study.kind)) {
         if (!top.has("surface"))
             top.missing("surface", fmt::format("study.kind = \"{}\" needs the axes frequency_hz and pga_m_s2 in "
@@ -394,6 +387,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
     read_beside_surface(top, study, folder);
+    if (counts_residuals(study) && !top.table(excitation_keys::table).has(excitation_keys::tail))
+        study.excitation.tail = Tail::rest;
     return study;
 }
 

@@ -77,9 +77,7 @@ std::unique_ptr<LawRuns> prepare_laws(const CommonOptions& options, const Loaded
                                       const std::string& results)
 {
     auto laws = std::make_unique<LawRuns>(study, file, results);
-    if (const std::string why = laws->needs_processor(); options.backend == "cuda" && !why.empty())
-        throw InputError(fmt::format("--backend cuda: {}. Leave --backend out.", why));
-    laws->check_drawn();
+    check_can_run(options, laws->runs());
     if (!laws->finished())
         note(options.quiet, laws->costs());
     return laws;
@@ -92,19 +90,14 @@ int report_with_laws(const CommonOptions& options, RunReport report, const Resul
     const bool whole = report.complete && report.shard.whole();
     if (whole && laws) {
         Console console(options.quiet);
-        report.laws_interrupted =
-            !laws->run(report.run, console, [&](const std::string& line) { note(options.quiet, line); });
+        report.laws_interrupted = !run_all(options, laws->runs(), console);
         if (!report.laws_interrupted)
             report.laws = laws->conclude();
     } else if (whole) {
         report.laws = law_band_beside(report.results, report.study, header);
     }
-    int status = report_run(options, report);
-    if (laws)
-        for (const LawRuns::Invalid& law : laws->invalid())
-            if (status == exit_done)
-                status = report_invalid(report.study, law.invalid, law.total, law.results);
-    return status;
+    const int status = report_run(options, report);
+    return status == exit_done && laws ? report_invalid(laws->runs()) : status;
 }
 
 /// What is known of a run before anything is written.

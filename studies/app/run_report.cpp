@@ -1,7 +1,7 @@
 #include "studies/app/run_report.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "io/keys/words.hpp"
-#include "studies/app/console.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 
@@ -100,6 +100,39 @@ int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t tota
         return exit_done;
     say_error(message);
     return exit_invalid;
+}
+
+int report_invalid(const WholeRuns& studies)
+{
+    for (const auto& study : studies)
+        if (const int status = report_invalid(study->study(), study->invalid(), study->done(), study->results()))
+            return status;
+    return exit_done;
+}
+
+void check_can_run(const CommonOptions& options, const WholeRuns& studies)
+{
+    for (const auto& study : studies)
+        if (const std::string why = study->needs_processor(); options.backend == "cuda" && !why.empty())
+            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), why));
+    for (const auto& study : studies)
+        try {
+            study->check_drawn();
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", study->name(), error.what()));
+        }
+}
+
+bool run_all(const CommonOptions& options, const WholeRuns& studies, Console& console)
+{
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        WholeRun& study = *studies[i];
+        if (!study.finished())
+            note(options.quiet, fmt::format("{} ({} of {})", study.name(), i + 1, studies.size()));
+        if (console.stop_requested() || !study.run(options.run_options(), console))
+            return false;
+    }
+    return true;
 }
 
 int report_run(const CommonOptions& options, const RunReport& r)

@@ -3,8 +3,10 @@
 
 #include "ensemble/engine/executor.hpp"
 #include "studies/app/command.hpp"
+#include "studies/app/console.hpp"
 #include "studies/kinds/kind.hpp"
 #include "studies/kinds/law_band.hpp"
+#include "studies/results/whole_run.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -31,6 +33,13 @@ std::string too_many_invalid(const Study& study, std::uint64_t invalid, std::uin
                              const std::string& results);
 /// Prints it. @returns the exit status
 int report_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total, const std::string& results);
+/// The same of the first of several studies that has too many.
+int report_invalid(const WholeRuns& studies);
+
+/// Before anything is run. @throws InputError if one of the studies cannot be run so
+void check_can_run(const CommonOptions& options, const WholeRuns& studies);
+/// Runs what the studies lack, one after the other. @returns false if the user has asked to stop
+bool run_all(const CommonOptions& options, const WholeRuns& studies, Console& console);
 
 /// Prints it, as lines or as JSON, and a message where too many realizations are invalid.
 /// @returns the exit status

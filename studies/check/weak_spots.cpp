@@ -378,17 +378,10 @@ Found hardly_damped(const Subject& s)
                                   centroid ? "contact.damping = \"ends\" and " : ""));
 }
 
-/// Whether the results of a study have residual displacements, or compare them with those of a monument.
-bool reports_residuals(const Study& study)
-{
-    return study.kind == StudyKind::single || study.sensitivity || study.fragility ||
-           (study.survival && study.survival->observed);
-}
-
 Found still_moving(const Subject& s)
 {
     constexpr double many = 0.01;
-    if (!s.trial || !reports_residuals(s.study()))
+    if (!s.trial || (s.study().kind != StudyKind::single && !counts_residuals(s.study())))
         return std::nullopt;
     std::uint64_t standing = 0, moving = 0;
     for (const TrialPart& part : s.trial->parts)

@@ -47,7 +47,7 @@ std::string Kind::text() const
 {
     return counts_.trials() == 0 ? ""
                                  : limits_text(counts_, header_.block_names, study_.outcome.follow == Follow::rest,
-                                               study_.events() > 1 ? "of one event: " : "");
+                                               counted_words(study_));
 }
 
 Json Kind::limits_json() const

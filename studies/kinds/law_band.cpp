@@ -1,5 +1,7 @@
 #include "studies/kinds/law_band.hpp"
 
+#include "studies/report/words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +16,13 @@ std::string number(double value)
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "none";
 }
 
-std::string percent(double value)
+/// "0.61 to 0.88 (rigid to stiffer)"
+std::string spread(const LawBand::Place& place, const std::vector<std::string>& laws, std::string (*text)(double))
 {
-    return std::isfinite(value) ? fmt::format("{:.1f} %", 100 * value) : "–";
+    if (place.low() == place.high())
+        return text(place.low()) + " under each law";
+    return fmt::format("{} to {} ({} to {})", text(place.low()), text(place.high()), laws[place.lowest()],
+                       laws[place.highest()]);
 }
 
 Json place_json(const LawBand::Place& place, const LawBand& band)
@@ -38,7 +44,7 @@ HtmlTable laws_table(const LawBand& band)
                     {},
                     ""};
     for (std::size_t i = 0; i < band.laws.size(); ++i) {
-        std::vector<Html> row = {code(band.laws[i]), band.words[i], percent(limit.overall.probability[i])};
+        std::vector<Html> row = {code(band.laws[i]), band.words[i], percent_text(limit.overall.probability[i])};
         if (i == 0)
             row.insert(row.end(), {"", ""});
         else
@@ -62,8 +68,8 @@ HtmlTable cells_table(const LawBand& band)
         table = {"rrlrl", {band.measure, "lowest", "law", "highest", "law"}, {}, ""};
         for (std::size_t cell = 0; cell < limit.cells.size(); ++cell) {
             const LawBand::Place& place = limit.cells[cell];
-            table.rows.push_back({fmt::format("{:.4g}", band.intensity[cell]), percent(place.low()),
-                                  code(band.laws[place.lowest()]), percent(place.high()),
+            table.rows.push_back({fmt::format("{:.4g}", band.intensity[cell]), percent_text(place.low()),
+                                  code(band.laws[place.lowest()]), percent_text(place.high()),
                                   code(band.laws[place.highest()])});
         }
         return table;
@@ -98,15 +104,13 @@ std::size_t LawBand::Place::highest() const
     return static_cast<std::size_t>(std::ranges::max_element(probability, {}, known) - probability.begin());
 }
 
-std::size_t LawBand::Limit::widest() const
+std::optional<std::size_t> LawBand::Limit::widest() const
 {
-    std::size_t widest = 0;
-    double width = -1;
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
-        if (const double here = cells[cell].high() - cells[cell].low(); here > width) {
-            width = here;
+    const auto width = [](const Place& cell) { return cell.high() - cell.low(); };
+    std::optional<std::size_t> widest;
+    for (std::size_t cell = 0; cell < cells.size() && cells.size() > 1; ++cell)
+        if (width(cells[cell]) > (widest ? width(cells[*widest]) : 0))
             widest = cell;
-        }
     return widest;
 }
 
@@ -118,10 +122,7 @@ const LawBand::Limit* LawBand::limit(const std::string& name) const
 
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws)
 {
-    if (place.low() == place.high())
-        return fmt::format("contact law: {} under each law", number(place.low()));
-    return fmt::format("contact law: {} to {} ({} to {})", number(place.low()), number(place.high()),
-                       laws[place.lowest()], laws[place.highest()]);
+    return "contact law: " + spread(place, laws, number);
 }
 
 void add_law_range(Json& json, const LawBand::Place& place, const std::vector<std::string>& laws)
@@ -135,13 +136,11 @@ void add_law_range(Json& json, const LawBand::Place& place, const std::vector<st
 std::string law_band_words(const LawBand::Limit& limit, const LawBand& band)
 {
     const std::string text = law_range_words(limit.overall, band.laws);
-    if (limit.cells.size() < 2)
+    const std::optional<std::size_t> cell = limit.widest(); // laws may move cells with both signs
+    if (!cell)
         return text;
-    const LawBand::Place& widest = limit.cells[limit.widest()]; // laws may move cells with both signs
-    if (widest.low() == widest.high())
-        return text;
-    return fmt::format("{} over all cells, {} to {} at {}", text, number(widest.low()), number(widest.high()),
-                       band.places[limit.widest()]);
+    return fmt::format("{} over all cells, {} to {} at {}", text, number(limit.cells[*cell].low()),
+                       number(limit.cells[*cell].high()), band.places[*cell]);
 }
 
 std::string law_band_text(const LawBand& band)
@@ -153,13 +152,10 @@ std::string law_band_text(const LawBand& band)
     for (std::size_t i = 1; i < band.laws.size(); ++i)
         text += fmt::format("  {:<8} {:<50} {}, difference {:+.4f} ({:+.4f} to {:+.4f})\n", band.laws[i], band.words[i],
                             number(limit.overall.probability[i]), limit.difference[i], limit.lower[i], limit.upper[i]);
-    const std::size_t cell = limit.cells.size() > 1 ? limit.widest() : 0;
-    if (limit.cells.size() > 1 && limit.cells[cell].low() < limit.cells[cell].high()) {
-        const LawBand::Place& widest = limit.cells[cell];
-        text += fmt::format("  widest band at {}: {} to {} ({} to {}), {} as given\n", band.places[cell],
-                            number(widest.low()), number(widest.high()), band.laws[widest.lowest()],
-                            band.laws[widest.highest()], number(widest.probability.front()));
-    }
+    if (const std::optional<std::size_t> cell = limit.widest())
+        text +=
+            fmt::format("  widest band at {}: {}, {} as given\n", band.places[*cell],
+                        spread(limit.cells[*cell], band.laws, number), number(limit.cells[*cell].probability.front()));
     for (const std::string& note : band.notes)
         text += "  " + note + "\n";
     for (const std::string& law : band.left_out)
@@ -245,18 +241,16 @@ void law_band_section(PageWriter& writer, const LawBand& band)
     const LawBand::Limit& limit = band.limits.front();
     writer.page.section("Contact law");
     writer.page.paragraph(fmt::format(
-        "The contact law of a monument is not known. Over {} laws the probability of collapse{} is {} ({}) to {} ({}); "
-        "with the law of the study it is {}. All laws have the same structures and the same shaking.",
-        band.laws.size(), limit.cells.size() > 1 ? " in all cells together" : "", percent(limit.overall.low()),
-        band.laws[limit.overall.lowest()], percent(limit.overall.high()), band.laws[limit.overall.highest()],
-        percent(limit.overall.probability.front())));
+        "The contact law of a monument is not known. Over {} laws the probability of collapse{} is {}; with the law of "
+        "the study it is {}. All laws have the same structures and the same shaking.",
+        band.laws.size(), limit.cells.size() > 1 ? " in all cells together" : "",
+        spread(limit.overall, band.laws, percent_text), percent_text(limit.overall.probability.front())));
     writer.page.table(laws_table(band));
-    if (limit.cells.size() > 1) {
-        const std::size_t cell = limit.widest();
-        writer.page.paragraph(fmt::format("The band is widest at {}: {} to {}.", band.places[cell],
-                                          percent(limit.cells[cell].low()), percent(limit.cells[cell].high())));
+    if (const std::optional<std::size_t> cell = limit.widest())
+        writer.page.paragraph(fmt::format("The band is widest at {}: {}.", band.places[*cell],
+                                          spread(limit.cells[*cell], band.laws, percent_text)));
+    if (limit.cells.size() > 1)
         writer.page.table(cells_table(band));
-    }
     for (const std::string& note : band.notes)
         writer.page.note(note);
     for (const std::string& law : band.left_out)

@@ -7,6 +7,7 @@
 #include "studies/report/json.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct LawBand {
         Place overall;
         /// (laws) over all: paired difference from the study with its interval; 0 of the study itself.
         std::vector<double> difference, lower, upper;
-        std::size_t widest() const; ///< the cell with the widest band
+        std::optional<std::size_t> widest() const; ///< of several cells the one with the widest band
     };
     std::vector<Limit> limits; ///< the first one is what `check` and `run` report: collapse
 
@@ -47,7 +48,7 @@ struct LawBand {
     const Limit* limit(const std::string& name) const;
 };
 
-/// "contact law: 0.61 to 0.88 (rigid to stiffer)"
+/// "contact law: 0.61 to 0.88 (rigid to stiffer)", "contact law: 0.61 under each law"
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws);
 /// The same as members: `lowest`, `lowest_law`, `highest`, `highest_law`.
 void add_law_range(Json& json, const LawBand::Place& place, const std::vector<std::string>& laws);

@@ -66,11 +66,16 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
     return json;
 }
 
+std::string counted_words(const Study& study)
+{
+    return study.events() > 1 ? "of one event" : study.twins ? "without replicas" : "";
+}
+
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
                         const std::string& of)
 {
     const Share collapsed = counts.share(LimitState::collapse);
-    std::string text = "  " + of + "collapsed " + share_text(collapsed);
+    std::string text = "  " + of + (of.empty() ? "" : ": ") + "collapsed " + share_text(collapsed);
     if (collapsed.count > 0)
         text += fmt::format(", median time {:.3g} s", counts.median_collapse_time_s());
     if (const Share unseated = counts.share(LimitState::unseated); unseated.count > 0)

@@ -11,9 +11,12 @@ namespace stylobate {
 
 /// Outcomes of the valid realizations, over all cells.
 /// @param names of the blocks   @param to_rest whether realizations are followed beyond the first fall
-/// @param of which realizations are counted: "of one event: "
+/// @param of what they are (`counted_words`); empty: of all realizations
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
-                        const std::string& of = "");
+                        const std::string& of);
+
+/// Which realizations the outcomes of a study are of where it has others too: "of one event", "without replicas".
+std::string counted_words(const Study& study);
 
 /// @param fair whether all cells have equally many realizations; else the shares among all mean nothing and are left
 /// out

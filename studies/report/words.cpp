@@ -26,4 +26,9 @@ std::string rate_text(double rate)
     return rate >= 10 ? fmt::format("{:.0f}", rate) : fmt::format("{:.2g}", rate);
 }
 
+std::string percent_text(double share)
+{
+    return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–";
+}
+
 } // namespace stylobate

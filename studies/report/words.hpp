@@ -1,5 +1,5 @@
 #pragma once
-/// Rates and durations in words.
+/// Rates, shares and durations in words.
 
 #include <string>
 
@@ -7,6 +7,9 @@ namespace stylobate {
 
 /// A rate with two digits at least: "1874", "3.2", "0.42".
 std::string rate_text(double rate);
+
+/// "61.4 %"; "–" where a share is not known.
+std::string percent_text(double share);
 
 /// "41 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);

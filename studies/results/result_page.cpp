@@ -6,6 +6,7 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/results/cell_outcomes.hpp"
 #include "studies/results/fall_order.hpp"
@@ -30,11 +31,6 @@ double quantile(const std::vector<double>& sorted, double share)
     if (sorted.empty())
         return std::numeric_limits<double>::quiet_NaN();
     return sorted_quantile(sorted, share, QuantileDefinition::linear);
-}
-
-std::string percent(double share)
-{
-    return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–";
 }
 
 std::string interval_text(const Share& share)
@@ -154,16 +150,17 @@ private:
     void summary()
     {
         const Share collapsed = counts_.share(LimitState::collapse);
+        const std::string of = counted_words(study_);
         std::string text;
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         else
             text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
-                               collapsed.trials, study_.events() > 1 ? " of one event" : "",
+                               collapsed.trials, of.empty() ? "" : " " + of,
                                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA",
                                                       header_.frequency_hz.size(), header_.pga_m_s2.size())
                                         : "",
-                               percent(collapsed.probability), describe_interval(counts_.interval()),
+                               percent_text(collapsed.probability), describe_interval(counts_.interval()),
                                std::isnan(collapsed.lower) ? "" : " " + interval_text(collapsed));
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
@@ -213,7 +210,7 @@ private:
                 continue;
             const Share share = counts_.share(limit);
             table.rows.push_back({describe(limit), fmt::format("{} of {}", share.count, share.trials),
-                                  percent(share.probability), interval_text(share)});
+                                  percent_text(share.probability), interval_text(share)});
         }
         page_.table(table);
         if (to_rest && counts_.share(LimitState::total).count > 0)
@@ -284,7 +281,7 @@ private:
             share.lower = block.lower;
             share.upper = block.upper;
             table.rows.push_back({block.name, fmt::format("{} of {}", share.count, share.trials),
-                                  percent(share.probability), interval_text(share),
+                                  percent_text(share.probability), interval_text(share),
                                   number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
         }
         page_.table(table);
@@ -301,7 +298,7 @@ private:
             if (const std::uint64_t first = counts_.first()[i]; first > 0) {
                 const Share share = counts_.share_first(i);
                 table.rows.push_back({header_.block_names[i], fmt::format("{} of {}", share.count, share.trials),
-                                      percent(share.probability), interval_text(share)});
+                                      percent_text(share.probability), interval_text(share)});
             }
         if (table.rows.empty() && counts_.first_together() == 0)
             return;

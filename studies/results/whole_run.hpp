@@ -62,4 +62,6 @@ private:
     std::unique_ptr<Kind> kind_;
 };
 
+using WholeRuns = std::vector<std::unique_ptr<WholeRun>>;
+
 } // namespace stylobate

@@ -27,7 +27,6 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
-using Studies = std::vector<std::unique_ptr<WholeRun>>;
 
 std::string default_output(const std::string& base)
 {
@@ -94,7 +93,7 @@ int conclude(const CommonOptions& options, const Comparison& comparison, const s
     return exit_done;
 }
 
-int interrupted(const CommonOptions& options, const Studies& studies, const std::string& output)
+int interrupted(const CommonOptions& options, const WholeRuns& studies, const std::string& output)
 {
     std::uint64_t done = 0, total = 0;
     for (const auto& study : studies) {
@@ -114,22 +113,9 @@ int interrupted(const CommonOptions& options, const Studies& studies, const std:
     return exit_interrupted;
 }
 
-/// Runs what the studies lack. @returns whether all is there
-bool run_all(const CommonOptions& options, const Studies& studies, Console& console)
-{
-    for (std::size_t i = 0; i < studies.size(); ++i) {
-        WholeRun& study = *studies[i];
-        if (!study.finished())
-            note(options.quiet, fmt::format("{} ({} of {})", study.name(), i + 1, studies.size()));
-        if (console.stop_requested() || !study.run(options.run_options(), console))
-            return false;
-    }
-    return true;
-}
-
 int compare_study_files(const CommonOptions& options, const CompareOptions& wanted, const std::string& output)
 {
-    const Studies studies = studies_to_compare({wanted.files, options.set, fs::path(output).parent_path().string()});
+    const WholeRuns studies = studies_to_compare({wanted.files, options.set, fs::path(output).parent_path().string()});
     std::vector<std::string> files, texts;
     for (const auto& study : studies) {
         files.push_back(study->results());
@@ -140,11 +126,7 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
     if (wanted.adaptive)
         check_adaptive(studies.front()->study(), wanted.files.front(), {*wanted.adaptive, wanted.margin});
     options.run_options(); // refuses an instruction set that is not there
-    for (const auto& study : studies)
-        if (const std::string why = study->needs_processor(); options.backend == "cuda" && !why.empty())
-            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), why));
-    for (const auto& study : studies)
-        study->check_drawn();
+    check_can_run(options, studies);
     const std::vector<std::string> names = names_of(wanted, files);
     std::optional<Comparison> comparison;
     {
@@ -160,11 +142,8 @@ int compare_study_files(const CommonOptions& options, const CompareOptions& want
     }
     if (!comparison)
         return interrupted(options, studies, output);
-    int status = conclude(options, *comparison, output);
-    for (const auto& study : studies)
-        if (status == exit_done)
-            status = report_invalid(study->study(), study->invalid(), study->done(), study->results());
-    return status;
+    const int status = conclude(options, *comparison, output);
+    return status == exit_done ? report_invalid(studies) : status;
 }
 
 int compare_results(const CommonOptions& options, const CompareOptions& wanted, const std::string& output)

@@ -45,9 +45,9 @@ void check_adaptive(const Study& base, const std::string& name, const AdaptiveCh
                         choice.budget, name, cells, least, least));
 }
 
-std::optional<Comparison> compare_adaptively(const std::vector<std::unique_ptr<WholeRun>>& studies,
-                                             const std::vector<std::string>& names, const AdaptiveChoice& choice,
-                                             double level, const RunOptions& options, Observer& observer)
+std::optional<Comparison> compare_adaptively(const WholeRuns& studies, const std::vector<std::string>& names,
+                                             const AdaptiveChoice& choice, double level, const RunOptions& options,
+                                             Observer& observer)
 {
     WholeRun& base = *studies.front();
     PairLayout layout = pair_layout(base.study(), base.header().motions, level);

@@ -57,11 +57,11 @@ struct ReadStudy {
 
 } // namespace
 
-std::vector<std::unique_ptr<WholeRun>> studies_to_compare(const StudyFiles& asked)
+WholeRuns studies_to_compare(const StudyFiles& asked)
 {
     const std::string& base = asked.files.front();
     const auto beside = [&](const std::string& name) { return (fs::path(asked.folder) / (name + ".h5")).string(); };
-    std::vector<std::unique_ptr<WholeRun>> studies;
+    WholeRuns studies;
     const auto add = [&](LoadedStudy loaded, const std::string& name, const std::string& results) {
         const ResultHeader header = loaded.result_header();
         check_can_be_compared(header, name);

@@ -21,7 +21,7 @@ struct StudyFiles {
 /// The studies of study files, the base first. Nothing is written.
 /// @throws InputError for what is wrong with a study, for one that cannot be compared with the base, for two of one
 ///         name, and for a results file that is another study's
-std::vector<std::unique_ptr<WholeRun>> studies_to_compare(const StudyFiles& asked);
+WholeRuns studies_to_compare(const StudyFiles& asked);
 /// The same of finished results.
 /// @throws InputError also if one is not complete
 std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::string>& files);

@@ -164,54 +164,24 @@ LawRuns::LawRuns(const LoadedStudy& base, const std::string& file, std::string r
         const std::string name = fmt::format("{} (law {})", file, law.name);
         LoadedStudy loaded(Experiment(*law.study, base.experiment().motions()));
         check_comparable(header, file, loaded.result_header(), name);
-        const double cost = law_cost(base.experiment(), loaded.experiment());
-        runs_.push_back({law.name, cost,
-                         std::make_unique<WholeRun>(std::move(loaded), name, beside(results_, "_law_" + law.name))});
+        names_.push_back(law.name);
+        costs_.push_back(law_cost(base.experiment(), loaded.experiment()));
+        runs_.push_back(std::make_unique<WholeRun>(std::move(loaded), name, beside(results_, "_law_" + law.name)));
     }
-}
-
-void LawRuns::check_drawn() const
-{
-    for (const Run& law : runs_)
-        try {
-            law.run->check_drawn();
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("--laws: under the law {}: {}", law.name, error.what()));
-        }
 }
 
 std::string LawRuns::costs() const
 {
     std::string text;
     double all = 0;
-    for (const Run& law : runs_) {
-        const bool there = law.run->finished();
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", law.name,
-                            there ? "finished" : fmt::format("{:.2g}", law.cost));
-        all += there ? 0 : law.cost;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        const bool there = runs_[i]->finished();
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", names_[i],
+                            there ? "finished" : fmt::format("{:.2g}", costs_[i]));
+        all += there ? 0 : costs_[i];
     }
     return fmt::format("contact laws: {}: estimated time relative to the run of the study; together {:.2g} times that",
                        text, all);
-}
-
-std::string LawRuns::needs_processor() const
-{
-    for (const Run& law : runs_)
-        if (const std::string why = law.run->needs_processor(); !why.empty())
-            return law.run->name() + " " + why;
-    return {};
-}
-
-bool LawRuns::run(const RunOptions& options, Observer& observer, const std::function<void(const std::string&)>& tell)
-{
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-        WholeRun& law = *runs_[i].run;
-        if (!law.finished() && tell)
-            tell(fmt::format("law {} ({} of {}): {}", runs_[i].name, i + 1, runs_.size(), law.results()));
-        if (observer.stop_requested() || !law.run(options, observer))
-            return false;
-    }
-    return true;
 }
 
 const LawBand& LawRuns::conclude()
@@ -219,23 +189,14 @@ const LawBand& LawRuns::conclude()
     if (band_)
         return *band_;
     std::vector<std::string> names = {fs::path(results_).stem().string()}, files = {results_};
-    for (const Run& law : runs_) {
-        names.push_back(law.name);
-        files.push_back(law.run->results());
-    }
+    names.insert(names.end(), names_.begin(), names_.end());
+    for (const auto& run : runs_)
+        files.push_back(run->results());
     const std::string file = law_file(results_);
     const Comparison comparison = comparison_of(names, files, interval_level);
     write_comparison(comparison, file);
     band_ = band_of(comparison, laws_, file);
     return *band_;
-}
-
-std::vector<LawRuns::Invalid> LawRuns::invalid() const
-{
-    std::vector<Invalid> all;
-    for (const Run& law : runs_)
-        all.push_back({law.run->invalid(), law.run->header().total, law.run->results()});
-    return all;
 }
 
 } // namespace stylobate

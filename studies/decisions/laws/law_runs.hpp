@@ -11,7 +11,6 @@
 #include "studies/kinds/law_band.hpp"
 #include "studies/results/whole_run.hpp"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,37 +32,21 @@ public:
     /// @throws InputError if the study has no pairs or no law that applies, or if a file is another study's
     LawRuns(const LoadedStudy& base, const std::string& file, std::string results);
 
-    /// Draws the realizations of each law once where its file is not there. Not needed where nothing is left to run.
-    /// @throws InputError if one cannot be run
-    void check_drawn() const;
     /// "laws: softer (0.58 times the study), ...": what is left to run, and at what cost.
     std::string costs() const;
     /// Whether nothing is left to run: the band is there.
     bool finished() const { return band_.has_value(); }
-    /// What keeps a law from being stepped on a device; empty: nothing.
-    std::string needs_processor() const;
-
-    /// Runs what is left. @param tell receives a line for each law   @returns false if the observer has asked to stop
-    bool run(const RunOptions& options, Observer& observer, const std::function<void(const std::string&)>& tell);
+    /// Of the laws, in their order; none where the band is there.
+    const WholeRuns& runs() const { return runs_; }
     /// Writes the comparison where it is not there. @pre the study and all laws are complete
     const LawBand& conclude();
 
-    /// Results of a law with more invalid realizations than the study allows: (realizations, invalid, file).
-    struct Invalid {
-        std::uint64_t invalid = 0, total = 0;
-        std::string results;
-    };
-    std::vector<Invalid> invalid() const;
-
 private:
-    struct Run {
-        std::string name;
-        double cost = 0;
-        std::unique_ptr<WholeRun> run;
-    };
     std::string results_;
     std::vector<ContactLaw> laws_;
-    std::vector<Run> runs_;
+    WholeRuns runs_;
+    std::vector<std::string> names_; ///< of the laws that are run
+    std::vector<double> costs_;
     std::optional<LawBand> band_;
 };
 

@@ -215,8 +215,8 @@ TEST(RecordMakers, ColumnsThatAreNoAccelerationNeverBecomeMotions)
 {
     for (const char* names :
          {"Time [s],Velocity [m/s]", "time,vel", "t,v", "t,disp_cm", "Time (s),Displacement (mm)", "time,Velocidad",
-          "temps,Déplacement", "temps,Déplacement (m)", "Zaman,Hız", "time,u", "t,cm/s", "t,cm", "time,Speed",
-          "time,Dis.", "t,x_mm", "time,PSA", "t,EW (kine)", "time,vx"})
+          "temps,Déplacement", "temps,D\xe9placement", "temps,Vélocité", "Zaman,Hız", "time,u", "t,cm/s", "t,cm",
+          "time,Speed", "time,Dis.", "t,x_mm", "time,PSA", "t,EW (kine)", "time,vx"})
         expect_says(message_for(named_columns(names, 1), "g"), {"record.txt:1:", "no column is an acceleration"});
     for (const char* names : {"Period [s],Sa [g]", "Frequency (Hz),a [g]", "acc,t", "Displacement [m],Force [kN]"})
         expect_says(message_for(named_columns(names, 1), "g"), {"record.txt:1:", "must be the time"});
