@@ -41,8 +41,13 @@ std::vector<Record> parse(std::string_view content, const std::string& file, con
     for (const RecordParser* parser : parsers) {
         if (parser->recognise(text)) {
             std::vector<Record> records = parser->parse(text, given);
-            for (Record& record : records)
+            for (Record& record : records) {
+                record.file = file;
+                record.format = parser->format;
                 record.direction = direction_of(record);
+                for (double& a : record.acceleration_m_s2)
+                    a *= unit_m_s2(record.unit);
+            }
             return records;
         }
         formats += fmt::format("{}{}", formats.empty() ? "" : ", ", parser->format);

@@ -200,8 +200,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
                                                       [](std::string_view line) { return stated_unit(line).empty(); });
     const Size size = read_size(text, header, no_unit);
     Record record;
-    record.file = text.file;
-    record.format = at2_parser.format;
     refuse_other_series(text, header);
     record.unit = read_unit(text, header, given);
     record.dt_s = size.dt_s;
@@ -211,13 +209,12 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         name_from_title(record);
     }
 
-    const double factor = unit_m_s2(record.unit);
     std::size_t last = header;
     for (std::size_t i = header + 1; i < text.lines.size(); ++i) {
         if (trimmed(text.lines[i]).empty() || is_end_mark(text.lines[i]))
             continue;
         for (const std::string_view token : parts_of(text.lines[i], false))
-            record.acceleration_m_s2.push_back(factor * number(text, i, token));
+            record.acceleration_m_s2.push_back(number(text, i, token));
         last = i;
     }
     if (record.acceleration_m_s2.size() != size.samples)

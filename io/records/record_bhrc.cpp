@@ -48,8 +48,6 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
         text.refuse(top, fmt::format("\"{}\" stands where the next component should begin, with \"* VOL1DS FILE:\".",
                                      trimmed(text.lines[top]).substr(0, 40)));
     Record record;
-    record.file = text.file;
-    record.format = bhrc_parser.format;
     record.component = word_after(text.lines[header_line(text, top, text_lines, "comp ")], "comp ");
     const std::size_t place = header_line(text, top, text_lines, "station");
     record.station = trimmed(text.lines[place].substr(0, lower_case(text.lines[place]).find("station")));
@@ -75,8 +73,6 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
                         rate, reals + 2, static_cast<double>(count) * record.dt_s, duration_s));
 
     record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, width, per_line);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     line = first_value + (count + per_line - 1) / per_line;
     if (line >= text.lines.size() || !trimmed(text.lines[line]).starts_with("/&"))
         text.refuse(std::min(line, text.lines.size() - 1),

@@ -387,8 +387,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         if (uses[c].quantity != Quantity::acceleration)
             continue;
         Record record;
-        record.file = text.file;
-        record.format = columns_parser.format;
         record.component = table.names[c];
         record.column = c + 1;
         record.title = table.title;
@@ -399,8 +397,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
             record.note = fmt::format("without the columns {}", left_out);
         record.dt_s = columns == 1 ? *table.stated_dt_s : table.dt_s;
         record.acceleration_m_s2 = table.columns[c];
-        for (double& a : record.acceleration_m_s2)
-            a *= unit_m_s2(record.unit);
         records.push_back(std::move(record));
     }
     return records;

@@ -220,8 +220,6 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
                        const std::string& given, std::vector<double> values)
 {
     Record record;
-    record.file = text.file;
-    record.format = cosmos_parser.format;
     record.unit = unit_of(text, i, header, block, given);
     record.station = word_after(text.lines[header.top + station_line], "code:");
     record.title = squeezed(text.lines[header.top + 1]);
@@ -241,7 +239,6 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
     if (std::fabs(lasts - block.seconds) > 1 + 2 * record.dt_s)
         text.refuse(i, fmt::format("{} samples every {} s (real 62) last {} s, but this line gives {} s.", block.count,
                                    record.dt_s, lasts, block.seconds));
-    const double factor = unit_m_s2(record.unit);
     if (peak != header.unknown)
         record.header_pga_m_s2 = stated_peak_m_s2(peak, record.unit);
     const auto per_line = static_cast<std::size_t>(block.format.per_line);
@@ -249,8 +246,6 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
         if (values[k] == header.unknown)
             text.refuse(i + 1 + k / per_line, fmt::format("value {} is {}, the header's code for \"unknown\".",
                                                           k % per_line + 1, header.unknown));
-    for (double& a : values)
-        a *= factor;
     record.acceleration_m_s2 = std::move(values);
     return record;
 }

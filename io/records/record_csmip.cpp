@@ -221,8 +221,6 @@ void read_blocks(const RecordText& text, std::size_t data, std::size_t& line, co
     record.header_pga_m_s2 = header_peak(text, line, data, block);
     line = data;
     record.acceleration_m_s2 = read_values(text, line, block);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     // velocity and displacement are read for their shape only
     while (line < text.lines.size()) {
         const std::string above = lower_case(squeezed(text.lines[line]));
@@ -242,8 +240,6 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
                                      "the file is damaged.",
                                      trimmed(text.lines[top]).substr(0, 40)));
     Record record;
-    record.file = text.file;
-    record.format = csmip_parser.format;
     const std::size_t end = std::min(text.lines.size(), top + longest_text);
     if (const std::size_t pairs = pairs_line(text, top, end); pairs < end && is_without_blocks(text, top)) {
         read_names(text, top, pairs, record);

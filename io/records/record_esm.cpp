@@ -83,8 +83,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
                       "the file holds \"{}\" and not an acceleration. Give the file with the acceleration (.ACC.ASC).",
                       value_of(text.lines[type])));
     Record record;
-    record.file = text.file;
-    record.format = esm_parser.format;
     const std::size_t units = needed(text, header, "UNITS");
     record.unit = unit_of_file(text, units, value_of(text.lines[units]), given);
     record.station = optional_value(text, header, "STATION_CODE");
@@ -114,8 +112,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     std::size_t below = 0;
     record.acceleration_m_s2 = read_numbers(text, header, count, &below);
     refuse_more(text, below);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     return {record};
 }
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace stylobate {
 
@@ -75,8 +75,6 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     fixed_width_numbers(text, first_integer, integer_lines * per_line, width, per_line);
     const auto reals = fixed_width_numbers(text, first_real, real_lines * per_line, width, per_line);
     Record record;
-    record.file = text.file;
-    record.format = geonet_parser.format;
     record.unit = unit_of(text, top, given);
     record.station = word_after(text.lines[top + site_line], "site ");
     record.title = squeezed(text.lines[top + name_line]) + ", " + squeezed(text.lines[top + date_line]);
@@ -105,28 +103,17 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
         if (which == 34)
             record.acceleration_m_s2 = std::move(series);
     }
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     return record;
 }
 
 std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
-    std::vector<Record> records;
-    for (std::size_t line = 0; line < text.lines.size();) {
-        if (trimmed(text.lines[line]).empty() || (!records.empty() && is_end_mark(text.lines[line]))) {
-            ++line;
-            continue;
-        }
-        Record record = read_component(text, line, given);
-        // two horizontal ones may be given one direction by mistake: no name stands for both
-        const auto namesakes = std::count_if(records.begin(), records.end(), [&](const Record& other) {
-            return other.orientation == record.orientation;
-        });
-        if (namesakes > 0)
-            record.component += fmt::format(" ({})", namesakes + 1);
-        records.push_back(std::move(record));
-    }
+    std::vector<Record> records = one_after_another(text, given, read_component);
+    // two horizontal ones may be given one direction by mistake: no name stands for both
+    std::map<std::string, int> named;
+    for (Record& record : records)
+        if (const int nth = ++named[record.orientation]; nth > 1)
+            record.component += fmt::format(" ({})", nth);
     return records;
 }
 

@@ -293,8 +293,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         if (meaning.plain && meaning.of_words != ColumnMeaning::Quantity::acceleration)
             continue;
         Record record;
-        record.file = text.file;
-        record.format = headed_parser.format;
         record.orientation = !names.empty() ? names[c] : series.size() == 1 ? header.orientation : "";
         record.component = !record.orientation.empty() ? record.orientation
                            : series.size() == 1        ? "acceleration"
@@ -305,11 +303,9 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         record.dt_s = dt_s;
         record.column = c + 1;
         record.acceleration_m_s2 = std::move(series[c]);
-        double largest = 0;
-        for (double& a : record.acceleration_m_s2) {
-            a *= unit_m_s2(record.unit);
-            largest = std::max(largest, std::fabs(a));
-        }
+        double largest = 0; // in m/s2
+        for (const double a : record.acceleration_m_s2)
+            largest = std::max(largest, std::fabs(a) * unit_m_s2(record.unit));
         const std::string peak_unit = header.peak ? canonical_unit(header.peak->inside) : "";
         if (const auto peak = peak_of(header, names.empty() ? "" : names[c]); peak && !peak_unit.empty())
             record.header_pga_m_s2 = stated_peak_m_s2(*peak, peak_unit);

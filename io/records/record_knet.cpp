@@ -89,8 +89,6 @@ std::pair<std::string, std::string> direction_of(const std::string& value)
 std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
     Record record;
-    record.file = text.file;
-    record.format = knet_parser.format;
     const std::size_t scale = needed(text, "scale factor");
     const double gal = scale_gal(text, scale);
     record.unit = unit_of_file(text, scale, "gal", given);
@@ -120,7 +118,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     const double mean = std::accumulate(record.acceleration_m_s2.begin(), record.acceleration_m_s2.end(), 0.0) / values;
     record.note = fmt::format("without the mean of its counts, {:.6g} cm/s2, as the header's peak is", mean * gal);
     for (double& a : record.acceleration_m_s2)
-        a = (a - mean) * gal * unit_m_s2("cm/s2");
+        a = (a - mean) * gal;
     return {record};
 }
 

@@ -51,8 +51,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
 {
     const Size size = *size_of(text);
     Record record;
-    record.file = text.file;
-    record.format = npts_dt_parser.format;
     record.component = "acceleration";
     record.dt_s = size.dt_s;
     record.unit = given;
@@ -68,8 +66,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     std::size_t below = 0;
     record.acceleration_m_s2 = read_numbers(text, size.line + 1, size.count, &below);
     refuse_more(text, below);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     return {record};
 }
 

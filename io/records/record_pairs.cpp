@@ -58,15 +58,13 @@ double fill_from_pairs(const RecordText& text, std::size_t first_value, int per_
             fmt::format("{} uneven samples, up to {} ms apart, on an even grid of {} ms that has all of their "
                         "times; straight lines between, the PGA is that of the samples",
                         count, longest_ms, step_ms);
-    const double factor = unit_m_s2(record.unit);
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const long steps = (times_ms[i + 1] - times_ms[i]) / step_ms;
         const double from = pairs[2 * i + 1], rise = pairs[2 * i + 3] - from;
         for (long k = 0; k < steps; ++k)
-            record.acceleration_m_s2.push_back(factor *
-                                               (from + rise * static_cast<double>(k) / static_cast<double>(steps)));
+            record.acceleration_m_s2.push_back(from + rise * static_cast<double>(k) / static_cast<double>(steps));
     }
-    record.acceleration_m_s2.push_back(factor * pairs.back());
+    record.acceleration_m_s2.push_back(pairs.back());
     return static_cast<double>(times_ms.back()) * time_unit_s;
 }
 

@@ -75,7 +75,8 @@ struct RecordParser {
     const char* format; ///< of `Record::format`
     /// Whether the content is of this format, even if it is damaged further on.
     bool (*recognise)(const RecordText& text);
-    /// Every component, in m/s2.
+    /// Every component, its values in `Record::unit`: the reader converts them, and fills in file, format and
+    /// direction.
     /// @param unit canonical name ("g", "g/10", "m/s2", "cm/s2", "mm/s2"), or empty: the file must say it
     /// @throws InputError
     std::vector<Record> (*parse)(const RecordText& text, const std::string& unit);

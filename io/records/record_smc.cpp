@@ -61,8 +61,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
                 i, fmt::format("one of the {} comment lines should stand here and begin with \"|\".", counted(15)));
 
     Record record;
-    record.file = text.file;
-    record.format = smc_parser.format;
     record.unit = unit_of_file(text, 0, "cm/s2", given);
     record.title = squeezed(text.lines[3]);
     const std::string_view place = text.lines[5];
@@ -89,8 +87,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
 
     const std::size_t count = sample_count(text, text_lines + 2, counted(16));
     record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, 10, 8);
-    for (double& a : record.acceleration_m_s2)
-        a *= unit_m_s2(record.unit);
     refuse_more(text, first_value + (count + 7) / 8);
     return {record};
 }

@@ -147,8 +147,6 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
     std::vector<Record> records(channels);
     for (std::size_t c = 0; c < channels; ++c) {
         Record& record = records[c];
-        record.file = text.file;
-        record.format = unam_parser.format;
         record.unit = unit;
         record.station = value_of(text.lines[needed(text, header, "clave de la estacion")]);
         for (const char* name : {"fecha del sismo", "nombre de la estacion"})
@@ -183,7 +181,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
             record.note =
                 fmt::format("without the {} rows beyond the {} of the header: copies of the last one", rows, count);
     for (std::size_t i = 0; i < values.size(); ++i)
-        records[i % channels].acceleration_m_s2.push_back(values[i] * unit_m_s2(unit));
+        records[i % channels].acceleration_m_s2.push_back(values[i]);
     return records;
 }
 

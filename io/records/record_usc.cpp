@@ -41,8 +41,6 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
                                      "the file is damaged.",
                                      trimmed(text.lines[top]).substr(0, 40)));
     Record record;
-    record.file = text.file;
-    record.format = usc_parser.format;
     record.orientation = word_after(text_of(text.lines[header_line(text, top, text_lines, "comp ")]), "comp ");
     record.component = record.orientation;
     const std::size_t station = header_line(text, top, text_lines, "station");
