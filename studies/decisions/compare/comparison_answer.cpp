@@ -107,9 +107,8 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
     case ChangeVerdict::more:
         return text + (limit.damage ? "It harms." : "It is more.");
     default:
-        return text + (all.largest() < 1 ? fmt::format("Undecided: {:+.1f} to {:+.1f} percentage points.",
-                                                       100 * all.lower, 100 * all.upper)
-                                         : "Undecided: no difference is excluded.");
+        return text + (all.largest() < 1 ? "Undecided: " + points_text(all) + "."
+                                         : std::string("Undecided: no difference is excluded."));
     }
 }
 

@@ -178,9 +178,15 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place)
 {
     const ChangeVerdict verdict = limit.verdict(place);
-    return verdict == ChangeVerdict::open
-               ? fmt::format("undecided: {:+.1f} to {:+.1f} percentage points", 100 * place.lower, 100 * place.upper)
-               : to_string(verdict);
+    return verdict == ChangeVerdict::open ? "undecided: " + points_text(place) : to_string(verdict);
+}
+
+std::string points_text(const PlaceComparison& place)
+{
+    const auto points = [](double share) {
+        return std::abs(share) < 0.00095 ? fmt::format("{:+.1g}", 100 * share) : fmt::format("{:+.1f}", 100 * share);
+    };
+    return points(place.lower) + " to " + points(place.upper) + " percentage points";
 }
 
 std::string difference_text(const PlaceComparison& place)

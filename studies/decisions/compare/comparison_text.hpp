@@ -16,6 +16,8 @@ Table comparison_rows(const Comparison& comparison);
 
 /// "undecided: -0.7 to +4.0 percentage points", "better".
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place);
+/// The interval of a difference: "-0.7 to +4.0 percentage points".
+std::string points_text(const PlaceComparison& place);
 /// "-0.043 [-0.060, -0.027]"
 std::string difference_text(const PlaceComparison& place);
 /// How many times as many realizations an unpaired comparison would need: "pairing saved a factor of 20".

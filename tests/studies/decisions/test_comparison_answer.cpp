@@ -170,6 +170,8 @@ TEST(ComparisonAnswer, SaysWhatPairingSaved)
     all.unpaired = std::nan("");
     EXPECT_EQ(saving_text(all), "what pairing saved is not known");
     EXPECT_EQ(verdict_text(c.variants.front().limits.front(), all), "undecided: -20.0 to +5.0 percentage points");
+    all.lower = -0.0005;
+    EXPECT_EQ(points_text(all), "-0.05 to +5.0 percentage points");
 }
 
 TEST(ComparisonAnswer, WithoutPairsNothingIsSaid)
