@@ -226,7 +226,7 @@ void draw_plan(const Drawing& d, DrawingSheet& sheet)
     for (std::size_t c = 0; c + 1 < d.columns.size(); ++c)
         sheet.across(d.x(axis(c)), d.x(axis(c + 1)), y, d.length(axis(c + 1) - axis(c)));
     for (std::size_t c = 0; c < d.columns.size(); ++c)
-        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c), d.x(axis(c)), d.ground + slab / 2, 14,
+        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c + 1), d.x(axis(c)), d.ground + slab / 2, 14,
                    TextAt::center, "#ffffff");
     y += row;
     sheet.across(d.x(d.left_m), d.x(d.right_m), y, d.length(d.right_m - d.left_m));

@@ -63,13 +63,14 @@ void plot_discordance(const Twins& twins, const std::string& title, const std::f
 {
     MapPicture picture = on_axes(twins);
     picture.title = title;
-    picture.subtitle = fmt::format(
-        "{} pairs in each cell for each kind of perturbed replica · verdict: collapsed or not", twins.realizations);
+    picture.subtitle = fmt::format("{} pairs in each cell for each kind of perturbed replica · verdict: collapsed or "
+                                   "not · titles: discordant pairs",
+                                   twins.realizations);
     picture.columns = twins.kinds.size() > 4 ? 4 : static_cast<int>(twins.kinds.size());
     picture.key = fmt::format("{} · grey: {}", key, too_few_pairs);
     for (const KindDiscordance& kind : twins.kinds) {
         MapPanel panel;
-        panel.title = fmt::format("{}: {:.2g} % discordant", kind.name, 100 * kind.all.all.probability);
+        panel.title = fmt::format("{}: {:.2g} %", kind.name, 100 * kind.all.all.probability);
         for (const DiscordantShare& share : kind.cells)
             panel.value.push_back(class_place(share));
         panel.classes = classes();

@@ -68,6 +68,10 @@ TEST_F(Structure, AColonnadeHasItsEpistyleAndTheBedThatDiffers)
         {.first_column = 0, .last_column = 1, .x_m = 1.5, .length_m = 4, .height_m = 1, .mass_kg = 10000}};
     plot_structure(study, "alike", (folder / "alike.png"));
     EXPECT_EQ(decode((folder / "alike.png")).count.count(other_bed), 0U);
+    plot_structure(study, "alike", (folder / "alike.svg"));
+    const std::string svg = read_file((folder / "alike.svg")); // columns count from 1, as the names of blocks do
+    EXPECT_NE(svg.find(">column 1<"), std::string::npos);
+    EXPECT_EQ(svg.find("column 0"), std::string::npos);
     study.structure.columns[1].drums[1].bed.friction = 0.4;
     plot_structure(study, "not alike", (folder / "other.png"));
     const Pixels pixels = decode((folder / "other.png"));
