@@ -11,6 +11,8 @@ namespace stylobate {
 struct BandPass {
     double low_hz = 0;
     double high_hz = 0;
+
+    friend bool operator==(const BandPass&, const BandPass&) = default;
 };
 
 /// What the correction of a record's baseline has done. What is left at the end is that of a motion that starts at

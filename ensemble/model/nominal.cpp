@@ -79,6 +79,11 @@ double nominal_tail_s(const StructureSpec& structure)
     return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(half_width, 0.5 * (top - bottom)));
 }
 
+double shaking_pause_s(const Study& study)
+{
+    return study.fragility->pause_s.value_or(pause_tails * nominal_tail_s(study.structure));
+}
+
 bool counts_residuals(const Study& study)
 {
     return study.fragility || study.sensitivity || (study.survival && study.survival->observed);

@@ -140,6 +140,8 @@ struct ExcitationSpec {
 
     std::optional<double> tail_s; ///< simulated at most after the shaking; none: as `tail` says
     Tail tail = Tail::structure;  ///< in a study file `rest` is the default of kinds that report what remains
+
+    friend bool operator==(const ExcitationSpec&, const ExcitationSpec&) = default;
 };
 
 struct Axis {
@@ -206,7 +208,7 @@ struct FragilitySpec {
     // Number of earthquakes in succession, each with the intensity of its stripe; each begins from the state that the
     // one before has left.
     int shakings = 1;
-    double pause_s = 5; ///< between two of them, in which it comes to rest
+    std::optional<double> pause_s; ///< between two of them; none: `pause_until_rest_s` of the nominal structure
 
     // Where the scatter comes from: of the structures of a motion, every `contacts` x `twins` have the same
     // imperfections, and every `twins` of these the same contacts too.
@@ -295,8 +297,13 @@ struct SurvivalSpec {
     PastPrior prior = PastPrior::log_uniform;
     double level = 0.95;           ///< of exclusions and credible intervals
     int events = 1;                ///< largest number, equally strong
-    double pause_s = 5;            ///< between two of them, in which the structure comes to rest
-    std::uint64_t monuments = 200; ///< simulated ones by which the credible intervals are tested
+    std::optional<double> pause_s; ///< between two of them; none: `pause_until_rest_s` of each realization
+    std::uint64_t monuments = 200; ///< simulated ones by which the intervals are calibrated and tested
+    /// Structures of one site share the seed, and so their shaking; each draws its own properties by its number.
+    std::uint64_t structure = 1;
+    std::uint64_t per_motion = 1; ///< so many realizations of a cell, in succession, have the same motion
+    /// Alike structures that were built at the site, and how many of them stand; the observed one is among these.
+    std::uint64_t built = 1, standing = 1;
     std::optional<double> stands_for_years = {};
     std::optional<HazardSpec> hazard = {};
 };
@@ -366,11 +373,15 @@ struct Spread {
     double to = 0;       ///< uniform, log_uniform
     std::optional<double> min;
     std::optional<double> max;
+
+    friend bool operator==(const Spread&, const Spread&) = default;
 };
 
 /// One perturbed quantity.
 struct Perturbation : Spread {
     Quantity quantity = Quantity::friction;
+
+    friend bool operator==(const Perturbation&, const Perturbation&) = default;
 };
 
 /// One perturbed parameter of a mechanism that the study names, at each place where it acts.
@@ -555,6 +566,13 @@ struct Study {
             return index;
         const SensitivitySpec::Place place = sensitivity->place(index);
         return place.row * sensitivity->inner + place.draw;
+    }
+    /// Index by which a realization draws its motion: of a survival study that of all structures under the motion.
+    std::uint64_t motion_index(std::uint64_t index) const
+    {
+        if (!survival)
+            return rest_index(index);
+        return index / realizations * realizations + index % realizations / survival->per_motion;
     }
 };
 

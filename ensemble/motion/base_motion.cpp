@@ -270,6 +270,11 @@ double longest_tail(const Realization& realization)
     return rest_tails * tail_after_shaking(realization);
 }
 
+double pause_until_rest(const Realization& realization)
+{
+    return pause_tails * tail_after_shaking(realization);
+}
+
 double tail_s(const ExcitationSpec& excitation, const Realization& realization)
 {
     if (excitation.kind == ExcitationKind::none)

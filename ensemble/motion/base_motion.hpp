@@ -99,6 +99,9 @@ double tail_after_shaking(const Realization& realization);
 /// Limit of the simulated time after the shaking where a study reports what remains of the motion (`Tail::rest`):
 /// `rest_tails` times as long.
 double longest_tail(const Realization& realization);
+/// Default of the time between earthquakes that follow each other: 10 times `tail_after_shaking`. A stack rocks on for
+/// long: after a short pause the next earthquake meets it in motion, which topples it more easily.
+double pause_until_rest(const Realization& realization);
 /// The most that is simulated after the shaking of a realization [s]; 0 where nothing shakes.
 double tail_s(const ExcitationSpec& excitation, const Realization& realization);
 

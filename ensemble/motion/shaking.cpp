@@ -115,10 +115,10 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     }
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
-        const std::uint64_t rest = study.rest_index(realization.index);
+        const std::uint64_t drawn = study.motion_index(realization.index);
         realization.motion = std::make_shared<const Motion>(
-            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, rest, realization.pga_m_s2 / mean_peak_[row])
-                                             : noise.motion_of_peak(study.seed, rest, realization.pga_m_s2));
+            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, drawn, realization.pga_m_s2 / mean_peak_[row])
+                                             : noise.motion_of_peak(study.seed, drawn, realization.pga_m_s2));
     }
     if (realization.change.distorts())
         distort(excitation, realization);
@@ -132,12 +132,12 @@ void Shaking::repeat(const Study& study, int events, std::size_t row, Realizatio
 {
     const ExcitationSpec& excitation = study.excitation;
     std::vector<Motion> motions;
-    double pause_s = study.survival->pause_s;
+    double pause_s = study.survival->pause_s.value_or(pause_until_rest(realization));
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
         for (int k = 0; k < events; ++k) { // the first one is the realization's own
             const std::uint64_t index =
-                study.rest_index(realization.index) + static_cast<std::uint64_t>(k) * study.total();
+                study.motion_index(realization.index) + static_cast<std::uint64_t>(k) * study.total();
             motions.push_back(excitation.pga_of == PgaOf::mean
                                   ? noise.motion(study.seed, index, realization.pga_m_s2 / mean_peak_[row])
                                   : noise.motion_of_peak(study.seed, index, realization.pga_m_s2));

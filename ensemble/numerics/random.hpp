@@ -39,7 +39,8 @@ enum class Stream : std::uint64_t {
     years = 74, ///< earthquakes of simulated years; index = history, element 0: their number, 3 i + 1 to 3 i + 3: time,
                 ///< intensity and motion of earthquake i; from 2^32 on the same of those below the threshold
     past = 75,  ///< likelihoods that a count allows; index = cell, element = place of a draw in their order
-    monument = 76, ///< simulated monuments; index = monument, element = number of the draw
+    monument = 76,  ///< simulated monuments; index = monument, element = number of the draw
+    structure = 77, ///< seed of another structure of a site; index = its number, element = 0
     /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =
     /// joint or block, 0 of the base and of what is drawn once.
     mechanisms = 128

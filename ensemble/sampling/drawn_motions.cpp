@@ -1,5 +1,6 @@
 #include "ensemble/sampling/drawn_motions.hpp"
 
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/sampler.hpp"
@@ -88,7 +89,7 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
             shakings.push_back({set.motions[shaking].get(), scale});
             name += (name.empty() ? "" : " + ") + set.names[shaking];
         }
-        Succession succession = in_succession(shakings, f.pause_s);
+        Succession succession = in_succession(shakings, shaking_pause_s(study));
         Motion& sequence = succession.motion;
         sequence.predominant_frequency_hz = set.motions[i]->predominant_frequency_hz;
         sequence.pga_m_s2 = set.motions[i]->pga_m_s2; // by which it is scaled: that of its first shaking

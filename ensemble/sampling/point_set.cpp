@@ -47,11 +47,27 @@ Cause cause_of(Stream stream)
     }
 }
 
+/// Whether a number belongs to the motion, which structures of a site share.
+bool is_of_motion(Stream stream)
+{
+    constexpr auto first_of = [](Mechanism mechanism) {
+        return static_cast<std::uint64_t>(Stream::mechanisms) + 8 * static_cast<std::uint64_t>(mechanism);
+    };
+    const auto number = static_cast<std::uint64_t>(stream);
+    return stream == Stream::phase || stream == Stream::pulse_frequency || stream == Stream::pulse_gamma ||
+           (number >= first_of(Mechanism::table_pitch) && number < first_of(Mechanism::sensor_gain));
+}
+
 } // namespace
 
 PointSet::PointSet(const Study& study, const std::vector<Place>& all)
-    : seed_(study.seed), per_cell_(study.realizations), design_(study.sensitivity)
+    : seed_(study.seed), structure_seed_(study.seed), per_cell_(study.realizations), design_(study.sensitivity)
 {
+    if (study.survival) {
+        per_motion_ = study.survival->per_motion;
+        if (study.survival->structure > 1)
+            structure_seed_ = random_bits(study.seed, study.survival->structure, Stream::structure, 0);
+    }
     if (study.fragility) {
         stripes_ = static_cast<std::uint64_t>(study.fragility->stripes());
         contacts_ = static_cast<std::uint64_t>(study.fragility->contacts);
@@ -101,6 +117,8 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& all)
 
 std::uint64_t PointSet::drawn_as(std::uint64_t index, Stream stream) const
 {
+    if (per_motion_ > 1 && is_of_motion(stream))
+        return index / per_cell_ * per_cell_ + index % per_cell_ / per_motion_; // `Study::motion_index`
     if (stripes_ == 0)
         return index;
     // the structures of a motion, whatever the stripe
@@ -130,21 +148,21 @@ double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t eleme
     if (!given_.empty())
         return given_[dimension_.at(key(stream, element))];
     if (!design_)
-        return point(index, stream, element);
+        return point(is_of_motion(stream) ? seed_ : structure_seed_, index, stream, element);
     const auto found = factor_.find(key(stream, element));
     const SensitivitySpec::Place place = design_->place(index);
     if (found == factor_.end())
         return uniform01(seed_, place.row * design_->inner + place.draw, stream, element);
     const bool changed = place.point == design_->first_changed() + found->second;
     if (design_->method == SensitivityMethod::sobol)
-        return point(place.row, stream, changed || place.point == 1 ? element + element_of_b : element);
-    const double u = point(place.row, stream, element);
+        return point(seed_, place.row, stream, changed || place.point == 1 ? element + element_of_b : element);
+    const double u = point(seed_, place.row, stream, element);
     return changed ? (u < 0.5 ? u + 0.5 : u - 0.5) : u; // exact: both are on the same grid
 }
 
-double PointSet::point(std::uint64_t index, Stream stream, std::uint64_t element) const
+double PointSet::point(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element) const
 {
-    const std::uint64_t independent = random_bits(seed_, index, stream, element);
+    const std::uint64_t independent = random_bits(seed, index, stream, element);
     const std::uint64_t k = index % per_cell_;
     const auto found = dimension_.find(key(stream, element));
     if (found == dimension_.end() || k >> digits_ != 0)
@@ -159,8 +177,7 @@ double PointSet::point(std::uint64_t index, Stream stream, std::uint64_t element
         // which bit flips digit d: that of the digits before it, in this dimension of this cell
         const std::uint64_t before = d == 0 ? 0 : point >> (64 - d);
         const std::uint64_t node = (std::uint64_t{1} << d) | before;
-        const std::uint64_t flip =
-            random_bits(seed_, index / per_cell_, Stream::scramble, (dimension << 32) | node) & 1;
+        const std::uint64_t flip = random_bits(seed, index / per_cell_, Stream::scramble, (dimension << 32) | node) & 1;
         scrambled |= (((point >> (63 - d)) & 1) ^ flip) << (63 - d);
     }
     return to_uniform01(scrambled);

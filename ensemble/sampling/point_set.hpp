@@ -62,7 +62,7 @@ public:
 
 private:
     /// Number `element` of a stream for realization, or row, `index`.
-    double point(std::uint64_t index, Stream stream, std::uint64_t element) const;
+    double point(std::uint64_t seed, std::uint64_t index, Stream stream, std::uint64_t element) const;
     static std::uint64_t key(Stream stream, std::uint64_t element)
     {
         return (static_cast<std::uint64_t>(stream) << 32) | element;
@@ -72,7 +72,9 @@ private:
     std::uint64_t drawn_as(std::uint64_t index, Stream stream) const;
 
     std::uint64_t seed_ = 0;
+    std::uint64_t structure_seed_ = 0; ///< of what is not the motion's
     std::uint64_t per_cell_ = 1;
+    std::uint64_t per_motion_ = 1; ///< of a survival study
     std::uint64_t stripes_ = 0; ///< of a fragility study, else 0
     std::uint64_t contacts_ = 1, twins_ = 1;
     std::optional<SensitivitySpec> design_;

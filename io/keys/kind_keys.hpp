@@ -155,8 +155,9 @@ inline const WholeKey shakings{"shakings",
                                "number of shakings, one after the other: the next finds what the last has displaced"};
 inline const NumberKey pause{"pause_s",
                              {0, 1000, false, "Times are in seconds.", from_ms},
-                             FragilitySpec{}.pause_s,
-                             "time between two shakings of a sequence"};
+                             "time between two shakings of a sequence",
+                             {.absent = "until it rests: 120 / p, p = sqrt(3 g / (4 R)), R half the diagonal of a "
+                                        "column"}};
 inline const WholeKey contacts{"contacts",
                                {1, most_realizations, "Structures of the same geometry with different contacts."},
                                1,

@@ -8,6 +8,7 @@
 namespace stylobate::survival_keys {
 
 inline constexpr std::uint64_t most_joints = 199; ///< of a structure, counted from 0
+inline constexpr std::uint64_t most_built = 24;   ///< sums of alternating sign keep nine digits
 
 inline const Range offset_range{-10, 10, false, "Lengths are in metres, positive to the right.", from_lengths};
 inline const Range tolerance_range{0, 10, true, "Lengths are in metres.", from_lengths};
@@ -58,12 +59,32 @@ inline const WholeKey events{"events",
                              "pasts of one event, of two in succession, and so on up to this number are computed"};
 inline const NumberKey pause{"pause_s",
                              {0, 1000, false, "Times are in seconds.", from_ms},
-                             SurvivalSpec{}.pause_s,
-                             "time between two events of a past"};
+                             "time between two events of a past",
+                             {.absent = "until it rests: 120 / p, p = sqrt(3 g / (4 R)), R half the diagonal of a "
+                                        "column"}};
 inline const WholeKey monuments{"monuments",
                                 {0, 10'000, "Simulated monuments; 0: no test."},
                                 SurvivalSpec{}.monuments,
-                                "simulated monuments of known past, by which the credible intervals are tested"};
+                                "simulated monuments of known past, by which the credible intervals are tested; "
+                                "exclusions are calibrated on as many at each PGA"};
+inline const WholeKey structure{"structure",
+                                {1, 1000, "Structures of a site are counted from 1."},
+                                SurvivalSpec{}.structure,
+                                "number of this structure at its site: structures of one site have the same "
+                                "study.seed, and so the same motions, and each draws its own properties by its number"};
+inline const WholeKey per_motion{"structures_per_motion",
+                                 {1, 1000, "Structures that have been through the same motion."},
+                                 SurvivalSpec{}.per_motion,
+                                 "so many realizations of a cell have the same motion; divides study.realizations"};
+inline const WholeKey built{"built",
+                            {1, most_built, "Structures that were built alike."},
+                            SurvivalSpec{}.built,
+                            "structures that were built alike beside this one, itself included; at most "
+                            "`structures_per_motion`"};
+inline const WholeKey standing{"standing",
+                               {1, most_built, "Structures that stand."},
+                               SurvivalSpec{}.standing,
+                               "how many of them stand, itself included"};
 inline const NumberKey stands_for{"stands_for_years",
                                   {0, 1e7, true, "Times are in years."},
                                   "how long the structure has stood: updates the rates of `hazard`",
@@ -106,7 +127,8 @@ inline const TableKey hazard{"hazard",
 
 inline const TableKey table{"survival",
                             "past shaking, inferred from the state of a structure",
-                            {&observed, &prior, &level, &events, &pause, &monuments, &stands_for, &hazard},
+                            {&observed, &prior, &level, &events, &pause, &monuments, &structure, &per_motion, &built,
+                             &standing, &stands_for, &hazard},
                             {.absent = "the defaults of its keys", .used = {in_studies({StudyKind::survival})}}};
 
 } // namespace stylobate::survival_keys

@@ -168,7 +168,7 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
         f.scale = keys.read(fragility_keys::scale);
     }
     f.shakings = static_cast<int>(keys.read(fragility_keys::shakings));
-    f.pause_s = keys.read(fragility_keys::pause);
+    f.pause_s = keys.maybe(fragility_keys::pause);
     f.contacts = static_cast<int>(keys.read_up_to(fragility_keys::contacts, structures));
     f.twins = static_cast<int>(keys.read_up_to(fragility_keys::twins, structures));
     const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);

@@ -121,13 +121,17 @@ public:
                 plan.indices.push_back(index);
         }
         std::uint64_t run_now = 0;
+        const auto look_at_clock = [&] {
+            progress.seconds = seconds();
+            progress.rate = static_cast<double>(run_now) / progress.seconds;
+        };
         plan.sink = [&](const FollowedRealization& f) {
             if (f.realization.index < kept_trajectories)
                 store_.add(f.trajectory); // before its row: where the row is, it is
             take(result_row(experiment.study(), f.realization, f.outcome));
             progress.block_steps += f.realization.free_blocks() * f.outcome.steps;
-            progress.seconds = seconds();
-            progress.rate = static_cast<double>(++run_now) / progress.seconds;
+            ++run_now;
+            look_at_clock();
             count(f.outcome.state);
         };
         double next_report_s = 0;
@@ -136,7 +140,7 @@ public:
                 return false;
             next_report_s = seconds() + 0.1;
             progress.occupancy = occupancy;
-            progress.seconds = seconds();
+            look_at_clock();
             progress.furthest = furthest;
             observer.progress(progress);
             return observer.stop_requested();

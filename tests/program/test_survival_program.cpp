@@ -118,7 +118,8 @@ TEST_F(SurvivalProgram, TablesPicturesAndPage)
 TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
 {
     ASSERT_EQ(run(words(survival, "a.h5", "2")).status, 0);
-    ASSERT_EQ(run(words(with(survival, {"structure.drum_width_m=0.06"}), "b.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(with(survival, {"structure.drum_width_m=0.06", "survival.structure=2"}), "b.h5", "2")).status,
+              0);
     EXPECT_EQ(run({"past", "a.h5", "b.h5", "--quiet"}).out, run({"past", "a.h5", "b.h5"}).out);
     const Ended ended = run({"past", "a.h5", "b.h5", "-o", "both.png", "--json"});
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
@@ -128,9 +129,11 @@ TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
 
     expect_refused(Words{"past", "a.h5"}, {"two structures"});
     expect_refused(Words{"past", "a.h5", "b.h5", "./a.h5"}, {"a.h5 is given twice"});
-    ASSERT_EQ(run(words(with(survival, {"survival.prior=uniform"}), "c.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(with(survival, {"survival.prior=uniform", "survival.structure=3"}), "c.h5", "2")).status, 0);
     expect_refused(Words{"past", "a.h5", "c.h5"}, {"c.h5", "another prior", "a.h5"});
-    ASSERT_EQ(run(words(with(survival, {"surface.pga_m_s2.to=11"}), "d.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(with(survival, {"study.seed=9", "survival.structure=2"}), "e.h5", "2")).status, 0);
+    expect_refused(Words{"past", "a.h5", "e.h5"}, {"not been through the same motions", "study.seed"});
+    ASSERT_EQ(run(words(with(survival, {"surface.pga_m_s2.to=11", "survival.structure=2"}), "d.h5", "2")).status, 0);
     expect_refused(Words{"past", "a.h5", "d.h5"}, {"d.h5", "other axes"});
     ASSERT_EQ(run(words(plain_surface, "plain.h5", "2")).status, 0);
     expect_refused(Words{"past", "a.h5", "plain.h5"}, {"plain.h5", "survival"});

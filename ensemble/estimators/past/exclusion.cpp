@@ -1,7 +1,5 @@
 #include "ensemble/estimators/past/exclusion.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,25 +7,24 @@
 namespace stylobate {
 
 Exclusion exclusion(const PastLikelihood& likelihood, std::size_t events, const PriorDensity& prior, double level,
-                    std::optional<std::size_t> frequency)
+                    const RatioThresholds& thresholds, std::optional<std::size_t> frequency)
 {
     const PastAxes& axes = likelihood.axes;
     assert(events >= 1 && events <= axes.events && "a past that was computed");
-    const std::size_t ni = axes.intensity.size(), first = (events - 1) * axes.cells_of_one();
+    const std::size_t ni = axes.intensity.size(), nf = axes.frequency_hz.size(),
+                      first = (events - 1) * axes.cells_of_one();
     const std::vector<double> weights = frequency_weights(axes.frequency_hz);
+    const auto of_events = [&](std::span<const double> cells) { return cells.subspan(first, axes.cells_of_one()); };
     const auto curve = [&](std::span<const double> cells) {
-        const std::span<const double> of = cells.subspan(first, axes.cells_of_one());
-        if (frequency)
-            return std::vector<double>(of.begin() + static_cast<std::ptrdiff_t>(*frequency * ni),
-                                       of.begin() + static_cast<std::ptrdiff_t>((*frequency + 1) * ni));
-        return over_frequencies(of, weights);
+        if (!frequency)
+            return over_frequencies(of_events(cells), weights);
+        const std::span<const double> row = of_events(cells).subspan(*frequency * ni, ni);
+        return std::vector<double>(row.begin(), row.end());
     };
     const IntensityIntegral integral(axes.intensity, prior);
-    // the quantile of chi-square with one degree of freedom is the square of a normal one
-    const double normal = normal_quantile(0.5 + level / 2);
 
     Exclusion result;
-    result.threshold = std::exp(-normal * normal / 2);
+    result.rule = frequency ? thresholds.by_frequency.at(*frequency) : thresholds.mean;
     for (std::size_t i = 0; i < ni; ++i)
         result.likelihood.push_back(past_estimate(likelihood, [&](auto cells) { return curve(cells)[i]; }));
     const auto top = [](const std::vector<double>& values) {
@@ -36,22 +33,40 @@ Exclusion exclusion(const PastLikelihood& likelihood, std::size_t events, const 
     };
     result.top_ratio = past_estimate(likelihood, [&](auto cells) { return top(curve(cells)); });
     const auto limit = [&](std::span<const double> cells) {
-        return likelihood_ratio_limit(axes.intensity, curve(cells), result.threshold);
+        const std::vector<double> values = curve(cells);
+        return likelihood_limit(axes.intensity, values, result.rule.thresholds(values));
     };
     result.by_likelihood = past_estimate(likelihood, limit);
     std::vector<double> inverse; // from strong to weak, ascending
     for (auto a = axes.intensity.rbegin(); a != axes.intensity.rend(); ++a)
         inverse.push_back(1 / *a);
     result.weaker = past_estimate(likelihood, [&](auto cells) {
-        std::vector<double> reversed = curve(cells);
-        std::reverse(reversed.begin(), reversed.end());
-        return 1 / likelihood_ratio_limit(inverse, reversed, result.threshold);
+        std::vector<double> values = curve(cells), threshold = result.rule.thresholds(values);
+        std::reverse(values.begin(), values.end());
+        std::reverse(threshold.begin(), threshold.end());
+        return 1 / likelihood_limit(inverse, values, threshold);
     });
     for (const std::vector<double>& draw : likelihood.drawn)
         result.drawn_with_limit += std::isfinite(limit(draw));
     result.drawn = likelihood.drawn.size();
     result.by_posterior = past_estimate(likelihood, [&](auto cells) { return integral.quantile(curve(cells), level); });
     result.by_prior = integral.quantile(std::vector<double>(ni, 1.0), level);
+    if (frequency || nf == 1)
+        return result;
+
+    result.by_profile = past_estimate(likelihood, [&](auto cells) {
+        const std::vector<double> values = largest_over_frequencies(of_events(cells), ni);
+        return likelihood_limit(axes.intensity, values, thresholds.profile.thresholds(values));
+    });
+    const auto of_end = [&](std::size_t f) {
+        return past_estimate(likelihood, [&](auto cells) {
+            const auto all = of_events(cells), row = all.subspan(f * ni, ni);
+            return *std::max_element(row.begin(), row.end()) / *std::max_element(all.begin(), all.end());
+        });
+    };
+    result.lowest_frequency = of_end(0);
+    result.highest_frequency = of_end(nf - 1);
+    result.open_from = asymptotic_rule(1, level).part.front();
     return result;
 }
 

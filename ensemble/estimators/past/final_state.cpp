@@ -22,14 +22,20 @@ StateDistance one_sided(const MeasuredState& measured, Value&& value)
 
 } // namespace
 
+StateDistance mirror_distance(const MeasuredState& measured, std::span<const double> state)
+{
+    assert(state.size() >= measured.value.size() && "a value for each that was measured");
+    return one_sided(measured,
+                     [&](std::size_t i) { return -state[measured.counterpart.empty() ? i : measured.counterpart[i]]; });
+}
+
 StateDistance distance(const MeasuredState& measured, std::span<const double> state)
 {
     assert(state.size() >= measured.value.size() && "a value for each that was measured");
     const StateDistance as_is = one_sided(measured, [&](std::size_t i) { return state[i]; });
     if (!measured.mirrored)
         return as_is;
-    const StateDistance mirrored = one_sided(
-        measured, [&](std::size_t i) { return -state[measured.counterpart.empty() ? i : measured.counterpart[i]]; });
+    const StateDistance mirrored = mirror_distance(measured, state);
     return mirrored.value < as_is.value ? mirrored : as_is;
 }
 

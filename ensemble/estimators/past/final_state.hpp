@@ -26,6 +26,8 @@ struct StateDistance {
     bool agrees() const { return value <= 1; }
 };
 
+/// From the mirror image of the observed state. @param state as of `distance`
+StateDistance mirror_distance(const MeasuredState& measured, std::span<const double> state);
 /// @param state as many values as were measured, and behind them further ones that are counterparts alone
 StateDistance distance(const MeasuredState& measured, std::span<const double> state);
 

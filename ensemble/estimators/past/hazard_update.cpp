@@ -10,6 +10,23 @@ namespace stylobate {
 
 double factor_quantile(double exposure, double sigma_ln, double p)
 {
+    return factor_quantile([exposure](double c) { return std::exp(-exposure * c); }, sigma_ln, p);
+}
+
+double alike_likelihood(std::span<const double> exposure, std::uint64_t standing, double c)
+{
+    const std::size_t built = exposure.size();
+    double sum = 0, term = 1; // (-1)^j C(N - n, j)
+    for (std::size_t m = standing; m <= built; ++m) {
+        sum += term * std::exp(-c * exposure[m - 1]);
+        const auto j = static_cast<double>(m - standing), left = static_cast<double>(built - m);
+        term *= -left / (j + 1);
+    }
+    return std::max(sum, 0.0); // rounding of the alternating sum
+}
+
+double factor_quantile(const std::function<double(double c)>& likelihood, double sigma_ln, double p)
+{
     constexpr int points = 4001;
     constexpr double reach = 8;
     const double step = 2 * reach / (points - 1);
@@ -17,7 +34,7 @@ double factor_quantile(double exposure, double sigma_ln, double p)
     double before = 0;
     for (int i = 0; i < points; ++i) {
         const double z = -reach + step * i; // of ln c, in standard deviations
-        const double density = std::exp(-z * z / 2 - exposure * std::exp(sigma_ln * z));
+        const double density = std::exp(-z * z / 2) * likelihood(std::exp(sigma_ln * z));
         const auto at = static_cast<std::size_t>(i);
         if (i > 0)
             sum[at] = sum[at - 1] + 0.5 * step * (before + density);
@@ -32,7 +49,7 @@ double factor_quantile(double exposure, double sigma_ln, double p)
 }
 
 HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& rates, double years, double sigma_ln,
-                           double level, const std::optional<IntensityRange>& points)
+                           double level, const std::optional<IntensityRange>& points, const AlikeStructures& alike)
 {
     const PastAxes& axes = collapse.axes;
     const std::vector<double> weights = frequency_weights(axes.frequency_hz);
@@ -41,10 +58,8 @@ HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& ra
     const auto fragility = [&](std::span<const double> cells) {
         return over_frequencies(cells.subspan(0, axes.cells_of_one()), weights);
     };
-    const auto rate = [&](std::span<const double> cells) {
-        const std::vector<double> p = fragility(cells);
-        return integral.total(p) + p.back() * above;
-    };
+    const auto rate_of = [&](const std::vector<double>& p) { return integral.total(p) + p.back() * above; };
+    const auto rate = [&](std::span<const double> cells) { return rate_of(fragility(cells)); };
     HazardUpdate update;
     update.collapse_rate = past_estimate(collapse, rate);
     update.stands = past_estimate(collapse, [&](auto cells) { return std::exp(-rate(cells) * years); });
@@ -72,6 +87,26 @@ HazardUpdate hazard_update(const PastLikelihood& collapse, const HazardCurve& ra
     update.factor_median = quantile(0.5);
     update.factor_lower = quantile((1 - level) / 2);
     update.factor_upper = quantile((1 + level) / 2);
+    const auto exposures = [&](std::span<const double> cells) {
+        std::vector<double> exposure, any(axes.cells_of_one());
+        for (std::size_t m = 1; m <= alike.built; ++m) { // one of m falls
+            for (std::size_t c = 0; c < any.size(); ++c)
+                any[c] = 1 - (1 - cells[c]) * alike.all_stand[c * alike.built + m - 1];
+            exposure.push_back(rate_of(fragility(any)) * years);
+        }
+        return exposure;
+    };
+    const auto alike_quantile = [&](double p) {
+        return past_estimate(collapse, [&](auto cells) {
+            const std::vector<double> exposure = exposures(cells);
+            return factor_quantile([&](double c) { return alike_likelihood(exposure, alike.standing, c); }, sigma_ln,
+                                   p);
+        });
+    };
+    const bool several = alike.built > 1;
+    update.alike_median = several ? alike_quantile(0.5) : update.factor_median;
+    update.alike_lower = several ? alike_quantile((1 - level) / 2) : update.factor_lower;
+    update.alike_upper = several ? alike_quantile((1 + level) / 2) : update.factor_upper;
     const double z = normal_quantile((1 + level) / 2);
     update.prior_lower = std::exp(-sigma_ln * z);
     update.prior_upper = std::exp(sigma_ln * z);

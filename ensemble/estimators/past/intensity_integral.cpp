@@ -69,17 +69,18 @@ double IntensityIntegral::quantile(std::span<const double> likelihood, double p)
     return std::exp(log_intensity_.back());
 }
 
-double likelihood_ratio_limit(const std::vector<double>& intensity, std::span<const double> likelihood, double part)
+double likelihood_limit(const std::vector<double>& intensity, std::span<const double> likelihood,
+                        std::span<const double> threshold)
 {
-    const double limit = part * *std::max_element(likelihood.begin(), likelihood.end());
-    if (!(likelihood.back() < limit))
-        return std::numeric_limits<double>::infinity();
+    const auto above = [&](std::size_t i) { return likelihood[i] - threshold[i]; };
     std::size_t i = intensity.size() - 1;
-    while (i > 0 && likelihood[i - 1] < limit)
+    if (!(above(i) < 0))
+        return std::numeric_limits<double>::infinity();
+    while (i > 0 && above(i - 1) < 0)
         --i;
     if (i == 0)
         return intensity.front();
-    const double t = (likelihood[i - 1] - limit) / (likelihood[i - 1] - likelihood[i]);
+    const double t = above(i - 1) / (above(i - 1) - above(i));
     return intensity[i - 1] * std::pow(intensity[i] / intensity[i - 1], t);
 }
 
@@ -106,6 +107,14 @@ std::vector<double> over_frequencies(std::span<const double> cells, std::span<co
         for (std::size_t i = 0; i < ni; ++i)
             mean[i] += weights[f] * cells[f * ni + i];
     return mean;
+}
+
+std::vector<double> largest_over_frequencies(std::span<const double> cells, std::size_t intensities)
+{
+    std::vector<double> most(intensities, 0);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        most[c % intensities] = std::max(most[c % intensities], cells[c]);
+    return most;
 }
 
 } // namespace stylobate

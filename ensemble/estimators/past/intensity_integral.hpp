@@ -33,15 +33,18 @@ private:
     std::vector<double> weights_;
 };
 
-/// The intensity above which the likelihood stays below a part of its largest value, linear in the logarithm between
-/// values of the axis; infinite where it does not at the axis' end, the first intensity where it is below everywhere
-/// but there.
-double likelihood_ratio_limit(const std::vector<double>& intensity, std::span<const double> likelihood, double part);
+/// The intensity above which the likelihood stays below a threshold, both linear in the logarithm between values of the
+/// axis; infinite where it does not at the axis' end, the first intensity where it is below everywhere.
+/// @param threshold (ni)
+double likelihood_limit(const std::vector<double>& intensity, std::span<const double> likelihood,
+                        std::span<const double> threshold);
 
 /// Of each frequency, for a density that is flat in its logarithm; sum 1.
 std::vector<double> frequency_weights(const std::vector<double>& frequency_hz);
 
 /// The mean over the frequencies, weighted. @param cells of one number of events (nf x ni)
 std::vector<double> over_frequencies(std::span<const double> cells, std::span<const double> weights);
+/// The largest value over the frequencies. @param cells as above
+std::vector<double> largest_over_frequencies(std::span<const double> cells, std::size_t intensities);
 
 } // namespace stylobate

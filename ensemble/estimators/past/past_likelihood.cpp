@@ -30,15 +30,14 @@ double part_of(std::size_t b)
 std::vector<double> quantiles_of(const CellCount& count, double c)
 {
     if (count.successes == 0 || count.successes == count.trials) {
-        const boost::math::beta_distribution<double> posterior(static_cast<double>(count.successes) + c,
-                                                               static_cast<double>(count.trials - count.successes) + c);
+        const boost::math::beta_distribution<double> posterior(count.successes + c, count.trials - count.successes + c);
         std::vector<double> values;
         for (std::size_t b = 0; b < past_draws; ++b)
             values.push_back(quantile(posterior, part_of(b)));
         return values;
     }
     constexpr std::size_t points = 2001;
-    const auto k = static_cast<double>(count.successes), n = static_cast<double>(count.trials);
+    const double k = count.successes, n = count.trials;
     const double middle = std::asin(std::sqrt((k + 0.5) / (n + 1))), reach = 5 / std::sqrt(n + 1);
     const double from = std::max(0.0, middle - reach), to = std::min(std::numbers::pi / 2, middle + reach);
     const double step = (to - from) / static_cast<double>(points - 1);
@@ -84,14 +83,13 @@ PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> 
 {
     assert(counts.size() == axes.cells() && "a count for each cell");
     PastLikelihood likelihood{axes, {}, {past_draws, std::vector<double>(counts.size())}};
-    std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<double>> known;
+    std::map<std::pair<double, double>, std::vector<double>> known;
     const double c = prior_count(axes, use);
     std::vector<std::size_t> order(past_draws);
     for (std::size_t cell = 0; cell < counts.size(); ++cell) {
         const CellCount& count = counts[cell];
         const double shown = use == PastUse::rates && count.trials > 0 ? 0 : c;
-        likelihood.value.push_back((static_cast<double>(count.successes) + shown) /
-                                   (static_cast<double>(count.trials) + 2 * shown));
+        likelihood.value.push_back((count.successes + shown) / (count.trials + 2 * shown));
         auto [at, is_new] = known.try_emplace({count.trials, count.successes});
         if (is_new)
             at->second = quantiles_of(count, c);
@@ -104,20 +102,6 @@ PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> 
             likelihood.drawn[b][cell] = at->second[order[b]];
     }
     return likelihood;
-}
-
-PastLikelihood product(std::span<const PastLikelihood> structures)
-{
-    PastLikelihood all = structures.front();
-    for (const PastLikelihood& one : structures.subspan(1)) {
-        assert(one.axes == all.axes && "likelihoods over the same pasts");
-        for (std::size_t cell = 0; cell < all.value.size(); ++cell)
-            all.value[cell] *= one.value[cell];
-        for (std::size_t b = 0; b < all.drawn.size(); ++b)
-            for (std::size_t cell = 0; cell < all.value.size(); ++cell)
-                all.drawn[b][cell] *= one.drawn[b][cell];
-    }
-    return all;
 }
 
 PastEstimate past_estimate(const PastLikelihood& likelihood, const std::function<double(std::span<const double>)>& f)

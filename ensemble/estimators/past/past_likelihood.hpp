@@ -39,8 +39,10 @@ struct PastAxes {
     friend bool operator==(const PastAxes&, const PastAxes&) = default;
 };
 
+/// Of one cell. Where several structures share a motion these are the numbers of independent realizations that would
+/// leave the mean as uncertain as it is (`motion_tally.hpp`), and no whole ones.
 struct CellCount {
-    std::uint64_t trials = 0, successes = 0;
+    double trials = 0, successes = 0;
 };
 
 struct PastLikelihood {
@@ -67,10 +69,6 @@ double prior_count(const PastAxes& axes, PastUse use);
 /// @param index of the first cell among the random numbers of `Stream::past`: other counts of a study have others
 PastLikelihood past_likelihood(const PastAxes& axes, std::span<const CellCount> counts, std::uint64_t seed, PastUse use,
                                std::uint64_t index = 0);
-
-/// Structures that have been through the same shaking, each of which responded by itself.
-/// @pre at least one; all have the same axes
-PastLikelihood product(std::span<const PastLikelihood> structures);
 
 /// A number, and the interval that the counts leave it; infinite where it lies beyond the axis.
 struct PastEstimate {

@@ -37,37 +37,34 @@ std::size_t MonumentTest::inside(const std::vector<double>& u, double level)
         std::count_if(u.begin(), u.end(), [&](double each) { return std::fabs(each - 0.5) <= level / 2; }));
 }
 
-MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_t>& trials,
-                            const StandingStates& standing, const MeasuredState& measured,
+MonumentTest test_monuments(const PastAxes& axes, const std::vector<double>& trials, const StandingStates& standing,
+                            const AgreeingStates& agreeing, const MeasuredState& measured,
                             std::span<const double> prior, std::size_t monuments, std::uint64_t seed)
 {
     MonumentTest test;
     const std::size_t ni = axes.intensity.size(), of_one = axes.cells_of_one();
     if (standing.cell.empty())
         return test;
-    const std::size_t width = standing.value.size() / standing.cell.size();
     const double count = prior_count(axes, PastUse::means);
     // a realization that stands has the prior of its cell over the trials of its cell
     std::vector<double> sums;
     for (const std::size_t cell : standing.cell)
-        sums.push_back((sums.empty() ? 0 : sums.back()) + prior[cell] / static_cast<double>(trials[cell]));
+        sums.push_back((sums.empty() ? 0 : sums.back()) + prior[cell] / trials[cell]);
     for (std::size_t m = 0; m < monuments; ++m) {
         const auto draw = [&](std::uint64_t element) { return uniform01(seed, m, Stream::monument, element); };
         const std::size_t itself = chosen(sums, draw(0));
         const std::size_t truth = standing.cell[itself];
-        MeasuredState seen = measured;
-        for (std::size_t k = 0; k < seen.value.size(); ++k)
-            seen.value[k] = standing.value[itself * width + k] + measured.tolerance[k] * (2 * draw(4 + k) - 1);
+        std::vector<double> seen;
+        for (std::size_t k = 0; k < measured.tolerance.size(); ++k)
+            seen.push_back(standing.state(itself)[k] + measured.tolerance[k] * (2 * draw(4 + k) - 1));
         std::vector<double> posterior(axes.cells(), 0);
         bool judged = false;
-        for (std::size_t r = 0; r < standing.cell.size(); ++r)
-            if (r != itself && distance(seen, std::span(standing.value).subspan(r * width, width)).agrees()) {
-                posterior[standing.cell[r]] += 1;
-                judged = true;
-            }
+        agreeing.each(seen, [&](std::size_t r) {
+            posterior[standing.cell[r]] += r == itself ? 0 : 1;
+            judged = judged || r != itself;
+        });
         for (std::size_t c = 0; c < posterior.size(); ++c)
-            posterior[c] =
-                prior[c] * (posterior[c] + count) / (static_cast<double>(trials[c] - (c == truth ? 1 : 0)) + 2 * count);
+            posterior[c] = prior[c] * (posterior[c] + count) / (trials[c] - (c == truth ? 1 : 0) + 2 * count);
         if (!judged) {
             ++test.not_judged;
             continue;

@@ -8,7 +8,7 @@
 /// interval of level p with equal tails contains the true value where (1 - p) / 2 <= u <= (1 + p) / 2. Of a value with
 /// a share of the posterior of its own, which the true one has on an axis, u is drawn within that share.
 
-#include "ensemble/estimators/past/final_state.hpp"
+#include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/estimators/past/past_likelihood.hpp"
 
 #include <cstddef>
@@ -17,12 +17,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// The realizations that stand.
-struct StandingStates {
-    std::vector<std::size_t> cell; ///< of each
-    std::vector<double> value;     ///< (realizations x values) of the states
-};
 
 struct MonumentTest {
     std::vector<double> intensity, frequency, events; ///< u of each monument that could be judged
@@ -33,8 +27,9 @@ struct MonumentTest {
 };
 
 /// @param trials (cells) valid realizations   @param prior (cells) probability
-MonumentTest test_monuments(const PastAxes& axes, const std::vector<std::uint64_t>& trials,
-                            const StandingStates& standing, const MeasuredState& measured,
+/// @pre at least one value is measured
+MonumentTest test_monuments(const PastAxes& axes, const std::vector<double>& trials, const StandingStates& standing,
+                            const AgreeingStates& agreeing, const MeasuredState& measured,
                             std::span<const double> prior, std::size_t monuments, std::uint64_t seed);
 
 } // namespace stylobate

@@ -141,6 +141,32 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
     return hazard;
 }
 
+/// Structures under one motion, and those that were built alike.
+void read_alike(const KeyReader& keys, const KeyReader& study, std::uint64_t realizations, SurvivalSpec& survival)
+{
+    survival.per_motion = keys.read(keys_of::per_motion);
+    survival.built = keys.read(keys_of::built);
+    survival.standing = keys.read(keys_of::standing);
+    if (realizations % survival.per_motion != 0) {
+        const std::uint64_t below = realizations / survival.per_motion * survival.per_motion;
+        study.refuse("realizations",
+                     fmt::format("is no multiple of survival.structures_per_motion = {}", survival.per_motion),
+                     below > 0 ? fmt::format("Give {} or {}.", below, below + survival.per_motion)
+                               : fmt::format("Give {}.", survival.per_motion));
+    }
+    if (survival.standing > survival.built)
+        keys.refuse(keys_of::standing.name,
+                    fmt::format("is above survival.built = {}: more stand than were built", survival.built),
+                    "Give how many of those that were built alike stand, this one included.");
+    if (survival.built > survival.per_motion)
+        keys.refuse(
+            keys_of::built.name,
+            fmt::format("is above survival.structures_per_motion = {}: structures of one site have been through "
+                        "the same motions, and so many of them are needed under each",
+                        survival.per_motion),
+            fmt::format("Give structures_per_motion = {} or more.", survival.built));
+}
+
 /// What several events in succession do not go with.
 void check_events(const KeyReader& keys, const Study& study)
 {
@@ -174,8 +200,10 @@ SurvivalSpec read_survival(const KeyReader& top, const Study& study, const std::
     survival.prior = keys.read(keys_of::prior);
     survival.level = keys.read(keys_of::level);
     survival.events = static_cast<int>(keys.read(keys_of::events));
-    survival.pause_s = keys.read(keys_of::pause);
+    survival.pause_s = keys.maybe(keys_of::pause);
     survival.monuments = keys.read(keys_of::monuments);
+    survival.structure = keys.read(keys_of::structure);
+    read_alike(keys, top.table("study"), study.realizations, survival);
     survival.stands_for_years = keys.maybe(keys_of::stands_for);
     if (keys.has(keys_of::hazard))
         survival.hazard = read_rates(keys.table(keys_of::hazard), beside);

@@ -6,31 +6,35 @@
 #include "studies/app/output_path.hpp"
 #include "studies/kinds/survival/combined_past.hpp"
 #include "studies/kinds/survival/survival_picture.hpp"
-#include "studies/kinds/survival/survival_table.hpp"
 #include "studies/results/results.hpp"
 
 #include <fmt/format.h>
 
+#include <deque>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 namespace stylobate {
 
 namespace {
 
-StructurePast past_of(const std::string& file)
-{
-    check_kind(file, "past");
-    const Results results(file);
-    if (!results.study().survival || results.header().kind == "replay")
-        throw InputError(fmt::format("{} is a result of kind '{}', which has no likelihood of a past.\n  Give results "
-                                     "of study.kind = \"survival\".",
-                                     file, results.header().kind));
-    check_complete(results.reader(), file);
-    const PastAxes axes{results.header().frequency_hz, results.header().pga_m_s2,
-                        static_cast<std::size_t>(results.study().events())};
-    return {file, results.study(), axes, agreeing_counts(results.reader().table("survival"), axes)};
-}
+/// The results of a structure with its counts.
+struct Structure {
+    Results results;
+    std::optional<SurvivalCounts> counts;
+
+    explicit Structure(const std::string& file) : results(file)
+    {
+        if (!results.study().survival || results.header().kind == "replay")
+            throw InputError(fmt::format("{} is a result of kind '{}', which has no likelihood of a past.\n  Give "
+                                         "results of study.kind = \"survival\".",
+                                         file, results.header().kind));
+        check_complete(results.reader(), file);
+        counts.emplace(results.study(), results.header());
+        results.reader().for_each_row([this](const ResultRow& row) { counts->add(row); });
+    }
+};
 
 } // namespace
 
@@ -44,9 +48,13 @@ int past_command(const CommonOptions& options, const std::vector<std::string>& f
                     fmt::format("{} is given twice, and would count as two structures.\n  Give the results "
                                 "of each structure once.",
                                 files[k]));
+    std::deque<Structure> read;
     std::vector<StructurePast> structures;
-    for (const std::string& file : files)
-        structures.push_back(past_of(file));
+    for (const std::string& file : files) {
+        check_kind(file, "past");
+        read.emplace_back(file);
+        structures.push_back({file, read.back().results.study(), *read.back().counts});
+    }
     const CombinedPast combined = combined_past(structures);
     if (!picture.empty()) {
         check_drawing(picture);

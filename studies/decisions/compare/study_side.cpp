@@ -1,5 +1,6 @@
 #include "studies/decisions/compare/study_side.hpp"
 
+#include "ensemble/model/nominal.hpp"
 #include "studies/kinds/fragility/damage.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ double until_s(const Study& study, const ResultHeader& header, std::uint64_t mot
     if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
         return std::numeric_limits<double>::infinity();
     return header.motions.shaking_end_s.at(motion * shakings + static_cast<std::size_t>(shaking) - 1) +
-           study.fragility->pause_s;
+           shaking_pause_s(study);
 }
 
 std::vector<LimitDefinition> damage_definitions(const Study& study, const ResultHeader& header)

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double harmless_dislocation = 0.001; // of a width
 constexpr double harmless_share = 0.99;
-constexpr double tails_of_rest = 10;
 constexpr double most_events = 100; // expected in a history
 
 struct Event {
@@ -113,7 +112,7 @@ private:
     const Study& study() const { return experiment_.study(); }
     double pause_s(const Realization& r) const
     {
-        return options_.pause_s.value_or(std::max(study().fragility->pause_s, tails_of_rest * tail_after_shaking(r)));
+        return options_.pause_s.value_or(std::max(study().fragility->pause_s.value_or(0), pause_until_rest(r)));
     }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 

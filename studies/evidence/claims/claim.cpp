@@ -60,6 +60,14 @@ std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const
     return settings;
 }
 
+std::string law_of(const std::vector<VariantAxis>& axes, const Levels& levels)
+{
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        if (const Level& level = axes[i].levels[levels[i]]; !level.law.empty())
+            return level.law;
+    return {};
+}
+
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels)
 {
     std::string text;

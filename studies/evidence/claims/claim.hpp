@@ -3,6 +3,7 @@
 /// decides it, over variants of one ordinary study. `claim_file.hpp` reads it, `README.md` describes the words.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -78,7 +79,10 @@ struct Criterion {
         bound, ///< the measure is at least a number, at most one, or both: in all cells of the window or in any
         trend, ///< it rises or falls along the frequency: from end to end, and in no cell in the opposite direction
         order, ///< it rises or falls from level to level of an axis: in all cells of the window; or it differs: in any
-        same   ///< the most frequent of stood, rocked, slid, both, collapsed is the same at all levels of an axis
+        /// A probability rises or falls from the first to the last level of an axis, by pairs: realizations of equal
+        /// number have the same draws at all levels.
+        paired,
+        same ///< the most frequent of rocked, slid, both is the same at all levels of an axis, where something moves
     };
     enum class Way { falls, rises, either };
     Kind kind = Kind::bound;
@@ -87,12 +91,14 @@ struct Criterion {
     std::optional<double> at_least; ///< bound
     std::optional<double> at_most;  ///< bound
     bool any = false;               ///< bound, order: one cell is enough
-    Way way = Way::falls;           ///< trend, order
-    double margin = 0;              ///< order: a difference counts from this part of the smaller number on
-    double tolerance = 0;           ///< trend: what goes the wrong way by less than this part is passed over
-    bool within_pga = false;        ///< trend of an onset: fails where no onset lies in the PGA window
-    std::string along;              ///< order, same: name of the axis
+    Way way = Way::falls;           ///< trend, order, paired
+    std::string along;              ///< order, paired, same: name of the axis
 };
+
+/// Every criterion is judged at these margins. A difference counts where it certainly exceeds the margin: a part of the
+/// smaller number (paired: of the larger probability). A number clears a bound where it does so by the margin: a part
+/// of the bound (a probability: of what lies between the bound and 0 or 1). Two bounds are a margin of their own.
+inline constexpr std::array margins{0.0, 0.05, 0.20};
 
 /// Settings of a level that hold only together with levels of other axes.
 struct Together {
@@ -106,6 +112,7 @@ struct Level {
     std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
     std::vector<std::string> only; ///< "AXIS=LEVEL": it is combined with these levels alone
     std::vector<Together> also = {};
+    std::string law = {}; ///< "rigid", "ends" ...: the study under this contact law (contact_laws.hpp)
 };
 
 /// One way in which the variants differ.
@@ -128,7 +135,11 @@ struct Reasons {
 
 struct Test {
     std::string id;            ///< "P11", "P14a"
-    std::string says;          ///< the statement of the paper
+    std::string says;          ///< the statement in our words
+    std::string section;       ///< of the paper, or its figure or table
+    bool inference = false;    ///< it follows from the paper, which does not say it
+    std::string stand_ins;     ///< what of the paper's inputs is missing and replaced
+    std::string after_trials;  ///< what of the criterion was chosen after trial runs
     std::string contradiction; ///< the inconsistency within the paper
     Criterion criterion;
     std::vector<Range> ranges;     ///< at least one
@@ -173,6 +184,9 @@ bool picked(const std::vector<VariantAxis>& axes, const Levels& levels, const st
 
 /// All settings of a combination, axis by axis.
 std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const Levels& levels);
+
+/// The contact law that a level names; empty: that of the study.
+std::string law_of(const std::vector<VariantAxis>& axes, const Levels& levels);
 
 /// "K_N 1e8, smooth start": the levels in words; an axis with one level is left out.
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels);

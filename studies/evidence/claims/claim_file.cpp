@@ -21,6 +21,7 @@ using Type = TomlValue::Type;
 constexpr std::array kind_words{Word<Criterion::Kind>{"bound", Criterion::Kind::bound, ""},
                                 Word<Criterion::Kind>{"trend", Criterion::Kind::trend, ""},
                                 Word<Criterion::Kind>{"order", Criterion::Kind::order, ""},
+                                Word<Criterion::Kind>{"paired", Criterion::Kind::paired, ""},
                                 Word<Criterion::Kind>{"same", Criterion::Kind::same, ""}};
 constexpr std::array measure_words{Word<Measure::Kind>{"probability", Measure::Kind::probability, ""},
                                    Word<Measure::Kind>{"minority", Measure::Kind::minority, ""},
@@ -29,6 +30,7 @@ constexpr std::array measure_words{Word<Measure::Kind>{"probability", Measure::K
 using Way = Criterion::Way;
 constexpr std::array way_words{Word<Way>{"falls", Way::falls, ""}, Word<Way>{"rises", Way::rises, ""},
                                Word<Way>{"either", Way::either, ""}};
+constexpr std::array source_words{Word<bool>{"paper", false, ""}, Word<bool>{"inference", true, ""}};
 constexpr std::array where_words{Word<bool>{"all", false, ""}, Word<bool>{"any", true, ""}};
 const std::vector<std::string> measure_keys{"measure", "event", "amount", "given", "within_cycles", "between_steps"};
 
@@ -129,39 +131,34 @@ Measure read_measure(const KeyReader& keys)
 Criterion read_criterion(const KeyReader& keys)
 {
     std::vector<std::string> known = measure_keys;
-    known.insert(known.end(), {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "within_pga", "along",
-                               "margin", "tolerance"});
+    known.insert(known.end(), {"kind", "pga_m_s2", "at_least", "at_most", "where", "direction", "along"});
     keys.allow_only(known);
+    using Kind = Criterion::Kind;
     Criterion c;
     c.kind = keys.choice("kind", kind_words);
-    if (c.kind != Criterion::Kind::same)
+    if (c.kind != Kind::same)
         c.measure = read_measure(keys);
+    else if (keys.has("given"))
+        c.measure.given = keys.choice("given", event_words);
+    if (c.kind == Kind::paired && (c.measure.kind != Measure::Kind::probability || c.measure.given))
+        keys.refuse("measure", "is compared by pairs",
+                    "Pairs have the probability of an event, without `given`: give measure = \"probability\".");
     read_window(keys, "pga_m_s2", c.pga);
-    if (c.kind == Criterion::Kind::bound) {
+    if (c.kind == Kind::bound) {
         const stylobate::Range any{-1e300, 1e300, false};
         c.at_least = keys.maybe_number("at_least", any);
         c.at_most = keys.maybe_number("at_most", any);
         if (!c.at_least && !c.at_most)
             keys.missing("at_least", "A bound has at_least or at_most, or both.");
     }
-    if (c.kind == Criterion::Kind::bound || c.kind == Criterion::Kind::order)
+    if (c.kind == Kind::bound || c.kind == Kind::order)
         c.any = keys.choice_or("where", where_words, c.any);
-    if (c.kind == Criterion::Kind::trend || c.kind == Criterion::Kind::order)
+    if (c.kind == Kind::trend || c.kind == Kind::order || c.kind == Kind::paired)
         c.way = keys.choice("direction", way_words);
-    if (c.way == Way::either && c.kind == Criterion::Kind::trend)
-        keys.refuse("direction", "is for the order of levels; a trend falls or rises");
-    if (c.kind == Criterion::Kind::order || c.kind == Criterion::Kind::same)
+    if (c.way == Way::either && c.kind != Kind::order)
+        keys.refuse("direction", "is for the order of levels; a trend and pairs fall or rise");
+    if (c.kind == Kind::order || c.kind == Kind::paired || c.kind == Kind::same)
         c.along = keys.text("along");
-    c.margin = keys.number_or("margin", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", from_percent}, 0);
-    if (c.margin > 0 && (c.kind != Criterion::Kind::order || c.way == Way::either))
-        keys.refuse("margin", "is for an order that falls or rises");
-    c.tolerance =
-        keys.number_or("tolerance", {0, 10, false, "A part of the smaller number: 10 % is 0.1.", from_percent}, 0);
-    if (c.tolerance > 0 && c.kind != Criterion::Kind::trend)
-        keys.refuse("tolerance", "is for a trend");
-    c.within_pga = keys.boolean_or("within_pga", false);
-    if (c.within_pga && (c.kind != Criterion::Kind::trend || c.measure.kind != Measure::Kind::onset))
-        keys.refuse("within_pga", "is for the trend of an onset");
     return c;
 }
 
@@ -174,8 +171,9 @@ std::vector<VariantAxis> read_axes(const KeyReader& keys)
         axis.name = one.text("name");
         axis.label = one.has("label") ? one.text("label") : axis.name;
         for (const KeyReader& level : tables(one, "levels")) {
-            level.allow_only({"name", "set", "only", "also"});
+            level.allow_only({"name", "set", "only", "also", "law"});
             axis.levels.push_back({level.text("name"), strings(level, "set"), strings(level, "only")});
+            axis.levels.back().law = level.text_or_empty("law");
             for (const KeyReader& also : tables(level, "also")) {
                 also.allow_only({"only", "set"});
                 axis.levels.back().also.push_back({strings(also, "only"), strings(also, "set")});
@@ -204,18 +202,23 @@ void check_words(const KeyReader& keys, std::string_view key, const std::vector<
 
 Test read_test(const KeyReader& keys, const std::vector<VariantAxis>& axes)
 {
-    keys.allow_only({"id", "says", "contradiction", "criterion", "ranges", "frequency_hz", "frequency_over_f1", "only",
-                     "untestable", "impossible", "reason", "figures"});
+    keys.allow_only({"id", "says", "section", "source", "stand_ins", "after_trials", "contradiction", "criterion",
+                     "ranges", "frequency_hz", "frequency_over_f1", "only", "untestable", "impossible", "reason",
+                     "figures"});
     Test test;
     test.id = keys.text("id");
     test.says = prose(keys, "says");
     if (test.says.empty())
-        keys.missing("says", "Give the statement of the paper.");
+        keys.missing("says", "Give the statement of the paper, in other words.");
+    test.section = keys.text("section");
+    test.inference = keys.choice_or("source", source_words, false);
+    test.stand_ins = prose(keys, "stand_ins");
+    test.after_trials = prose(keys, "after_trials");
     test.contradiction = prose(keys, "contradiction");
     test.untestable = prose(keys, "untestable");
     test.impossible = prose(keys, "impossible");
     if (!keys.has("criterion"))
-        keys.missing("criterion", "A claim is decided by a criterion that is fixed before the run.");
+        keys.missing("criterion", "A claim is decided by a criterion.");
     test.criterion = read_criterion(keys.table("criterion"));
     const std::string& along = test.criterion.along;
     if (!along.empty() &&

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -39,7 +40,7 @@ const Case* pick_case(const Result& r, std::vector<std::string> words)
         range = word.substr(6);
         return true;
     });
-    for (const Case& one : r.cases)
+    for (const Case& one : r.cases.front())
         if (picked(r.file->axes, one.levels, words) && (range.empty() || r.test->ranges[one.range].name == range))
             return &one;
     return nullptr;
@@ -48,15 +49,7 @@ const Case* pick_case(const Result& r, std::vector<std::string> words)
 std::string value_of(const std::string& name, const std::string& words, const Result& r)
 {
     if (name == "cases")
-        return fmt::format("{}", r.cases.size());
-    if (name == "holds")
-        return fmt::format("{}", r.verdict.holds);
-    if (name == "fails")
-        return fmt::format("{}", r.verdict.fails);
-    if (name == "undecided")
-        return fmt::format("{}", r.verdict.undecided);
-    if (name == "by")
-        return series(r.verdict.by);
+        return fmt::format("{}", r.cases.front().size());
     if (name == "split")
         return r.verdict.split;
     if (name == "number" || name == "finding") {
@@ -69,14 +62,49 @@ std::string value_of(const std::string& name, const std::string& words, const Re
                 return fmt::format("{:.4g}", name == "f1" ? sample.f1_hz : sample.rigid_m_s2);
         return "(not run)";
     }
-    throw InputError(fmt::format("{}: claim {}: {{{}}} is no field.\n  Known: cases, holds, fails, undecided, "
-                                 "by, split, number, finding, f1, rigid.",
+    throw InputError(fmt::format("{}: claim {}: {{{}}} is no field.\n  Known: cases, split, number, finding, f1, "
+                                 "rigid.",
                                  r.file->file, r.test->id, name));
 }
 
-std::string verdict_text(const Verdict& v)
+constexpr std::array margin_names{"0", "5", "20 %"};
+
+/// "depends on K_N (9 of 12), start (3 of 10)"
+std::string verdict_text(const Result& r)
 {
-    return v.judgement == Judgement::depends ? "depends on " + series(v.by) : to_string(v.judgement);
+    const Verdict& v = r.verdict;
+    std::string text = to_string(v.judgement);
+    if (v.judgement == Judgement::depends) {
+        std::vector<std::string> on;
+        if (v.by_margin)
+            on.emplace_back("the margin");
+        for (const Influence& one : v.by)
+            on.push_back(fmt::format("{} ({} of {})", one.label, one.flips, one.pairs));
+        if (v.tie)
+            text += ": a tie";
+        else if (!on.empty())
+            text += fmt::format(" on {}", fmt::join(on, ", "));
+    }
+    return text + (r.test->stand_ins.empty() ? "" : ", with stand-ins");
+}
+
+/// What the verdict is at each margin.
+std::string margins_text(const Verdict& v)
+{
+    std::vector<std::string> parts;
+    for (std::size_t m = 0; m < margins.size();) {
+        std::size_t last = m; // margins with the same counts
+        while (last + 1 < margins.size() && counts_text(v.at[last + 1]) == counts_text(v.at[m]))
+            ++last;
+        std::string at = margin_names[m];
+        for (std::size_t k = m + 1; k <= last; ++k)
+            at += fmt::format("{}{}", k == last ? " and " : ", ", margin_names[k]);
+        if (!at.ends_with('%'))
+            at += " %";
+        parts.push_back(fmt::format("at a margin of {}: {}", at, counts_text(v.at[m])));
+        m = last + 1;
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 /// Why a test has no case: the records that are absent.
@@ -98,16 +126,16 @@ std::string reason_text(const Result& r)
     case Judgement::refuted:
         return filled(reasons.refuted.empty() ? "It fails in all the decided cases." : reasons.refuted, r);
     case Judgement::depends:
+        if (r.verdict.tie)
+            return filled("The numbers are too close to separate. " + reasons.untestable, r);
         return filled(reasons.depends.empty() ? "It {split}." : reasons.depends, r);
     case Judgement::untestable: {
         if (!r.test->untestable.empty())
             return filled(r.test->untestable + " " + reasons.untestable, r);
-        if (r.verdict.holds > 0 && !r.test->impossible.empty() && r.verdict.holds >= r.verdict.undecided)
-            return filled("The criterion was met in all the decided cases, but this is physically impossible: " +
-                              r.test->impossible +
-                              " The criterion or the model is in error, and the claim is not confirmed.",
-                          r);
-        return filled("{undecided} of {cases} cases are undecided. " + reasons.untestable, r);
+        return filled(
+            "The criterion was met in all the decided cases, but this is physically impossible: " + r.test->impossible +
+                " The criterion or the model is in error, and the claim is not confirmed.",
+            r);
     }
     case Judgement::not_run:
         break;
@@ -121,7 +149,7 @@ std::vector<std::size_t> telling_axes(const Result& r)
     std::vector<std::size_t> telling;
     for (std::size_t i = 0; i < r.file->axes.size(); ++i) {
         std::set<std::size_t> seen;
-        for (const Case& one : r.cases)
+        for (const Case& one : r.cases.front())
             seen.insert(one.levels[i]);
         if (seen.size() > 1)
             telling.push_back(i);
@@ -139,27 +167,18 @@ std::string case_table(const Result& r)
         head += fmt::format(" {} |", i < r.file->axes.size() ? r.file->axes[i].label : "frequency");
         rule += "---|";
     }
-    for (const Case& one : r.cases) {
+    for (std::size_t c = 0; c < r.cases.front().size(); ++c) {
+        const Case& one = r.cases.front()[c];
         body += "|";
         for (const std::size_t i : telling)
             body += fmt::format(" {} |", i < r.file->axes.size() ? r.file->axes[i].levels[one.levels[i]].name
                                                                  : r.test->ranges[one.range].name);
-        body += fmt::format(" {} | {} |\n", one.number_text, to_string(one.finding));
+        body += fmt::format(" {} |", one.number_text);
+        for (const std::vector<Case>& cases : r.cases)
+            body += fmt::format(" {} |", to_string(cases[c].finding));
+        body += "\n";
     }
-    return fmt::format("{} number | finding |\n{}---|---|\n{}", head, rule, body);
-}
-
-/// "9 hold, 3 fail, 1 undecided", without what there is none of.
-std::string counts_text(const Verdict& v)
-{
-    std::vector<std::string> parts;
-    if (v.holds > 0)
-        parts.push_back(fmt::format("{} {}", v.holds, v.holds == 1 ? "holds" : "hold"));
-    if (v.fails > 0)
-        parts.push_back(fmt::format("{} {}", v.fails, v.fails == 1 ? "fails" : "fail"));
-    if (v.undecided > 0)
-        parts.push_back(fmt::format("{} undecided", v.undecided));
-    return fmt::format("{}", fmt::join(parts, ", "));
+    return fmt::format("{} number | margin 0 | 5 % | 20 % |\n{}---|---|---|---|\n{}", head, rule, body);
 }
 
 std::string runs_table(const std::vector<Result>& results)
@@ -188,15 +207,20 @@ std::string runs_table(const std::vector<Result>& results)
 std::string section(const Result& r, const std::string& images, std::map<std::string, std::string>& shown,
                     const std::map<std::string, const Figure*>& figures)
 {
-    std::string text = fmt::format("## {}\n\n**The paper.** {}\n\n", r.test->id, filled(r.test->says, r));
-    if (!r.test->contradiction.empty())
-        text += fmt::format("**Inconsistency.** {}\n\n", filled(r.test->contradiction, r));
-    text += fmt::format("**Criterion** (`{}.toml`). {}{}\n\n", r.file->name,
-                        r.test->untestable.empty() ? "" : "For information only: ", criterion_text(*r.file, *r.test));
-    const std::string counts = counts_text(r.verdict);
-    text += fmt::format("**Verdict: {}**{}. {}\n\n", verdict_text(r.verdict),
-                        counts.empty() ? "" : fmt::format(" ({})", counts), reason_text(r));
-    if (!r.cases.empty())
+    const Test& test = *r.test;
+    std::string text = fmt::format("## {}\n\n**{}, section {}.** {}\n\n", test.id,
+                                   test.inference ? "Inferred from the paper" : "The paper, in our words", test.section,
+                                   filled(test.says, r));
+    if (!test.contradiction.empty())
+        text += fmt::format("**Inconsistency.** {}\n\n", filled(test.contradiction, r));
+    if (!test.stand_ins.empty())
+        text += fmt::format("**Stand-ins.** {}\n\n", filled(test.stand_ins, r));
+    text +=
+        fmt::format("**Criterion** (`{}.toml`). {}{}{}\n\n", r.file->name,
+                    test.untestable.empty() ? "" : "For information only: ", criterion_text(*r.file, test),
+                    test.after_trials.empty() ? "" : fmt::format(" Chosen after trial runs: {}", test.after_trials));
+    text += fmt::format("**Verdict: {}** ({}). {}\n\n", verdict_text(r), margins_text(r.verdict), reason_text(r));
+    if (!r.cases.front().empty())
         text += case_table(r) + "\n";
     for (const std::string& name : r.test->figures) {
         const auto figure = figures.find(name);
@@ -214,6 +238,15 @@ std::string section(const Result& r, const std::string& images, std::map<std::st
 }
 
 } // namespace
+
+Result judged(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples)
+{
+    Result result{&file, &test, &samples, {}, {}};
+    for (std::size_t m = 0; m < margins.size(); ++m)
+        result.cases[m] = judge(file, test, samples, margins[m]);
+    result.verdict = verdict_of(file, test, result.cases);
+    return result;
+}
 
 bool comes_before(const std::string& a, const std::string& b)
 {
@@ -252,7 +285,7 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         for (const Sample& sample : *r.samples)
             for (const auto& cell : sample.cells)
                 fewest = std::min(fewest, cell.size());
-        decided += r.verdict.holds + r.verdict.fails;
+        decided += r.verdict.at.front().holds + r.verdict.at.front().fails;
         ++tally[r.verdict.judgement];
         for (const Figure& figure : r.file->figures)
             figures.emplace(figure.name, &figure);
@@ -271,33 +304,40 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
         "verdict and "
         "no "
         "measured number is written by hand.\n\n"
-        "A verdict is reached as follows. A criterion is fixed before the run. It is evaluated with confidence "
-        "intervals in every case, that is in every variant and frequency range, and the claim holds, fails or is "
-        "undecided in that case. **Confirmed**: holds in all the decided cases, and most are decided. **Refuted**: "
-        "fails in all of them. **Depends on**: both occur, and the smallest set of assumptions that separates the "
-        "cases is named. **Untestable**: the paper omits necessary information, or too few cases are decided. Numbers "
-        "in brackets are intervals. Each case is decided at {} % confidence, and its numbers share the error "
-        "probability (Bonferroni). Of the {} decided cases about {:.0f} may still be decided wrongly, so a single case "
-        "that contradicts its neighbours is weak evidence. An onset is the lowest PGA at which the event has "
-        "probability "
-        "1/2; its interval ends at PGAs that were run, or at interpolated PGAs where onsets are compared. Definitions: "
+        "A verdict is reached as follows. Each claim is restated in our words, with the section or figure where it "
+        "stands; what the paper does not say but what follows from it is marked as inferred. A criterion is evaluated "
+        "with confidence intervals in every case, that is in every variant and frequency range, at margins of 0, 5 and "
+        "20 %: a difference counts where it certainly exceeds the margin, so the claim holds, fails or is undecided in "
+        "that case. **Confirmed**: holds at all margins in all the decided cases, and most are decided. **Refuted**: "
+        "fails so. **Depends**: cases differ, or the margin decides, or most cases are undecided (a tie). The axes are "
+        "ranked by how much they move the answer: (9 of 12) says that of 12 pairs of decided cases that differ in this "
+        "axis alone 9 have other findings, at a margin of 5 %. **Untestable**: the paper omits necessary information. "
+        "One rule holds for what is missing: numbers of the paper that rest on it are untestable; an order is tested "
+        "with stand-ins, and the verdict says so. Most criteria were fixed before the runs; what was chosen after "
+        "trial "
+        "runs stands beside the criterion. Numbers in brackets are intervals. Each case is decided at {} % confidence, "
+        "and its numbers share the error probability (Bonferroni). Of the {} cases that are decided at a margin of 0 "
+        "about {:.0f} may be decided wrongly, so a single case that contradicts its neighbours is weak evidence. An "
+        "onset is the lowest PGA at which the event has probability 1/2; its interval ends at PGAs that were run, or "
+        "at interpolated PGAs where onsets are compared. Definitions: "
         "[studies/evidence/claims](../studies/evidence/claims/README.md).\n\n",
         fewest == std::numeric_limits<std::size_t>::max() ? 0 : fewest, 100 * case_level, decided,
         (1 - case_level) * static_cast<double>(decided));
     page += "## Verdicts\n\n";
     for (const auto& [judgement, count] : tally)
         page += fmt::format("{}{} {}", judgement == tally.begin()->first ? "" : ", ", count, to_string(judgement));
-    page += ".\n\n" + markdown_head("claim | statement in the paper | verdict");
+    page += ".\n\n" + markdown_head("claim | statement | section | margin 0 | 5 % | 20 % | verdict");
     for (const Result& r : results)
         page += markdown_row(
-            "[{}](#{}) | {} | **{}**", r.test->id,
+            "[{}](#{}) | {} | {}{} | {} | {} | {} | **{}**", r.test->id,
             [&] {
                 std::string anchor = r.test->id;
                 std::transform(anchor.begin(), anchor.end(), anchor.begin(),
                                [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
                 return anchor;
             }(),
-            filled(r.test->says, r), verdict_text(r.verdict));
+            filled(r.test->says, r), r.test->section, r.test->inference ? " (inferred)" : "",
+            counts_text(r.verdict.at[0]), counts_text(r.verdict.at[1]), counts_text(r.verdict.at[2]), verdict_text(r));
 
     page += "\n## Inconsistencies in the paper\n\n";
     for (const Result& r : results)

@@ -2,11 +2,11 @@
 /// The page: every claim with its criterion, verdict, numbers and reason, as Markdown.
 ///
 /// The words of a claim file may hold fields in braces that are filled with what was computed:
-///   {cases} {holds} {fails} {undecided}   counts of cases
-///   {by} {split}                          depends: the axes that separate, and what holds for which of their levels
-///   {number:WORDS}                        the number, with its interval, of the first case that the words pick
-///   {finding:WORDS}                       what that case came to
-///   {f1:WORDS} {rigid:WORDS}              first natural frequency [Hz] and rigid limit [m/s2] of the first variant
+///   {cases}                   their number
+///   {split}                   depends: what holds for which levels
+///   {number:WORDS}            the number, with its interval, of the first case that the words pick
+///   {finding:WORDS}           what that case came to at a margin of 0
+///   {f1:WORDS} {rigid:WORDS}  first natural frequency [Hz] and rigid limit [m/s2] of the first variant
 /// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. Where there is no such case it reads
 /// "(no such case)", and of a variant that was not run "(not run)".
 
@@ -21,9 +21,12 @@ struct Result {
     const ClaimFile* file = nullptr;
     const Test* test = nullptr;
     const std::vector<Sample>* samples = nullptr;
-    std::vector<Case> cases;
+    std::array<std::vector<Case>, margins.size()> cases; ///< by margin
     Verdict verdict;
 };
+
+/// At every margin. The result refers to what it is given.
+Result judged(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples);
 
 /// In the order of the paper's claims: P2 before P10, P14a before P14b.
 bool comes_before(const std::string& a, const std::string& b);

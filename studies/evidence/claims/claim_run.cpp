@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/experiment/contact_laws.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/surface/surface.hpp"
@@ -103,6 +104,23 @@ std::vector<std::string> record_setting(const Study& study, const RunPlace& plac
     return {"excitation.file=" + fs::absolute(place.data / study.excitation.file).lexically_normal().string()};
 }
 
+/// The study of a variant, under the contact law that its levels name.
+LoadedStudy load(const std::string& file, const std::vector<std::string>& settings, const std::string& law)
+{
+    if (law.empty())
+        return LoadedStudy::from_file(file, settings);
+    for (ContactLaw& one : contact_laws(read_study(file, settings)))
+        if (one.name == law) {
+            if (!one.study)
+                throw InputError(file, 0, fmt::format("law = \"{}\" does not apply: {}", law, one.why_not));
+            Motions motions = motions_of(*one.study);
+            return LoadedStudy(Experiment(std::move(*one.study), std::move(motions)));
+        }
+    throw InputError(file, 0, fmt::format("law = \"{}\" is no contact law.\n  Known: softer, stiffer, rigid, ends, "
+                                          "centroid.",
+                                          law));
+}
+
 } // namespace
 
 std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, const RunOptions& options,
@@ -133,7 +151,7 @@ std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, c
         if (!record.empty() && !fs::exists(place.data / study.excitation.file)) {
             sample.why_not = "record absent: " + study.excitation.file;
         } else {
-            const LoadedStudy loaded = LoadedStudy::from_file(file.file, settings);
+            const LoadedStudy loaded = load(file.file, settings, law_of(file.axes, levels));
             const fs::path results = folder / file_name(variant_key(file.axes, levels));
             const Found found = look_for(results, loaded.result_header());
             if (found != Found::complete && place.begins)

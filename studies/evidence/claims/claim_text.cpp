@@ -129,29 +129,35 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
         break;
     case Criterion::Kind::trend:
         text = fmt::format("{} {} with frequency: the last frequency against the first, and no pair of frequencies in "
-                           "the opposite direction{}",
-                           measure_text(c.measure), way,
-                           c.tolerance > 0 ? fmt::format(" by more than {:g} %", 100 * c.tolerance) : "");
+                           "the opposite direction",
+                           measure_text(c.measure), way);
         break;
     case Criterion::Kind::order:
         if (c.way == Criterion::Way::either)
             text = fmt::format("{} differs between levels of {}, in at least one cell", measure_text(c.measure),
                                axis_label(file, c.along));
         else
-            text = fmt::format("{} {}{} from each level of {} to the next, in {}", measure_text(c.measure), way,
-                               c.margin > 0 ? fmt::format(" by more than {:g} %", 100 * c.margin) : "",
+            text = fmt::format("{} {} from each level of {} to the next, in {}", measure_text(c.measure), way,
                                axis_label(file, c.along),
                                c.any ? "at least one cell and in no cell in the opposite direction" : "every cell");
         break;
+    case Criterion::Kind::paired:
+        text =
+            fmt::format("{} {} from the first level of {} to the last, by pairs of realizations with the same draws, "
+                        "over the cells in which 5 to 95 % of both levels do",
+                        measure_text(c.measure), way, axis_label(file, c.along));
+        break;
     case Criterion::Kind::same:
-        text = fmt::format("the most frequent response mode is the same for every {}", axis_label(file, c.along));
+        text =
+            fmt::format("the most frequent response mode{} is the same for every {}, in the cells in which something "
+                        "moves",
+                        c.measure.given ? fmt::format(" (given that it {})", event_text(*c.measure.given)) : "",
+                        axis_label(file, c.along));
         break;
     }
     if (!of_onset)
         if (const std::string where = window_text(c.pga, "m/s²"); !where.empty())
             text += ", " + where;
-    if (c.within_pga)
-        text += fmt::format("; it fails where no such PGA is below {:g} m/s²", c.pga.to);
     if (test.ranges.size() == 1) {
         if (const std::string where = window_text(test.ranges.front().frequency, "Hz"); !where.empty())
             text += ", " + where;

@@ -1,5 +1,6 @@
 #include "studies/evidence/claims/criterion.hpp"
 
+#include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "studies/evidence/claims/claim_text.hpp"
 
@@ -17,6 +18,10 @@ namespace {
 
 /// The ways of moving of which a realization shows exactly one.
 constexpr std::array modes{Event::stood, Event::rocked_only, Event::slid_only, Event::rocked_and_slid};
+/// So many realizations of a cell have a most frequent way of moving.
+constexpr std::size_t fewest_moving = 20;
+/// Outside of these shares a cell is decided.
+constexpr double open_from = 0.05, open_to = 0.95;
 
 struct Cell {
     std::size_t f = 0, p = 0;
@@ -25,7 +30,10 @@ struct Cell {
 /// What the judging of one test shares.
 class Judge {
 public:
-    Judge(const ClaimFile& file, const Test& test) : file_(file), test_(test), c_(test.criterion) {}
+    Judge(const ClaimFile& file, const Test& test, double margin)
+        : file_(file), test_(test), c_(test.criterion), margin_(margin)
+    {
+    }
 
     /// Of one variant (bound, trend), or of a group of them along an axis (order, same).
     std::optional<Case> one(const std::vector<const Sample*>& group, std::size_t range) const
@@ -49,8 +57,13 @@ public:
             if (!order(group, cells, found))
                 return std::nullopt;
             break;
+        case Criterion::Kind::paired:
+            if (!paired(group, cells, found))
+                return std::nullopt;
+            break;
         case Criterion::Kind::same:
-            same(group, cells, found);
+            if (!same(group, cells, found))
+                return std::nullopt;
             break;
         }
         return found;
@@ -105,14 +118,17 @@ private:
     void bound(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
     {
         const double low = c_.at_least.value_or(-HUGE_VAL), high = c_.at_most.value_or(HUGE_VAL);
+        // what clears a bound, and what certainly does not
+        const auto [low_cleared, low_missed] = cleared(low, 1);
+        const auto [high_cleared, high_missed] = cleared(high, -1);
         std::size_t known = 0, holding = 0, failing = 0, at_cell = 0;
         std::pair<double, double> extreme; // how far inside the bounds the value lies, then the interval
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Estimate e = estimate(sample, cells[i].f, cells[i].p, c_.measure, level(cells.size()));
             if (!e.known())
                 continue;
-            holding += e.lower >= low && e.upper <= high;
-            failing += e.upper < low || e.lower > high;
+            holding += e.lower >= low_cleared && e.upper <= high_cleared;
+            failing += e.upper < low_missed || e.lower > high_missed;
             const std::pair inside{std::min(e.value - low, high - e.value), std::min(e.lower - low, high - e.upper)};
             if (known == 0 || (c_.any ? inside > extreme : inside < extreme)) {
                 extreme = inside;
@@ -132,19 +148,30 @@ private:
             found.finding = failing > 0 ? Finding::fails : holding == known ? Finding::holds : Finding::undecided;
     }
 
-    /// Whether a to b goes as the criterion says (1), against it (-1), or is not certain (0). With a margin, to go as
-    /// it says is to differ by more than that, and certainly to differ by less is to go against it.
+    struct Cleared {
+        double beyond, short_of;
+    };
+    /// From where on a bound is cleared in a sense by the margin, and from where on it is missed by it.
+    Cleared cleared(double bound, double sense) const
+    {
+        if ((c_.at_least && c_.at_most) || !std::isfinite(bound))
+            return {bound, bound};
+        const bool part = c_.measure.kind == Measure::Kind::probability || c_.measure.kind == Measure::Kind::minority;
+        const double up = part ? 1 - bound : bound, down = bound;
+        return {bound + sense * margin_ * (sense > 0 ? up : down), bound - sense * margin_ * (sense > 0 ? down : up)};
+    }
+
+    /// Whether a to b goes as the criterion says (1), against it (-1), or is not certain to do either by the margin
+    /// (0).
     int sense(const Estimate& a, const Estimate& b) const
     {
+        const auto lies_below = [&](const Estimate& low, const Estimate& high) {
+            return low.known() && high.known() && low.upper * (1 + margin_) <= high.lower && low.value < high.value;
+        };
         if (c_.way == Criterion::Way::either)
-            return a.below(b) || b.below(a) ? 1 : 0;
+            return lies_below(a, b) || lies_below(b, a) ? 1 : 0;
         const Estimate &low = c_.way == Criterion::Way::rises ? a : b, &high = c_.way == Criterion::Way::rises ? b : a;
-        if (!low.known() || !high.known())
-            return 0;
-        const double more = 1 + c_.margin;
-        if (low.upper * more <= high.lower && low.value < high.value)
-            return 1;
-        return high.upper * (1 + c_.tolerance) <= low.lower * more && high.value < low.value * more ? -1 : 0;
+        return lies_below(low, high) ? 1 : lies_below(high, low) ? -1 : 0;
     }
 
     struct Sequence {
@@ -183,28 +210,70 @@ private:
     bool trend(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
     {
         std::vector<Estimate> e;
-        bool all_above = true;
-        for (const Cell& cell : cells) {
+        for (const Cell& cell : cells)
             e.push_back(estimate(sample, cell.f, cell.p, c_.measure, level(cells.size())));
-            all_above = all_above && e.back().lower >= c_.pga.to * (1 - 1e-6);
-        }
-        if (e.size() < 2 || (of_onset() && all_beyond(e) && !(c_.within_pga && all_above)))
+        if (e.size() < 2 || (of_onset() && all_beyond(e)))
             return false;
         const Sequence s = follow(e);
         found.number = e[s.last];
         found.number_text = fmt::format("{}{}; {}{}", shown(e[s.first]), at(sample, cells[s.first]), shown(e[s.last]),
                                         at(sample, cells[s.last]));
-        if (c_.within_pga && all_above) {
-            const auto lowest = std::min_element(
-                e.begin(), e.end(), [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
-            found.number = *lowest;
-            found.number_text = fmt::format("lowest {}{}", shown(*lowest),
-                                            at(sample, cells[static_cast<std::size_t>(lowest - e.begin())]));
-            found.finding = Finding::fails;
-        } else {
-            found.finding = s.against ? Finding::fails : s.ends > 0 ? Finding::holds : Finding::undecided;
-        }
+        found.finding = s.against ? Finding::fails : s.ends > 0 ? Finding::holds : Finding::undecided;
         return true;
+    }
+
+    bool paired(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    {
+        const Sample &first = *group.front(), &last = *group.back();
+        std::vector<PairedCounts> strata;
+        double of_first = 0, of_last = 0;
+        std::uint64_t pairs = 0;
+        for (const Cell& cell : cells) {
+            const PairedCounts counts = pairs_of(first.cell(cell.f, cell.p), last.cell(cell.f, cell.p));
+            if (counts.pairs() == 0)
+                continue;
+            const auto n = static_cast<double>(counts.pairs());
+            const double a = static_cast<double>(counts.base()) / n, b = static_cast<double>(counts.variant()) / n;
+            if ((a + b) / 2 < open_from || (a + b) / 2 > open_to)
+                continue;
+            strata.push_back(counts);
+            of_first += a;
+            of_last += b;
+            pairs += counts.pairs();
+        }
+        if (strata.empty())
+            return false;
+        of_first /= static_cast<double>(strata.size());
+        of_last /= static_cast<double>(strata.size());
+        const PairedDifference d = stratified_difference(strata, case_level);
+        found.number = {d.value, d.lower, d.upper, pairs};
+        found.number_text = fmt::format(
+            "{}: {:.1f} %; {}: {:.1f} %; difference {:+.1f} ({:+.1f} to {:+.1f}) percentage points, {} pairs "
+            "in {} {}",
+            level_name(first), 100 * of_first, level_name(last), 100 * of_last, 100 * d.value, 100 * d.lower,
+            100 * d.upper, pairs, strata.size(), strata.size() == 1 ? "cell" : "cells");
+        const double least = margin_ * std::max(of_first, of_last), sense = c_.way == Criterion::Way::rises ? 1 : -1;
+        const double low = std::min(sense * d.lower, sense * d.upper),
+                     high = std::max(sense * d.lower, sense * d.upper);
+        found.finding = low > least ? Finding::holds : high < -least ? Finding::fails : Finding::undecided;
+        return true;
+    }
+
+    /// Of realizations of equal number, of those that are valid at both levels.
+    PairedCounts pairs_of(const std::vector<Observation>& first, const std::vector<Observation>& last) const
+    {
+        PairedCounts counts;
+        for (auto a = first.begin(), b = last.begin(); a != first.end() && b != last.end();) {
+            if (a->index != b->index) {
+                a->index < b->index ? ++a : ++b;
+                continue;
+            }
+            counts.add(a->has(c_.measure.event, c_.measure.within_cycles),
+                       b->has(c_.measure.event, c_.measure.within_cycles));
+            ++a;
+            ++b;
+        }
+        return counts;
     }
 
     bool order(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
@@ -242,29 +311,40 @@ private:
         return true;
     }
 
-    void same(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    bool same(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
     {
         bool decided = true, equal = true;
+        std::size_t compared = 0;
         for (const Cell& cell : cells) {
-            std::optional<Event> common;
-            std::string text;
+            std::vector<Mode> all;
             for (const Sample* sample : group) {
                 const std::size_t f = std::min(cell.f, sample->frequency_hz.size() - 1);
                 const std::size_t p = std::min(cell.p, sample->pga_m_s2.size() - 1);
-                const auto [mode, share, certain] = most_frequent(sample->cell(f, p), cells.size() * group.size());
-                decided = decided && certain;
-                equal = equal && (!common || *common == mode);
-                common = mode;
-                found.number = share;
-                text += fmt::format("{}{}: {} {}", text.empty() ? "" : "; ", level_name(*sample), event_text(mode),
-                                    number_text({}, share));
+                all.push_back(most_frequent(sample->cell(f, p), cells.size() * group.size()));
             }
-            if (found.number_text.empty() || !equal)
+            if (std::any_of(all.begin(), all.end(), [](const Mode& mode) {
+                    return mode.share.realizations < fewest_moving || mode.event == Event::stood;
+                }))
+                continue;
+            ++compared;
+            std::string text;
+            bool alike = true;
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                decided = decided && all[k].certain;
+                alike = alike && all[k].event == all.front().event;
+                text += fmt::format("{}{}: {} {}", text.empty() ? "" : "; ", level_name(*group[k]),
+                                    event_text(all[k].event), number_text({}, all[k].share));
+            }
+            if (found.number_text.empty() || !alike) {
+                found.number = all.front().share;
                 found.number_text = text + at(*group.front(), cell);
+            }
+            equal = equal && alike;
             if (!equal)
                 break;
         }
         found.finding = !decided ? Finding::undecided : equal ? Finding::holds : Finding::fails;
+        return compared > 0;
     }
 
     struct Mode {
@@ -273,12 +353,12 @@ private:
         bool certain;
     };
 
-    static Mode most_frequent(const std::vector<Observation>& cell, std::size_t cells)
+    Mode most_frequent(const std::vector<Observation>& cell, std::size_t cells) const
     {
         std::array<Estimate, modes.size()> share;
         std::size_t best = 0;
         for (std::size_t i = 0; i < modes.size(); ++i) {
-            Measure measure;
+            Measure measure = c_.measure;
             measure.event = modes[i];
             share[i] = probability(cell, measure, level(cells * modes.size()));
             if (share[i].value > share[best].value)
@@ -301,11 +381,12 @@ private:
     const ClaimFile& file_;
     const Test& test_;
     const Criterion& c_;
+    double margin_;
 };
 
 } // namespace
 
-std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples)
+std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples, double margin)
 {
     // groups of variants that differ in the compared axis alone; without one, each variant is a group
     const auto along = static_cast<std::size_t>(
@@ -329,7 +410,7 @@ std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vect
             groups.push_back({&sample});
     }
 
-    const Judge judge(file, test);
+    const Judge judge(file, test, margin);
     std::vector<Case> cases;
     for (const auto& group : groups)
         if (along == file.axes.size() || group.size() > 1)

@@ -79,8 +79,7 @@ int run(const Options& o)
             return exit_interrupted;
         }
         for (const Test& test : file.tests) {
-            Result result{&file, &test, &samples.back(), judge(file, test, samples.back()), {}};
-            result.verdict = verdict_of(file, test, result.cases);
+            Result result = judged(file, test, samples.back());
             if (!o.common.quiet)
                 fmt::print("{:5} {}\n", test.id, to_string(result.verdict.judgement));
             results.push_back(std::move(result));

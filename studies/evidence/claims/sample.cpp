@@ -131,6 +131,7 @@ Observation observe(const Study& study, const Realization& realization, const Mo
                     bool path_needed)
 {
     Observation seen;
+    seen.index = realization.index;
     seen.collapsed = o.state == State::collapsed;
     seen.rocked = seen.collapsed || o.max_relative_rotation_rad > study.outcome.rocking_threshold_rad;
     seen.slid = o.total_sliding_m > study.outcome.sliding_threshold * scales_of(realization).width_m;
@@ -161,7 +162,9 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
 {
     Sample sample;
     const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz = first_mode(nominal.blocks, nominal.joints, nominal.gravity_m_s2, nominal.watched).frequency_hz;
+    sample.f1_hz = study.contact.form == ContactForm::rigid
+                       ? std::numeric_limits<double>::infinity()
+                       : first_mode(nominal.blocks, nominal.joints, nominal.gravity_m_s2, nominal.watched).frequency_hz;
     sample.rigid_m_s2 = rigid_limit(study, nominal);
     if (study.surface) {
         for (int i = 0; i < study.surface->frequency_hz.count; ++i)
@@ -180,6 +183,9 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
             sample.cells.at(row.cell).push_back(
                 observe(study, sampler.realization(row.index), record, row.outcome, path_needed));
     }
+    for (std::vector<Observation>& cell : sample.cells)
+        std::sort(cell.begin(), cell.end(),
+                  [](const Observation& a, const Observation& b) { return a.index < b.index; });
     return sample;
 }
 

@@ -17,6 +17,7 @@ namespace stylobate::claims {
 
 /// One realization.
 struct Observation {
+    std::uint64_t index = 0; ///< of the realization
     bool rocked = false, slid = false, collapsed = false, unseated = false;
     /// Cycles from the start of the strong shaking to the collapse; NaN without one. Strong shaking starts where a
     /// harmonic motion's smooth start ends, at once where the start is abrupt and in a half or full sine, and in all

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <map>
+#include <utility>
 
 namespace stylobate::claims {
 
@@ -75,7 +77,13 @@ std::vector<std::string> names(const Places& places, const Split& split, unsigne
     return all;
 }
 
-void name_separation(const ClaimFile& file, const Test& test, const std::vector<Case>& cases, Verdict& verdict)
+/// The margin at which axes are ranked and cases are told apart.
+constexpr std::size_t ranked_at = 1;
+/// More axes than this explain nothing.
+constexpr int most_axes = 2;
+
+std::string split_text(const ClaimFile& file, const Test& test, const std::vector<Case>& cases,
+                       const MarginVerdict& counts)
 {
     const Places places = places_of(file, test);
     const unsigned sets = 1u << places.label.size();
@@ -83,9 +91,8 @@ void name_separation(const ClaimFile& file, const Test& test, const std::vector<
     for (unsigned axes = 1; axes < sets; ++axes)
         if ((best == 0 || std::popcount(axes) < std::popcount(best)) && !split_by(cases, axes).empty())
             best = axes;
-    for (std::size_t i = 0; i < places.label.size(); ++i)
-        if (best >> i & 1u)
-            verdict.by.push_back(places.label[i]);
+    if (best == 0 || std::popcount(best) > most_axes)
+        return fmt::format("holds in {} cases and fails in {}", counts.holds, counts.fails);
     const Split split = split_by(cases, best);
     // the longer list says nothing that the shorter one leaves open
     constexpr std::size_t most_named = 4;
@@ -94,7 +101,53 @@ void name_separation(const ClaimFile& file, const Test& test, const std::vector<
     const auto listed = [&](const std::vector<std::string>& list, const std::vector<std::string>& other) {
         return list.size() > most_named && list.size() > other.size() ? "all other decided cases" : series(list);
     };
-    verdict.split = fmt::format("holds for {}; it fails for {}", listed(holding, failing), listed(failing, holding));
+    return fmt::format("holds for {}; it fails for {}", listed(holding, failing), listed(failing, holding));
+}
+
+std::vector<Influence> influences(const ClaimFile& file, const Test& test, const std::vector<Case>& cases)
+{
+    const Places places = places_of(file, test);
+    std::vector<Influence> all;
+    for (const std::string& label : places.label)
+        all.push_back({label});
+    for (std::size_t a = 0; a < cases.size(); ++a)
+        for (std::size_t b = a + 1; b < cases.size(); ++b) {
+            if (cases[a].finding == Finding::undecided || cases[b].finding == Finding::undecided)
+                continue;
+            const Levels left = place_of(cases[a]), right = place_of(cases[b]);
+            std::size_t differ = 0, axis = 0;
+            for (std::size_t i = 0; i < left.size(); ++i)
+                if (left[i] != right[i]) {
+                    ++differ;
+                    axis = i;
+                }
+            if (differ != 1)
+                continue;
+            ++all[axis].pairs;
+            all[axis].flips += cases[a].finding != cases[b].finding;
+        }
+    std::erase_if(all, [](const Influence& one) { return one.flips == 0; });
+    std::stable_sort(all.begin(), all.end(), [](const Influence& a, const Influence& b) {
+        return a.flips * b.pairs > b.flips * a.pairs; // shares of the pairs
+    });
+    return all;
+}
+
+MarginVerdict at_margin(const std::vector<Case>& cases)
+{
+    using Outcome = MarginVerdict::Outcome;
+    MarginVerdict v;
+    for (const Case& one : cases) {
+        v.holds += one.finding == Finding::holds;
+        v.fails += one.finding == Finding::fails;
+        v.undecided += one.finding == Finding::undecided;
+    }
+    v.outcome = cases.empty()                     ? Outcome::none
+                : v.holds > 0 && v.fails > 0      ? Outcome::mixed
+                : v.holds + v.fails < v.undecided ? Outcome::undecided
+                : v.holds > 0                     ? Outcome::holds
+                                                  : Outcome::fails;
+    return v;
 }
 
 } // namespace
@@ -115,7 +168,7 @@ const char* to_string(Judgement judgement)
     case Judgement::refuted:
         return "refuted";
     case Judgement::depends:
-        return "depends on";
+        return "depends";
     case Judgement::untestable:
         return "untestable";
     case Judgement::not_run:
@@ -124,25 +177,38 @@ const char* to_string(Judgement judgement)
     return "not run";
 }
 
-Verdict verdict_of(const ClaimFile& file, const Test& test, const std::vector<Case>& cases)
+std::string counts_text(const MarginVerdict& v)
 {
+    std::string text;
+    for (const auto& [name, count] :
+         {std::pair{"holds", v.holds}, std::pair{"fails", v.fails}, std::pair{"undecided", v.undecided}})
+        if (count > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+    return text.empty() ? "no case" : text;
+}
+
+Verdict verdict_of(const ClaimFile& file, const Test& test, const std::array<std::vector<Case>, margins.size()>& cases)
+{
+    using Outcome = MarginVerdict::Outcome;
     Verdict verdict;
-    for (const Case& one : cases) {
-        verdict.holds += one.finding == Finding::holds;
-        verdict.fails += one.finding == Finding::fails;
-        verdict.undecided += one.finding == Finding::undecided;
-    }
-    if (cases.empty()) {
+    for (std::size_t m = 0; m < margins.size(); ++m)
+        verdict.at[m] = at_margin(cases[m]);
+    const auto all = [&](Outcome outcome) {
+        return std::all_of(verdict.at.begin(), verdict.at.end(),
+                           [&](const MarginVerdict& v) { return v.outcome == outcome; });
+    };
+    if (all(Outcome::none)) {
         verdict.judgement = Judgement::not_run;
-    } else if (!test.untestable.empty()) {
+    } else if (!test.untestable.empty() || (all(Outcome::holds) && !test.impossible.empty())) {
         verdict.judgement = Judgement::untestable;
-    } else if (verdict.holds > 0 && verdict.fails > 0) {
-        verdict.judgement = Judgement::depends;
-        name_separation(file, test, cases, verdict);
-    } else if (verdict.holds + verdict.fails < verdict.undecided || (verdict.holds > 0 && !test.impossible.empty())) {
-        verdict.judgement = Judgement::untestable;
+    } else if (all(Outcome::holds) || all(Outcome::fails)) {
+        verdict.judgement = all(Outcome::holds) ? Judgement::confirmed : Judgement::refuted;
     } else {
-        verdict.judgement = verdict.holds > 0 ? Judgement::confirmed : Judgement::refuted;
+        verdict.judgement = Judgement::depends;
+        verdict.tie = all(Outcome::undecided);
+        verdict.by_margin = !verdict.tie && !all(Outcome::mixed);
+        verdict.by = influences(file, test, cases[ranked_at]);
+        verdict.split = split_text(file, test, cases[ranked_at], verdict.at[ranked_at]);
     }
     return verdict;
 }

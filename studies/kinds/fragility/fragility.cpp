@@ -3,6 +3,7 @@
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 #include "studies/experiment/motions.hpp"
@@ -101,7 +102,7 @@ private:
         if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
             return INFINITY;
         return header_.motions.shaking_end_s[motion * shakings + static_cast<std::size_t>(shaking) - 1] +
-               study_.fragility->pause_s;
+               shaking_pause_s(study_);
     }
 
     void sequence()

@@ -1,6 +1,7 @@
 #include "studies/kinds/survival/combined_past.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "studies/kinds/survival/survival_picture.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 
 #include <fmt/format.h>
@@ -17,10 +18,11 @@ void check_alike(const StructurePast& first, const StructurePast& other)
     const auto refuse = [&](const char* what, const char* todo) {
         throw InputError(fmt::format("{} has {} than {}.\n  {}", other.file, what, first.file, todo));
     };
-    if (other.axes.frequency_hz != first.axes.frequency_hz || other.axes.intensity != first.axes.intensity)
+    if (other.counts.axes().frequency_hz != first.counts.axes().frequency_hz ||
+        other.counts.axes().intensity != first.counts.axes().intensity)
         refuse("other axes", "Structures of one site are compared over the same frequencies and PGAs: run them with "
                              "the same [surface].");
-    if (other.axes.events != first.axes.events)
+    if (other.counts.axes().events != first.counts.axes().events)
         refuse("another number of events", "Run both with the same survival.events.");
     const SurvivalSpec &a = *first.study.survival, &b = *other.study.survival;
     const auto points = [](const SurvivalSpec& spec) {
@@ -32,6 +34,97 @@ void check_alike(const StructurePast& first, const StructurePast& other)
         refuse("another prior", "One past has one prior: run both with the same survival.prior.");
     if (a.level != b.level)
         refuse("another level", "Run both with the same survival.level.");
+    if (a.observed && b.observed && a.observed->mirrored != b.observed->mirrored)
+        refuse("another survival.observed.mirrored",
+               "The sense of the shaking is that of all structures: it is known or it is not.");
+}
+
+/// Whether two studies shake in the same way; how long they go on afterwards may differ.
+bool shake_alike(const Study& a, const Study& b)
+{
+    ExcitationSpec of_b = b.excitation;
+    of_b.tail = a.excitation.tail;
+    of_b.tail_s = a.excitation.tail_s;
+    const auto draws = [](const Study& study) {
+        std::vector<Perturbation> all;
+        for (const Perturbation& p : study.perturbations)
+            if (p.quantity == Quantity::phase || p.quantity == Quantity::pulse_frequency ||
+                p.quantity == Quantity::pulse_gamma)
+                all.push_back(p);
+        return all;
+    };
+    return a.seed == b.seed && a.realizations == b.realizations && a.sampling == Sampling::independent &&
+           b.sampling == Sampling::independent && a.survival->per_motion == b.survival->per_motion &&
+           a.excitation == of_b && draws(a) == draws(b);
+}
+
+/// The structures must have been through the same motions, and be drawn independently.
+void check_motions(const StructurePast& first, const StructurePast& other)
+{
+    const SurvivalSpec &a = *first.study.survival, &b = *other.study.survival;
+    const auto refuse = [&](const std::string& what, const std::string& todo) {
+        throw InputError(fmt::format("{} and {} {}.\n  {}", first.file, other.file, what, todo));
+    };
+    if (!shake_alike(first.study, other.study))
+        refuse("have not been through the same motions, on which their joint likelihood depends",
+               "Run both with the same [excitation], study.seed, study.realizations, survival.structures_per_motion "
+               "and perturbation of phase and pulse, without sampling = \"sobol\".");
+    if (a.structure == b.structure)
+        refuse(fmt::format("are both structure {} of their site, and draw the same imperfections", a.structure),
+               fmt::format("Run one of them again with survival.structure = {}.", a.structure + 1));
+}
+
+/// The values of all structures beside each other, of realizations of which all stand.
+struct SiteStates {
+    StandingStates standing;
+    MeasuredState measured;
+};
+
+SiteStates site_states(const std::vector<StructurePast>& structures)
+{
+    SiteStates site;
+    std::vector<std::vector<SurvivalCounts::Standing>> of;
+    std::size_t width = 0; // of what was measured
+    for (const StructurePast& one : structures) {
+        of.push_back(one.counts.standing());
+        const MeasuredState& m = one.counts.measured();
+        site.measured.value.insert(site.measured.value.end(), m.value.begin(), m.value.end());
+        site.measured.tolerance.insert(site.measured.tolerance.end(), m.tolerance.begin(), m.tolerance.end());
+        site.measured.mirrored = site.measured.mirrored || m.mirrored;
+        width += m.value.size();
+    }
+    // measured values come first, then the counterparts that were not measured
+    std::size_t begin = 0, further = width;
+    for (std::size_t k = 0; k < structures.size(); ++k) {
+        const MeasuredState& m = structures[k].counts.measured();
+        const std::size_t own = m.value.size();
+        for (std::size_t i = 0; i < own && site.measured.mirrored; ++i) {
+            const std::size_t at = m.counterpart.empty() ? i : m.counterpart[i];
+            site.measured.counterpart.push_back(at < own ? begin + at : further + at - own);
+        }
+        begin += own;
+        further += of[k].empty() ? 0 : of[k].front().value.size() - own;
+    }
+    std::vector<std::size_t> at(structures.size(), 0);
+    for (const SurvivalCounts::Standing& first : of.front()) {
+        bool all = true;
+        for (std::size_t k = 0; k < structures.size(); ++k) {
+            while (at[k] < of[k].size() && of[k][at[k]].index < first.index)
+                ++at[k];
+            all = all && at[k] < of[k].size() && of[k][at[k]].index == first.index;
+        }
+        if (!all)
+            continue;
+        site.standing.cell.push_back(first.cell);
+        for (const bool measured : {true, false})
+            for (std::size_t k = 0; k < structures.size(); ++k) {
+                const std::vector<double>& value = of[k][at[k]].value;
+                const auto own = static_cast<std::ptrdiff_t>(structures[k].counts.measured().value.size());
+                site.standing.value.insert(site.standing.value.end(), measured ? value.begin() : value.begin() + own,
+                                           measured ? value.begin() + own : value.end());
+            }
+    }
+    return site;
 }
 
 } // namespace
@@ -44,52 +137,74 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
     const StructurePast& first = structures.front();
     const SurvivalSpec& spec = *first.study.survival;
     CombinedPast combined;
-    combined.axes = first.axes;
-    combined.prior = prior_words(spec, first.axes.intensity);
+    combined.axes = first.counts.axes();
+    combined.prior = prior_words(spec, combined.axes.intensity);
     combined.level = spec.level;
-    const PriorDensity prior = prior_density(spec);
-    std::vector<PastLikelihood> likelihoods;
     for (std::size_t k = 0; k < structures.size(); ++k) {
         const StructurePast& one = structures[k];
+        for (std::size_t before = 0; before < k; ++before)
+            check_motions(structures[before], one);
         check_alike(first, one);
-        if (std::all_of(one.agreeing.begin(), one.agreeing.end(),
-                        [](const CellCount& cell) { return cell.successes == 0; }))
+        const Survival alone = survival_of(one.study, one.counts);
+        if (!alone.judged())
             throw InputError(fmt::format("{} cannot be judged: none of its realizations agrees with the observed "
                                          "state.\n  `stylobate report {}` names the nearest one and what to do.",
                                          one.file, one.file));
         combined.files.push_back(one.file);
-        // each structure draws by itself, whatever its seed
-        likelihoods.push_back(
-            past_likelihood(one.axes, one.agreeing, one.study.seed, PastUse::means, std::uint64_t{k} << 32));
-        combined.alone.push_back(exclusion(likelihoods.back(), 1, prior, spec.level));
+        combined.alone.push_back(alone.past->by_events.front());
     }
-    const PastLikelihood all = product(likelihoods);
-    bool some = false;
-    for (std::size_t cell = 0; cell < all.value.size(); ++cell)
-        some = some || std::all_of(structures.begin(), structures.end(),
-                                   [&](const StructurePast& one) { return one.agreeing[cell].successes > 0; });
-    if (!some)
-        throw InputError("no past of these axes agrees with all of the structures: in no cell has each of them a "
+    const std::size_t motions = first.counts.motions().size();
+    const auto share = [&](std::size_t m) -> std::optional<double> {
+        std::vector<MotionTally> site;
+        for (const StructurePast& one : structures)
+            site.push_back(one.counts.motions()[m]);
+        if (std::any_of(site.begin(), site.end(), [](const MotionTally& tally) { return tally.valid == 0; }))
+            return {};
+        return site_share(site);
+    };
+    for (std::size_t m = 0; m < motions; ++m) {
+        combined.agree += share(m).value_or(0) > 0;
+        combined.motions += share(m).has_value();
+    }
+    if (combined.agree == 0)
+        throw InputError("no past of these axes agrees with all of the structures: under no motion has each of them a "
                          "realization that agrees.\n  Run more realizations, wider axes or more events; or the "
                          "structures were not shaken by the same events.");
-    for (std::size_t events = 1; events <= all.axes.events; ++events)
-        combined.together.push_back(exclusion(all, events, prior, spec.level));
-    combined.posterior = past_posterior(all, prior, spec.level);
+    const std::vector<CellCount> together =
+        cell_means(combined.axes.cells(), motions, static_cast<double>(first.study.realizations), share);
+    const SiteStates site = site_states(structures);
+    std::vector<double> trials;
+    for (const CellCount& cell : cell_means(combined.axes.cells(), motions * spec.per_motion, 1e300, [](std::size_t) {
+             return std::optional(0.0); // of each realization
+         }))
+        trials.push_back(cell.trials);
+    const MonumentJudgement monuments =
+        judge_monuments(combined.axes, trials, site.standing, site.measured, spec, first.study.seed);
+    combined.sites = monuments.test;
+    combined.coverage = monuments.thresholds.front().coverage;
+    combined.together = past_answer(past_likelihood(combined.axes, together, first.study.seed, PastUse::means),
+                                    monuments.thresholds, prior_density(spec), spec.level);
     return combined;
 }
 
 std::string combined_text(const CombinedPast& c)
 {
-    std::string text = fmt::format("{} structures that were shaken by the same events and responded independently; "
-                                   "mean over the frequencies\n",
-                                   c.files.size());
-    const double end = c.axes.intensity.back();
+    std::string text = fmt::format("{} structures of one site: under {} of {} motions a structure of each agrees\n",
+                                   c.files.size(), c.agree, c.motions);
     for (std::size_t k = 0; k < c.files.size(); ++k)
-        text += fmt::format("  {}, 1 event: {}\n", c.files[k], exclusion_words(c.alone[k], c.prior, c.level, end));
-    for (std::size_t e = 0; e < c.together.size(); ++e)
+        text += fmt::format("  {}, 1 event: {}\n", c.files[k], exclusion_words(c.alone[k], c.prior, c.level, c.axes));
+    for (std::size_t e = 0; e < c.together.by_events.size(); ++e)
         text += fmt::format("  together, {}: {}\n", e == 0 ? "1 event" : fmt::format("{} equal events", e + 1),
-                            exclusion_words(c.together[e], c.prior, c.level, end));
-    return text + posterior_words(c.posterior, c.axes, c.level);
+                            exclusion_words(c.together.by_events[e], c.prior, c.level, c.axes));
+    text += "  " + threshold_words(c.together.by_events.front().rule, c.level) + "\n";
+    text += posterior_words(c.together.posterior, c.axes, c.level);
+    std::vector<std::string> lines = coverage_words(c.coverage, c.axes);
+    if (c.sites)
+        for (const std::string& line : monument_words(*c.sites, c.level, c.axes.events > 1))
+            lines.push_back(line);
+    for (const std::string& line : lines)
+        text += "  simulated sites: " + line + "\n";
+    return text;
 }
 
 Json combined_json(const CombinedPast& c)
@@ -97,14 +212,19 @@ Json combined_json(const CombinedPast& c)
     Json alone = Json::list(), together = Json::list();
     for (std::size_t k = 0; k < c.files.size(); ++k)
         alone.item(Json::object().member("file", c.files[k]).member("exclusion", exclusion_json(c.alone[k])));
-    for (const Exclusion& e : c.together)
+    for (const Exclusion& e : c.together.by_events)
         together.item(exclusion_json(e));
-    return Json::object()
-        .member("prior", c.prior)
+    Json json = Json::object();
+    json.member("prior", c.prior)
         .member("level", c.level)
         .member("structures", alone)
         .member("together_by_events", together)
-        .member("posterior", posterior_json(c.posterior, c.axes));
+        .member("posterior", posterior_json(c.together.posterior, c.axes));
+    if (!c.coverage.empty())
+        json.member("exclusion_coverage", coverage_json(c.coverage, c.axes));
+    if (c.sites)
+        json.member("sites", monuments_json(*c.sites, c.level));
+    return json;
 }
 
 Figure combined_figure(const CombinedPast& c)
@@ -114,29 +234,10 @@ Figure combined_figure(const CombinedPast& c)
     figure.x_label = "peak ground acceleration [m/s²]";
     figure.y_label = "likelihood / largest likelihood";
     figure.x_log = c.axes.intensity.back() > 4 * c.axes.intensity.front();
-    const auto add = [&](const std::string& name, const Exclusion& exclusion) {
-        double most = 0;
-        for (const PastEstimate& at : exclusion.likelihood)
-            most = std::max(most, at.value);
-        FigureSeries series{name, SeriesKind::line, c.axes.intensity, {}, {}, {}};
-        for (const PastEstimate& at : exclusion.likelihood) {
-            series.y.push_back(at.value / most);
-            series.low.push_back(at.lower / most);
-            series.high.push_back(at.upper / most);
-        }
-        if (most > 0)
-            figure.series.push_back(std::move(series));
-    };
     for (std::size_t k = 0; k < c.files.size(); ++k)
-        add(c.files[k], c.alone[k]);
-    add("together", c.together.front());
-    const double threshold = c.together.front().threshold;
-    figure.series.push_back({fmt::format("threshold {:.3g}", threshold),
-                             SeriesKind::line,
-                             {c.axes.intensity.front(), c.axes.intensity.back()},
-                             {threshold, threshold},
-                             {},
-                             {}});
+        figure.series.push_back(likelihood_series(c.files[k], c.axes.intensity, c.alone[k]));
+    figure.series.push_back(likelihood_series("together", c.axes.intensity, c.together.by_events.front()));
+    figure.series.push_back(threshold_series(c.axes.intensity, c.together.by_events.front()));
     return figure;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// Several structures of one site that have been through the same shaking.
 ///
-/// Each responds by itself: the likelihood of a past is the product of theirs, cell by cell. Their studies have the
-/// same axes, number of events, prior and level. That the ground moved in the same way under all of them is an
-/// assumption: soil, topography and the direction of the shaking may differ.
+/// Given the motion each responds by itself; the likelihood of a past is the mean over the motions of the product of
+/// theirs (`motion_tally.hpp`). Their studies therefore have the same motions: the same excitation, axes, seed and
+/// `structures_per_motion`, and each its own `survival.structure`, by which it draws its own properties. That the
+/// ground moved in the same way under all of them is an assumption: soil, topography and the direction of the shaking
+/// may differ.
 
 #include "studies/kinds/survival/survival.hpp"
 #include "studies/report/figure.hpp"
@@ -14,12 +16,11 @@
 
 namespace stylobate {
 
-/// A results file of a survival study, as far as it is needed here.
+/// A results file of a survival study.
 struct StructurePast {
     std::string file; ///< for messages
-    Study study;
-    PastAxes axes;
-    std::vector<CellCount> agreeing; ///< (cells)
+    const Study& study;
+    const SurvivalCounts& counts;
 };
 
 struct CombinedPast {
@@ -27,13 +28,15 @@ struct CombinedPast {
     PastAxes axes;
     std::string prior;
     double level = 0.95;
-    std::vector<Exclusion> alone;    ///< of each structure, by one event, mean over the frequencies
-    std::vector<Exclusion> together; ///< by 1, 2, ... events
-    PastPosterior posterior;
+    std::uint64_t agree = 0, motions = 0; ///< motions under which a structure of each agrees, of those of all cells
+    std::vector<Exclusion> alone;         ///< of each structure, by one event
+    PastAnswer together;
+    std::vector<ExclusionCoverage> coverage; ///< (ni) as of one structure
+    std::optional<MonumentTest> sites;       ///< simulated sites
 };
 
-/// @throws InputError if there are fewer than two, if they have other axes, priors or levels, if one of them cannot be
-///         judged, or if no past explains all of them
+/// @throws InputError if there are fewer than two, if they have other motions, axes, priors or levels or the same
+///         number of their structure, if one of them cannot be judged, or if no past explains all of them
 CombinedPast combined_past(const std::vector<StructurePast>& structures);
 
 std::string combined_text(const CombinedPast& combined);

@@ -2,6 +2,7 @@
 
 #include "ensemble/estimators/past/mirror_image.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <fmt/format.h>
 
@@ -23,17 +24,16 @@ HazardCurve hazard_curve(const HazardSpec& hazard)
     return HazardCurve(intensity, rate);
 }
 
-std::uint64_t sum_of(const std::vector<CellCount>& counts, std::uint64_t CellCount::*part)
+std::uint64_t sum_of(const std::vector<std::uint64_t>& counts)
 {
-    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
-                           [part](std::uint64_t sum, const CellCount& cell) { return sum + cell.*part; });
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 } // namespace
 
 SurvivalCounts::SurvivalCounts(const Study& study, const ResultHeader& header)
     : study_(study), axes_{header.frequency_hz, header.pga_m_s2, static_cast<std::size_t>(study.events())},
-      agree_(axes_.cells()), collapse_(axes_.cells())
+      motions_(study.total() / study.survival->per_motion)
 {
     if (!study.survival->observed)
         return;
@@ -79,47 +79,60 @@ void SurvivalCounts::add(const ResultRow& row)
     const Outcome& o = row.outcome;
     if (o.state == State::invalid)
         return;
-    const std::size_t cell = static_cast<std::size_t>(study_.events(row.index) - 1) * axes_.cells_of_one() + row.cell;
-    ++agree_.at(cell).trials;
-    ++collapse_[cell].trials;
-    if (o.state == State::collapsed) {
-        ++collapse_[cell].successes;
+    MotionTally& motion = motions_.at(row.index / study_.survival->per_motion);
+    ++motion.valid;
+    if (o.state == State::collapsed)
         return;
-    }
+    ++motion.stand;
+    const std::size_t cell = static_cast<std::size_t>(study_.events(row.index) - 1) * axes_.cells_of_one() + row.cell;
     Standing state{row.index, cell, {}};
     for (const Place& place : places_)
         state.value.push_back((place.rotation ? o.rotation_rad : o.bed_offset_m).at(place.number));
     const StateDistance found = distance(measured_, state.value);
-    agree_[cell].successes += found.agrees();
+    MeasuredState one_sided = measured_;
+    one_sided.mirrored = false;
+    const bool as_is = distance(one_sided, state.value).agrees();
+    motion.as_is += as_is;
+    motion.mirrored +=
+        measured_.value.empty() || (measured_.mirrored && mirror_distance(measured_, state.value).agrees());
+    motion.agree += found.agrees();
     moving_ += found.agrees() && o.at_rest == 0;
     const bool nearer = !nearest_ || found.value < nearest_->distance ||
                         (found.value == nearest_->distance && row.index < nearest_->index);
     if (nearer && !state.value.empty())
         nearest_ = NearestState{row.index, found.value, cell, found.worst, found.found};
-    if (!state.value.empty())
-        standing_.push_back(std::move(state));
+    standing_.push_back(std::move(state));
 }
 
-std::vector<CellCount> SurvivalCounts::stand() const
+std::vector<std::uint64_t> SurvivalCounts::sums(std::uint32_t MotionTally::*part) const
 {
-    std::vector<CellCount> stand = collapse_;
-    for (CellCount& cell : stand)
-        cell.successes = cell.trials - cell.successes;
-    return stand;
+    const std::size_t of_cell = motions_.size() / axes_.cells();
+    std::vector<std::uint64_t> sums(axes_.cells(), 0);
+    for (std::size_t m = 0; m < motions_.size(); ++m)
+        sums[m / of_cell] += motions_[m].*part;
+    return sums;
 }
 
-StandingStates SurvivalCounts::standing() const
+std::vector<SurvivalCounts::Standing> SurvivalCounts::standing() const
 {
-    std::vector<const Standing*> sorted;
-    for (const Standing& one : standing_)
-        sorted.push_back(&one);
-    std::sort(sorted.begin(), sorted.end(), [](const Standing* a, const Standing* b) { return a->index < b->index; });
-    StandingStates states;
-    for (const Standing* one : sorted) {
-        states.cell.push_back(one->cell);
-        states.value.insert(states.value.end(), one->value.begin(), one->value.end());
+    std::vector<Standing> sorted = standing_;
+    std::sort(sorted.begin(), sorted.end(), [](const Standing& a, const Standing& b) { return a.index < b.index; });
+    return sorted;
+}
+
+std::vector<CellCount> cell_means(std::size_t cells, std::size_t motions, double most,
+                                  const std::function<std::optional<double>(std::size_t)>& share)
+{
+    std::vector<CellCount> means;
+    std::vector<double> shares;
+    for (std::size_t c = 0; c < cells; ++c) {
+        shares.clear();
+        for (std::size_t m = c * motions / cells; m < (c + 1) * motions / cells; ++m)
+            if (const std::optional<double> one = share(m))
+                shares.push_back(*one);
+        means.push_back(shares.empty() ? CellCount{} : effective_count(shares, most));
     }
-    return states;
+    return means;
 }
 
 PriorDensity prior_density(const SurvivalSpec& spec)
@@ -143,6 +156,68 @@ std::string prior_words(const SurvivalSpec& spec, const std::vector<double>& pga
     return fmt::format("{} from {:.3g} to {:.3g} m/s2", words, pga_m_s2.front(), pga_m_s2.back());
 }
 
+namespace {
+
+/// The mean over the motions of a share of those with so many valid structures.
+std::vector<CellCount> means(const Study& study, const SurvivalCounts& counts, std::uint64_t fewest,
+                             const std::function<double(const MotionTally&)>& share)
+{
+    const std::vector<MotionTally>& motions = counts.motions();
+    return cell_means(
+        counts.axes().cells(), motions.size(), static_cast<double>(study.realizations),
+        [&](std::size_t m) { return motions[m].valid < fewest ? std::nullopt : std::optional(share(motions[m])); });
+}
+
+/// (cells of one event x built) `AlikeStructures::all_stand`; 0 where none stands.
+std::vector<double> all_stand_ratios(const Study& study, const SurvivalCounts& counts, std::uint64_t built)
+{
+    std::vector<double> ratios(counts.axes().cells_of_one() * built, 0);
+    std::vector<CellCount> one;
+    for (std::uint64_t m = 1; m <= built; ++m) {
+        const std::vector<CellCount> all =
+            means(study, counts, built, [m](const MotionTally& tally) { return all_stand_share(tally, m); });
+        if (m == 1)
+            one = all;
+        const auto mean = [](const CellCount& cell) { return cell.trials > 0 ? cell.successes / cell.trials : 0; };
+        for (std::size_t c = 0; c < counts.axes().cells_of_one(); ++c)
+            if (mean(one[c]) > 0)
+                ratios[c * built + m - 1] = mean(all[c]) / mean(one[c]);
+    }
+    return ratios;
+}
+
+} // namespace
+
+PastAnswer past_answer(const PastLikelihood& likelihood, const std::vector<RatioThresholds>& thresholds,
+                       const PriorDensity& prior, double level)
+{
+    PastAnswer answer;
+    for (std::size_t events = 1; events <= likelihood.axes.events; ++events)
+        answer.by_events.push_back(exclusion(likelihood, events, prior, level, thresholds[events - 1]));
+    answer.posterior = past_posterior(likelihood, prior, level);
+    return answer;
+}
+
+MonumentJudgement judge_monuments(const PastAxes& axes, const std::vector<double>& trials,
+                                  const StandingStates& standing, const MeasuredState& measured,
+                                  const SurvivalSpec& spec, std::uint64_t seed)
+{
+    MonumentJudgement result;
+    const RatioThresholds usual =
+        measured.value.empty() ? standing_thresholds(axes, spec.level) : asymptotic_thresholds(axes, spec.level);
+    result.thresholds.assign(axes.events, usual);
+    if (measured.value.empty() || spec.monuments == 0 || standing.cell.empty())
+        return result;
+    const AgreeingStates agreeing(standing, measured);
+    in_parallel(std::size_t{0}, axes.events, [&](std::size_t e) {
+        result.thresholds[e] =
+            ratio_thresholds(axes, trials, standing, agreeing, measured, e + 1, spec.monuments, spec.level, seed);
+    });
+    result.test = test_monuments(axes, trials, standing, agreeing, measured, past_prior(axes, prior_density(spec)),
+                                 spec.monuments, seed);
+    return result;
+}
+
 Survival survival_of(const Study& study, const SurvivalCounts& counts)
 {
     const SurvivalSpec& spec = *study.survival;
@@ -151,43 +226,58 @@ Survival survival_of(const Study& study, const SurvivalCounts& counts)
     s.prior = prior_words(spec, s.axes.intensity);
     s.level = spec.level;
     s.realizations = study.total();
-    s.agreeing = counts.agree();
-    s.standing = counts.stand();
-    s.valid = sum_of(s.agreeing, &CellCount::trials);
-    s.agree = sum_of(s.agreeing, &CellCount::successes);
-    s.stand = sum_of(s.standing, &CellCount::successes);
+    s.trials = counts.sums(&MotionTally::valid);
+    s.standing = counts.sums(&MotionTally::stand);
+    s.agreeing = counts.sums(&MotionTally::agree);
+    s.valid = sum_of(s.trials);
+    s.stand = sum_of(s.standing);
+    s.agree = sum_of(s.agreeing);
     s.moving = counts.moving();
     s.measured = counts.measured();
     s.names = counts.names();
     s.state_measured = !s.measured.value.empty();
     s.nearest = counts.nearest();
+    s.built = spec.built;
+    s.standing_alike = spec.standing;
     const PriorDensity prior = prior_density(spec);
-    if (s.judged()) {
-        const PastLikelihood likelihood = past_likelihood(s.axes, s.agreeing, study.seed, PastUse::means);
-        for (std::size_t events = 1; events <= s.axes.events; ++events)
-            s.by_events.push_back(exclusion(likelihood, events, prior, spec.level));
-        if (s.axes.frequency_hz.size() > 1) {
-            const PastLikelihood by_cell = past_likelihood(s.axes, s.agreeing, study.seed, PastUse::cells);
-            for (std::size_t f = 0; f < s.axes.frequency_hz.size(); ++f)
-                s.by_frequency.push_back(exclusion(by_cell, 1, prior, spec.level, f));
+    if (s.agree > 0) {
+        StandingStates standing;
+        for (const SurvivalCounts::Standing& one : counts.standing()) {
+            standing.cell.push_back(one.cell);
+            standing.value.insert(standing.value.end(), one.value.begin(), one.value.end());
         }
-        s.posterior = past_posterior(likelihood, prior, spec.level);
-    }
-    if (s.state_measured && spec.monuments > 0) {
-        std::vector<std::uint64_t> trials;
-        for (const CellCount& cell : s.agreeing)
-            trials.push_back(cell.trials);
-        s.monuments = test_monuments(s.axes, trials, counts.standing(), s.measured, past_prior(s.axes, prior),
-                                     spec.monuments, study.seed);
+        const MonumentJudgement monuments = judge_monuments(
+            s.axes, std::vector<double>(s.trials.begin(), s.trials.end()), standing, s.measured, spec, study.seed);
+        s.monuments = monuments.test;
+        s.coverage = monuments.thresholds.front().coverage;
+        const std::vector<CellCount> agreeing = means(study, counts, 1, agreeing_share);
+        s.past = past_answer(past_likelihood(s.axes, agreeing, study.seed, PastUse::means), monuments.thresholds, prior,
+                             spec.level);
+        if (s.axes.frequency_hz.size() > 1) {
+            const PastLikelihood by_cell = past_likelihood(s.axes, agreeing, study.seed, PastUse::cells);
+            for (std::size_t f = 0; f < s.axes.frequency_hz.size(); ++f)
+                s.by_frequency.push_back(exclusion(by_cell, 1, prior, spec.level, monuments.thresholds.front(), f));
+        }
+        const std::vector<CellCount> alike = means(study, counts, spec.built, [&](const MotionTally& tally) {
+            return built_share(tally, spec.built, spec.standing);
+        });
+        if (spec.built > 1 && std::any_of(alike.begin(), alike.end(), [](auto& cell) { return cell.successes > 0; }))
+            s.alike =
+                past_answer(past_likelihood(s.axes, alike, study.seed, PastUse::means),
+                            std::vector<RatioThresholds>(s.axes.events, asymptotic_thresholds(s.axes, spec.level)),
+                            prior, spec.level);
     }
     if (spec.stands_for_years) {
         s.years = *spec.stands_for_years;
         s.sigma_ln = spec.hazard->sigma_ln;
-        const PastLikelihood collapse = past_likelihood(s.axes, counts.collapse(), study.seed, PastUse::rates,
-                                                        std::uint64_t{1} << 48); // other random numbers
+        const std::vector<CellCount> collapse =
+            means(study, counts, 1, [](const MotionTally& tally) { return 1 - all_stand_share(tally, 1); });
+        const PastLikelihood falls = past_likelihood(s.axes, collapse, study.seed, PastUse::rates,
+                                                     std::uint64_t{1} << 48); // other random numbers
         if (!(spec.hazard->k0_per_year > 0))
             s.hazard_points = {spec.hazard->intensity_m_s2.front(), spec.hazard->intensity_m_s2.back()};
-        s.rates = hazard_update(collapse, hazard_curve(*spec.hazard), s.years, s.sigma_ln, spec.level, s.hazard_points);
+        s.rates = hazard_update(falls, hazard_curve(*spec.hazard), s.years, s.sigma_ln, spec.level, s.hazard_points,
+                                {spec.built, spec.standing, all_stand_ratios(study, counts, spec.built)});
     }
     return s;
 }

@@ -5,12 +5,14 @@
 #include "ensemble/estimators/past/exclusion.hpp"
 #include "ensemble/estimators/past/final_state.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
+#include "ensemble/estimators/past/motion_tally.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,22 +38,24 @@ public:
     const MeasuredState& measured() const { return measured_; }
     /// Of the values that were measured: "drum 2 on drum 1 [m]".
     const std::vector<std::string>& names() const { return names_; }
-    /// (cells) Valid realizations and those of them that agree, that stand, that collapsed.
-    const std::vector<CellCount>& agree() const { return agree_; }
-    std::vector<CellCount> stand() const;
-    const std::vector<CellCount>& collapse() const { return collapse_; }
+    /// (motions) Of the structures under each motion, cell by cell.
+    const std::vector<MotionTally>& motions() const { return motions_; }
+    /// (cells) A sum over the structures of a cell.
+    std::vector<std::uint64_t> sums(std::uint32_t MotionTally::*part) const;
     /// Of those that agree, how many still moved at the end.
     std::uint64_t moving() const { return moving_; }
     const std::optional<NearestState>& nearest() const { return nearest_; }
-    /// In the order of the realizations.
-    StandingStates standing() const;
 
-private:
+    /// A realization that stands.
     struct Standing {
         std::uint64_t index = 0;
         std::size_t cell = 0;
-        std::vector<double> value;
+        std::vector<double> value; ///< that were measured, and their counterparts
     };
+    /// In the order of the realizations.
+    std::vector<Standing> standing() const;
+
+private:
     /// A value of a final state.
     struct Place {
         bool rotation = false;  ///< of a block, else the displacement of a joint
@@ -65,10 +69,21 @@ private:
     MeasuredState measured_;
     std::vector<std::string> names_;
     std::vector<Place> places_; ///< that were measured, and then their counterparts that were not
-    std::vector<CellCount> agree_, collapse_;
+    std::vector<MotionTally> motions_;
     std::uint64_t moving_ = 0;
     std::vector<Standing> standing_;
     std::optional<NearestState> nearest_;
+};
+
+/// The mean over the motions of each cell of a share of every motion; motions without one are left out.
+/// @param motions (cells x motions of a cell)   @param most realizations of a cell
+std::vector<CellCount> cell_means(std::size_t cells, std::size_t motions, double most,
+                                  const std::function<std::optional<double>(std::size_t motion)>& share);
+
+/// What follows from one likelihood.
+struct PastAnswer {
+    std::vector<Exclusion> by_events; ///< over the frequencies, of a past of 1, 2, ... events
+    PastPosterior posterior;
 };
 
 struct Survival {
@@ -76,16 +91,18 @@ struct Survival {
     std::string prior; ///< in words
     double level = 0.95;
     std::uint64_t realizations = 0, valid = 0, stand = 0, agree = 0, moving = 0; ///< moving: of those that agree
-    bool state_measured = false; ///< else that it stands is all that is known
-    std::vector<CellCount> agreeing, standing;
+    bool state_measured = false;                           ///< else that it stands is all that is known
+    std::vector<std::uint64_t> trials, standing, agreeing; ///< (cells)
     MeasuredState measured;
     std::vector<std::string> names; ///< of the measured values
     std::optional<NearestState> nearest;
 
     // where a realization agrees
-    std::vector<Exclusion> by_events;    ///< mean over the frequencies, of a past of 1, 2, ... events
-    std::vector<Exclusion> by_frequency; ///< of one event
-    std::optional<PastPosterior> posterior;
+    std::optional<PastAnswer> past;              ///< of a structure that was chosen before its fate was known
+    std::vector<Exclusion> by_frequency;         ///< of one event
+    std::uint64_t built = 1, standing_alike = 1; ///< of those that were built alike
+    std::optional<PastAnswer> alike;             ///< given that so many of them stand; none: it is alone
+    std::vector<ExclusionCoverage> coverage;     ///< (ni) of the exclusion by one event; empty: not calibrated
     std::optional<MonumentTest> monuments;
     // with a hazard and a time
     std::optional<HazardUpdate> rates;
@@ -93,8 +110,22 @@ struct Survival {
     std::optional<IntensityRange> hazard_points; ///< none: a power law
 
     /// Whether the past can be inferred at all.
-    bool judged() const { return agree > 0; }
+    bool judged() const { return past.has_value(); }
 };
+
+/// Exclusions and posterior. @param thresholds (events)
+PastAnswer past_answer(const PastLikelihood& likelihood, const std::vector<RatioThresholds>& thresholds,
+                       const PriorDensity& prior, double level);
+
+/// What simulated monuments say of the study.
+struct MonumentJudgement {
+    std::vector<RatioThresholds> thresholds; ///< (events)
+    std::optional<MonumentTest> test;        ///< none: nothing was measured, or monuments = 0
+};
+/// @param trials (cells)
+MonumentJudgement judge_monuments(const PastAxes& axes, const std::vector<double>& trials,
+                                  const StandingStates& standing, const MeasuredState& measured,
+                                  const SurvivalSpec& spec, std::uint64_t seed);
 
 /// The density of a study's prior, over the logarithm of the intensity.
 PriorDensity prior_density(const SurvivalSpec& spec);

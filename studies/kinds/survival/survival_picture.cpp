@@ -26,27 +26,53 @@ void plot_likelihood(const Survival& s, const std::string& title, const std::fil
     picture.pga_m_s2 = s.axes.intensity;
     const std::size_t of_one = s.axes.cells_of_one(), panels = std::min<std::size_t>(s.axes.events, 6);
     picture.columns = panels > 4 ? 3 : static_cast<int>(std::min<std::size_t>(panels, 2));
-    const auto share = [](const CellCount& cell) {
-        return cell.trials == 0 ? std::nan("") : static_cast<double>(cell.successes) / static_cast<double>(cell.trials);
+    const auto share = [&](const std::vector<std::uint64_t>& counts, std::size_t c) {
+        return s.trials[c] == 0 ? std::nan("") : static_cast<double>(counts[c]) / static_cast<double>(s.trials[c]);
     };
     double most = 0;
-    for (const CellCount& cell : s.agreeing)
-        most = std::max(most, cell.trials == 0 ? 0 : share(cell));
+    for (std::size_t c = 0; c < s.trials.size(); ++c)
+        most = std::max(most, s.trials[c] == 0 ? 0 : share(s.agreeing, c));
     for (std::size_t e = 0; e < panels; ++e) {
         MapPanel panel;
         panel.title = e == 0 ? "1 event" : fmt::format("{} events in succession", e + 1);
         for (std::size_t c = e * of_one; c < (e + 1) * of_one; ++c)
-            panel.value.push_back(share(s.agreeing[c]));
+            panel.value.push_back(share(s.agreeing, c));
         panel.high = most > 0 ? most : 1;
         picture.panels.push_back(std::move(panel));
     }
     if (s.state_measured && s.axes.frequency_hz.size() > 1) {
         for (std::size_t c = 0; c < of_one; ++c)
-            picture.line.push_back(share(s.standing[c]));
+            picture.line.push_back(share(s.standing, c));
         picture.key = "lines: probability of standing after 1 event: 5, 50 and 95 % · colours: share of the "
                       "realizations that agree with the observed state";
     }
     plot_maps(picture, png);
+}
+
+FigureSeries likelihood_series(const std::string& name, const std::vector<double>& intensity,
+                               const Exclusion& exclusion)
+{
+    double most = 0;
+    for (const PastEstimate& at : exclusion.likelihood)
+        most = std::max(most, at.value);
+    FigureSeries series{name, SeriesKind::line, intensity, {}, {}, {}};
+    for (const PastEstimate& at : exclusion.likelihood) {
+        series.y.push_back(at.value / most);
+        series.low.push_back(at.lower / most);
+        series.high.push_back(at.upper / most);
+    }
+    return series;
+}
+
+FigureSeries threshold_series(const std::vector<double>& intensity, const Exclusion& exclusion)
+{
+    double most = 0;
+    for (const PastEstimate& at : exclusion.likelihood)
+        most = std::max(most, at.value);
+    FigureSeries series{"threshold of one event", SeriesKind::line, intensity, exclusion.rule.part, {}, {}};
+    for (double& part : series.y)
+        part /= exclusion.rule.absolute ? most : 1;
+    return series;
 }
 
 Figure exclusion_figure(const Survival& s)
@@ -56,28 +82,10 @@ Figure exclusion_figure(const Survival& s)
     figure.x_label = "peak ground acceleration [m/s²]";
     figure.y_label = "likelihood / largest likelihood";
     figure.x_log = s.axes.intensity.back() > 4 * s.axes.intensity.front();
-    for (std::size_t e = 0; e < s.by_events.size(); ++e) {
-        const Exclusion& exclusion = s.by_events[e];
-        double most = 0;
-        for (const PastEstimate& at : exclusion.likelihood)
-            most = std::max(most, at.value);
-        if (most == 0)
-            continue;
-        FigureSeries series{
-            e == 0 ? "1 event" : fmt::format("{} events", e + 1), SeriesKind::line, s.axes.intensity, {}, {}, {}};
-        for (const PastEstimate& at : exclusion.likelihood) {
-            series.y.push_back(at.value / most);
-            series.low.push_back(at.lower / most);
-            series.high.push_back(at.upper / most);
-        }
-        figure.series.push_back(std::move(series));
-    }
-    figure.series.push_back({fmt::format("threshold {:.3g}", s.by_events.front().threshold),
-                             SeriesKind::line,
-                             {s.axes.intensity.front(), s.axes.intensity.back()},
-                             {s.by_events.front().threshold, s.by_events.front().threshold},
-                             {},
-                             {}});
+    for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
+        figure.series.push_back(likelihood_series(e == 0 ? "1 event" : fmt::format("{} events", e + 1),
+                                                  s.axes.intensity, s.past->by_events[e]));
+    figure.series.push_back(threshold_series(s.axes.intensity, s.past->by_events.front()));
     return figure;
 }
 

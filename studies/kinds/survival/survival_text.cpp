@@ -41,11 +41,11 @@ std::string frequency_words(const Survival& s, std::size_t f)
     const Exclusion& e = s.by_frequency[f];
     if (std::all_of(s.agreeing.begin() + static_cast<std::ptrdiff_t>(f * ni),
                     s.agreeing.begin() + static_cast<std::ptrdiff_t>((f + 1) * ni),
-                    [](const CellCount& cell) { return cell.successes == 0; }))
+                    [](std::uint64_t agreeing) { return agreeing == 0; }))
         return "no realization agrees at any PGA";
     if (!e.excludes())
         return "no PGA is excluded as too strong";
-    return fmt::format("PGA above {} is excluded by the likelihood ratio, above {} with the prior",
+    return fmt::format("PGA above {} is excluded by the likelihood, above {} with the prior",
                        estimate_words(e.by_likelihood), estimate_words(e.by_posterior));
 }
 
@@ -67,17 +67,23 @@ std::string survival_text(const Survival& s)
     if (s.axes.intensity.empty())
         return {};
     std::string text = "  " + agreeing_words(s) + "\n";
-    const double end = s.axes.intensity.back();
     if (!s.judged()) {
         text += "  the past " + not_judged_words(s) + "\n";
     } else {
-        for (std::size_t e = 0; e < s.by_events.size(); ++e)
-            text += fmt::format("  {}, mean over the frequencies: {}\n", events_word(e + 1),
-                                exclusion_words(s.by_events[e], s.prior, s.level, end));
+        for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
+            text += fmt::format("  {}: {}\n", events_word(e + 1),
+                                exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes));
+        text += "  " + threshold_words(s.past->by_events.front().rule, s.level) + "\n";
         for (std::size_t f = 0; f < s.by_frequency.size(); ++f)
             text += fmt::format("    1 event at {:.3g} Hz: {}\n", s.axes.frequency_hz[f], frequency_words(s, f));
-        text += posterior_words(*s.posterior, s.axes, s.level);
+        text += posterior_words(s.past->posterior, s.axes, s.level);
+        if (s.alike)
+            text += fmt::format("  {}, 1 event: {}\n{}", alike_words(s.built, s.standing_alike),
+                                exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes),
+                                posterior_words(s.alike->posterior, s.axes, s.level));
     }
+    for (const std::string& line : coverage_words(s.coverage, s.axes))
+        text += "  simulated monuments: " + line + "\n";
     if (s.monuments)
         for (const std::string& line : monument_words(*s.monuments, s.level, s.axes.events > 1))
             text += "  simulated monuments: " + line + "\n";
@@ -92,12 +98,31 @@ Json exclusion_json(const Exclusion& e)
     return Json::object()
         .member("excludes", e.excludes())
         .member("surely", e.surely())
-        .member("threshold", e.threshold)
+        .member("threshold", Json::brief(e.rule.part))
+        .member("threshold_of", e.rule.absolute ? "likelihood" : "likelihood / largest likelihood")
+        .member("calibrated", e.rule.calibrated)
+        .member("open_below", e.open_below())
+        .member("open_above", e.open_above())
         .member("ratio_at_end_of_axis", estimate_json(e.top_ratio))
         .member("by_likelihood_m_s2", estimate_json(e.by_likelihood))
+        .member("by_profile_m_s2", estimate_json(e.by_profile))
+        .member("ratio_at_lowest_frequency", estimate_json(e.lowest_frequency))
+        .member("ratio_at_highest_frequency", estimate_json(e.highest_frequency))
         .member("by_posterior_m_s2", estimate_json(e.by_posterior))
         .member("by_prior_m_s2", e.by_prior)
         .member("weaker_m_s2", estimate_json(e.weaker));
+}
+
+Json coverage_json(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes)
+{
+    Json all = Json::list();
+    for (std::size_t i = 0; i < coverage.size(); ++i)
+        all.item(Json::object()
+                     .member("pga_m_s2", axes.intensity[i])
+                     .member("monuments", coverage[i].monuments)
+                     .member("excluded", coverage[i].excluded)
+                     .member("excluded_by_asymptotic_threshold", coverage[i].asymptotic));
+    return all;
 }
 
 Json posterior_json(const PastPosterior& p, const PastAxes& axes)
@@ -124,6 +149,24 @@ Json posterior_json(const PastPosterior& p, const PastAxes& axes)
         .member("frequencies", frequencies);
 }
 
+Json monuments_json(const MonumentTest& monuments, double level)
+{
+    const auto test = [&](const std::vector<double>& u) {
+        const Share share = share_of(u.size(), MonumentTest::inside(u, level));
+        return Json::object()
+            .member("level", level)
+            .member("monuments", share.trials)
+            .member("contained", share.count)
+            .member("lower", share.lower)
+            .member("upper", share.upper);
+    };
+    return Json::object()
+        .member("not_judged", monuments.not_judged)
+        .member("pga", test(monuments.intensity))
+        .member("frequency", test(monuments.frequency))
+        .member("events", test(monuments.events));
+}
+
 Json survival_json(const Survival& s)
 {
     Json json = Json::object();
@@ -141,30 +184,28 @@ Json survival_json(const Survival& s)
         json.member("why_not_judged", not_judged_words(s));
     } else {
         Json events = Json::list(), frequencies = Json::list();
-        for (const Exclusion& e : s.by_events)
+        for (const Exclusion& e : s.past->by_events)
             events.item(exclusion_json(e));
         for (const Exclusion& e : s.by_frequency)
             frequencies.item(exclusion_json(e));
         json.member("exclusion_by_events", events)
             .member("exclusion_by_frequency", frequencies)
-            .member("posterior", posterior_json(*s.posterior, s.axes));
+            .member("posterior", posterior_json(s.past->posterior, s.axes));
+        if (s.alike) {
+            Json alike = Json::list();
+            for (const Exclusion& e : s.alike->by_events)
+                alike.item(exclusion_json(e));
+            json.member("built_alike", Json::object()
+                                           .member("built", s.built)
+                                           .member("standing", s.standing_alike)
+                                           .member("exclusion_by_events", alike)
+                                           .member("posterior", posterior_json(s.alike->posterior, s.axes)));
+        }
+        if (!s.coverage.empty())
+            json.member("exclusion_coverage", coverage_json(s.coverage, s.axes));
     }
-    if (s.monuments) {
-        const auto test = [&](const std::vector<double>& u, double level) {
-            const Share share = share_of(u.size(), MonumentTest::inside(u, level));
-            return Json::object()
-                .member("level", level)
-                .member("monuments", share.trials)
-                .member("contained", share.count)
-                .member("lower", share.lower)
-                .member("upper", share.upper);
-        };
-        json.member("monuments", Json::object()
-                                     .member("not_judged", s.monuments->not_judged)
-                                     .member("pga", test(s.monuments->intensity, s.level))
-                                     .member("frequency", test(s.monuments->frequency, s.level))
-                                     .member("events", test(s.monuments->events, s.level)));
-    }
+    if (s.monuments)
+        json.member("monuments", monuments_json(*s.monuments, s.level));
     if (s.rates)
         json.member("rates", Json::object()
                                  .member("years", s.years)
@@ -173,7 +214,10 @@ Json survival_json(const Survival& s)
                                  .member("stands_probability", estimate_json(s.rates->stands))
                                  .member("factor_median", estimate_json(s.rates->factor_median))
                                  .member("factor_credible_from", estimate_json(s.rates->factor_lower))
-                                 .member("factor_credible_to", estimate_json(s.rates->factor_upper)));
+                                 .member("factor_credible_to", estimate_json(s.rates->factor_upper))
+                                 .member("alike_factor_median", estimate_json(s.rates->alike_median))
+                                 .member("alike_factor_credible_from", estimate_json(s.rates->alike_lower))
+                                 .member("alike_factor_credible_to", estimate_json(s.rates->alike_upper)));
     return json;
 }
 
@@ -194,26 +238,35 @@ void survival_section(const Survival& s, PageWriter& writer)
     } else {
         page.heading("Excluded shaking");
         std::vector<Html> items;
-        for (std::size_t e = 0; e < s.by_events.size(); ++e)
-            items.emplace_back(events_word(e + 1) + ", mean over the frequencies: " +
-                               exclusion_words(s.by_events[e], s.prior, s.level, s.axes.intensity.back()) + ".");
+        for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
+            items.emplace_back(events_word(e + 1) + ": " +
+                               exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes) + ".");
+        if (s.alike)
+            items.emplace_back(alike_words(s.built, s.standing_alike) + ", 1 event: " +
+                               exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes) + ".");
+        items.emplace_back(threshold_words(s.past->by_events.front().rule, s.level) + ".");
+        for (const std::string& line : coverage_words(s.coverage, s.axes))
+            items.emplace_back("Simulated monuments: " + line + ".");
         page.list(items);
         page.figure(figure_svg(exclusion_figure(s)),
                     "The likelihood over the PGA, as a part of its largest value; bands: 95 % intervals of the counts. "
-                    "Horizontal line: the ratio below which a PGA is excluded.");
+                    "The threshold is the ratio below which a PGA is excluded.");
         HtmlTable table{"rlr",
                         {"frequency [Hz]", "PGA [m/s²]", "probability [%]"},
                         {},
                         "What one event of each frequency excludes, and posterior probability of the frequency"};
         for (std::size_t f = 0; f < s.by_frequency.size(); ++f) {
-            const PastEstimate& p = s.posterior->frequency[f];
+            const PastEstimate& p = s.past->posterior.frequency[f];
             table.rows.push_back({fmt::format("{:.3g}", s.axes.frequency_hz[f]), frequency_words(s, f),
                                   estimate_words({100 * p.value, 100 * p.lower, 100 * p.upper})});
         }
         if (!table.rows.empty())
             page.table(table);
         page.heading("The most probable past");
-        page.block(posterior_words(*s.posterior, s.axes, s.level));
+        page.block(posterior_words(s.past->posterior, s.axes, s.level));
+        if (s.alike)
+            page.block("  " + alike_words(s.built, s.standing_alike) + ":\n" +
+                       posterior_words(s.alike->posterior, s.axes, s.level));
     }
     if (s.monuments) {
         page.heading("Test on simulated monuments");

@@ -18,8 +18,17 @@ void survival_section(const Survival& survival, PageWriter& writer);
 std::string not_judged_words(const Survival& survival);
 /// "5.31 (5.1 to 5.52)"; beyond the axis: "none".
 std::string estimate_words(const PastEstimate& estimate);
-/// An exclusion as a sentence without its full stop.
-std::string exclusion_words(const Exclusion& exclusion, const std::string& prior, double level, double axis_end);
+/// An exclusion as sentences without the last full stop.
+std::string exclusion_words(const Exclusion& exclusion, const std::string& prior, double level, const PastAxes& axes);
+/// Of which likelihood shaking is excluded.
+std::string threshold_words(const ExclusionRule& rule, double level);
+/// How often a true PGA is excluded; none where nothing was calibrated.
+std::vector<std::string> coverage_words(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes);
+/// "given that 2 of 6 that were built alike stand, this one among them"
+std::string alike_words(std::uint64_t built, std::uint64_t standing);
+/// How often the credible intervals contain the true value.
+Json monuments_json(const MonumentTest& monuments, double level);
+Json coverage_json(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes);
 Json exclusion_json(const Exclusion& exclusion);
 Json posterior_json(const PastPosterior& posterior, const PastAxes& axes);
 /// The most probable past, and the credible intervals: lines that are indented.

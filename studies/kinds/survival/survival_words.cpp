@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stylobate {
@@ -48,28 +49,92 @@ std::string not_judged_words(const Survival& s)
                   "measured well (survival.observed.joints)";
 }
 
-std::string exclusion_words(const Exclusion& e, const std::string& prior, double level, double axis_end)
+std::string exclusion_words(const Exclusion& e, const std::string& prior, double level, const PastAxes& axes)
 {
     const std::string weaker =
-        e.weaker.value > 0 ? fmt::format("; PGA below {} m/s2 is excluded by the likelihood ratio: it is too weak for "
-                                         "the state",
+        e.weaker.value > 0 ? fmt::format("; PGA below {} m/s2 is excluded by the likelihood: it is too weak for the "
+                                         "state",
                                          estimate_words(e.weaker))
                            : std::string();
+    std::string text;
+    const std::vector<double>& f = axes.frequency_hz;
+    const auto open = [&](double frequency, const char* end, const PastEstimate& ratio) {
+        text += fmt::format("{}at {:.3g} Hz, the {} end of the axis, the likelihood is still {} of its largest value",
+                            text.empty() ? "no PGA is excluded for shaking of any frequency: " : ", and ", frequency,
+                            end, estimate_words(ratio));
+    };
+    if (e.open_below())
+        open(f.front(), "lower", e.lowest_frequency);
+    if (e.open_above())
+        open(f.back(), "upper", e.highest_frequency);
+    if (!text.empty())
+        text += fmt::format(". Among frequencies from {:.3g} to {:.3g} Hz: ", f.front(), f.back());
     if (!e.excludes())
-        return fmt::format(
-                   "no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood is still {} of "
-                   "its largest value; exclusion needs less than {:.3g}",
-                   axis_end, estimate_words(e.top_ratio), e.threshold) +
+        return text +
+               fmt::format("no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood is still {} "
+                           "of its largest value; exclusion needs less than {:.3g}{}",
+                           axes.intensity.back(), estimate_words(e.top_ratio), e.rule.part.back(),
+                           e.rule.absolute ? " itself" : "") +
                weaker;
-    std::string text = fmt::format(
-        "excluded at {:g} %: PGA above {} m/s2 by the likelihood ratio; above {} with the prior {}, whose own quantile "
-        "is {:.3g}",
-        100 * level, estimate_words(e.by_likelihood), estimate_words(e.by_posterior), prior, e.by_prior);
+    text += fmt::format("excluded at {:g} %: PGA above {} m/s2 by the likelihood", 100 * level,
+                        estimate_words(e.by_likelihood));
+    if (f.size() > 1 && e.open_from < 1)
+        text += fmt::format(", its mean with a prior flat in ln f from {:.3g} to {:.3g} Hz; above {} by its largest "
+                            "value over the frequencies",
+                            f.front(), f.back(), estimate_words(e.by_profile));
+    text += fmt::format("; above {} with the prior {}, whose own quantile is {:.3g}", estimate_words(e.by_posterior),
+                        prior, e.by_prior);
     text += weaker;
     if (!e.surely())
         text += fmt::format("; in {} of {} draws of the counts nothing is excluded: run more realizations",
                             e.drawn - e.drawn_with_limit, e.drawn);
     return text;
+}
+
+std::string threshold_words(const ExclusionRule& rule, double level)
+{
+    if (rule.absolute)
+        return fmt::format("excluded is shaking under which a structure stands with a probability below {:.3g}",
+                           1 - level);
+    const auto [least, most] = std::minmax_element(rule.part.begin(), rule.part.end());
+    if (!rule.calibrated)
+        return fmt::format("excluded is shaking whose likelihood is below {:.3g} of the largest one, which holds for "
+                           "many observations (Wilks) and was not calibrated for this one",
+                           *most);
+    return fmt::format("excluded is shaking whose likelihood is below {:.2g} to {:.2g} of the largest one, by the PGA: "
+                       "calibrated on simulated monuments",
+                       *least, *most);
+}
+
+std::vector<std::string> coverage_words(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes)
+{
+    std::size_t all = 0, wrong = 0, asymptotic = 0, worst = 0;
+    const auto share = [](const ExclusionCoverage& at, std::size_t ExclusionCoverage::*part) {
+        return share_of(at.monuments, at.*part);
+    };
+    for (std::size_t i = 0; i < coverage.size(); ++i) {
+        all += coverage[i].monuments;
+        wrong += coverage[i].excluded;
+        asymptotic += coverage[i].asymptotic;
+        if (coverage[i].monuments > 0 &&
+            (coverage[worst].monuments == 0 || share(coverage[i], &ExclusionCoverage::excluded).probability >
+                                                   share(coverage[worst], &ExclusionCoverage::excluded).probability))
+            worst = i;
+    }
+    if (all == 0)
+        return {};
+    const auto percent = [](const Share& s) { return percent_words({s.probability, s.lower, s.upper}); };
+    const Share at_worst = share(coverage[worst], &ExclusionCoverage::excluded);
+    return {fmt::format("the true PGA is excluded in {} of {}, {}; most often at {:.3g} m/s2, {}; by the threshold for "
+                        "many observations it would be in {}",
+                        wrong, all, percent(share_of(all, wrong)), axes.intensity[worst], percent(at_worst),
+                        percent(share_of(all, asymptotic)))};
+}
+
+std::string alike_words(std::uint64_t built, std::uint64_t standing)
+{
+    return fmt::format("given that {} of {} that were built alike stand{}", standing, built,
+                       standing > 1 ? ", this one among them" : "");
 }
 
 std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double level)
@@ -129,10 +194,18 @@ std::vector<std::string> rates_words(const Survival& s)
         fmt::format("under the hazard curve as given it collapses at a rate of {} per year, and stands for {:g} years "
                     "with a probability of {}",
                     estimate_words(r.collapse_rate), s.years, percent_words(r.stands)),
-        fmt::format("factor on all rates, given that it stands: median {}; {:g} % credible interval: {} to {} "
-                    "(prior: lognormal, median 1, sigma {:g}, from {:.3g} to {:.3g})",
+        fmt::format("factor on all rates, given that it stands and was chosen before its fate was known: median {}; "
+                    "{:g} % credible interval: {} to {} (prior: lognormal, median 1, sigma {:g}, from {:.3g} to "
+                    "{:.3g})",
                     estimate_words(r.factor_median), 100 * s.level, estimate_words(r.factor_lower),
                     estimate_words(r.factor_upper), s.sigma_ln, r.prior_lower, r.prior_upper)};
+    if (s.built > 1)
+        lines.push_back(fmt::format("factor on all rates, {}: median {}; {:g} % credible interval: {} to {}",
+                                    alike_words(s.built, s.standing_alike), estimate_words(r.alike_median),
+                                    100 * s.level, estimate_words(r.alike_lower), estimate_words(r.alike_upper)));
+    else
+        lines.push_back("a structure that is considered because it still stands, while others fell, says less of the "
+                        "rates: give survival.built and survival.standing");
     if (r.beyond.upper > 0.1)
         lines.push_back(fmt::format("{} of the rate of collapse comes from PGA beyond {:.3g} m/s2, where the "
                                     "probability is taken as at the end of the axis: extend the axis",

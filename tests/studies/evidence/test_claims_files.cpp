@@ -59,6 +59,7 @@ levels = [{ name = "0.68" }, { name = "0.1", set = ["contact.friction=0.1"] }]
 [[claim.test]]
 id = "P1"
 says = ["Two", "parts."]
+section = "5, Fig. 1"
 criterion = { kind = "bound", measure = "probability", event = "rocked", at_least = 0.5, pga_m_s2 = 16 }
 figures = ["shares"]
 [claim.test.reason]
@@ -137,6 +138,13 @@ TEST(ClaimText, RefusesWithTheLineAndTheWord)
     EXPECT_NE(refusal(replaced(text, "event = \"rocked\", at_least", "event = \"roked\", at_least")).find("rocked"),
               std::string::npos);
     EXPECT_NE(refusal(replaced(text, "at_least = 0.5, ", "")).find("at_least"), std::string::npos);
+    EXPECT_NE(refusal(replaced(text, "section = \"5, Fig. 1\"\n", "")).find("section is missing"), std::string::npos);
+    EXPECT_NE(
+        refusal(replaced(text, "kind = \"bound\", measure = \"probability\", event = \"rocked\", at_least = 0.5",
+                         "kind = \"paired\", measure = \"onset\", event = \"rocked\", direction = \"falls\", along = "
+                         "\"mu\""))
+            .find("probability"),
+        std::string::npos);
     EXPECT_NE(refusal(replaced(text, "says =", "say =")).find("Did you mean says"), std::string::npos);
     EXPECT_NE(refusal(replaced(text, "pga_m_s2 = 16 }", "pga_m_s2 = [3, 2] }")).find("is not a window"),
               std::string::npos);
@@ -229,21 +237,19 @@ TEST_F(ClaimFolder, RunsResumesAndWritesThePage)
         EXPECT_TRUE(samples[1].cell(f, 1)[0].slid);
     }
 
-    const Result result{&file, &file.tests[0], &samples, judge(file, file.tests[0], samples), {}};
-    Result judged = result;
-    judged.verdict = verdict_of(file, file.tests[0], judged.cases);
-    EXPECT_EQ(filled("{cases} {rigid:}", judged), "2 2.706");
-    EXPECT_THROW(filled("{nonsense}", judged), InputError);
-    const std::string page = claims_page({judged}, "images", "1.2.3");
-    for (const char* part : {"## P1", "Two parts.", "version 1.2.3", "](images/shares.png)", "| friction | number |"})
+    const Result result = judged(file, file.tests[0], samples);
+    EXPECT_EQ(filled("{cases} {rigid:}", result), "2 2.706");
+    EXPECT_THROW(filled("{nonsense}", result), InputError);
+    const std::string page = claims_page({result}, "images", "1.2.3");
+    for (const char* part : {"## P1", "**The paper, in our words, section 5, Fig. 1.** Two parts.", "version 1.2.3",
+                             "](images/shares.png)", "| friction | number | margin 0 | 5 % | 20 % |"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
 
     // the same page whatever computes it, and from the result files when they are there
     fs::remove_all(folder_ / "results");
     for (int round = 0; round < 2; ++round) {
         const auto again = run_variants(file, place, two, observer);
-        Result r{&file, &file.tests[0], &again, judge(file, file.tests[0], again), {}};
-        r.verdict = verdict_of(file, file.tests[0], r.cases);
+        const Result r = judged(file, file.tests[0], again);
         EXPECT_EQ(claims_page({r}, "images", "1.2.3"), page) << round;
     }
 }
@@ -274,8 +280,7 @@ TEST_F(ClaimFolder, AnAbsentRecordIsSaid)
     const auto samples = run_variants(file, {folder_ / "results", folder_, 0, {}}, {Isa::scalar, 1}, observer);
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_EQ(samples[0].why_not, "record absent: text/none.txt");
-    Result r{&file, &file.tests[0], &samples, judge(file, file.tests[0], samples), {}};
-    r.verdict = verdict_of(file, file.tests[0], r.cases);
+    const Result r = judged(file, file.tests[0], samples);
     EXPECT_EQ(r.verdict.judgement, Judgement::not_run);
     EXPECT_NE(claims_page({r}, "images", "1").find("record absent: text/none.txt"), std::string::npos);
 }
