@@ -75,7 +75,7 @@ private:
     std::uint64_t structure_seed_ = 0; ///< of what is not the motion's
     std::uint64_t per_cell_ = 1;
     std::uint64_t per_motion_ = 1; ///< of a survival study
-    std::uint64_t stripes_ = 0; ///< of a fragility study, else 0
+    std::uint64_t stripes_ = 0;    ///< of a fragility study, else 0
     std::uint64_t contacts_ = 1, twins_ = 1;
     std::optional<SensitivitySpec> design_;
     std::unordered_map<std::uint64_t, std::uint64_t> factor_; ///< by key

@@ -116,9 +116,10 @@ LoadedStudy load(const std::string& file, const std::vector<std::string>& settin
             Motions motions = motions_of(*one.study);
             return LoadedStudy(Experiment(std::move(*one.study), std::move(motions)));
         }
-    throw InputError(file, 0, fmt::format("law = \"{}\" is no contact law.\n  Known: softer, stiffer, rigid, ends, "
-                                          "centroid.",
-                                          law));
+    throw InputError(file, 0,
+                     fmt::format("law = \"{}\" is no contact law.\n  Known: softer, stiffer, rigid, ends, "
+                                 "centroid.",
+                                 law));
 }
 
 } // namespace
