@@ -3,6 +3,7 @@
 #include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
+#include "kernels/mechanisms/corner_wear.hpp"
 #include "studies/evidence/verification/rocking_block.hpp"
 
 #include <gtest/gtest.h>
@@ -248,6 +249,17 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
     b.at(OfJointExtension::turned, 0, 0) = 1e6;
     kernels(Isa::scalar).run(topology, b, 0, 1);
     EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * 0.1 * 0.048, 1e-3 * K * depth * 0.0048);
+}
+
+/// An area of 2e-5 m2 over 0.1 m is 2e-4 m deep; a slope of 0.002 makes 3e-4 and 1e-4 of it at the ends. Each end that
+/// is lost held K d^2 / 2 on its length of 0.01 m: 1e8 / 2 x 0.01 x (9e-8 + 1e-8) = 0.05 J.
+TEST(CornerWear, EnergyOfTheLostEndsByHand)
+{
+    EXPECT_NEAR(worn_energy(1e8, 2e-5, 0.1, 0.002, 0.01), 0.05, 1e-12);
+    EXPECT_NEAR(worn_energy(1e8, 2e-5, 0.1, -0.002, 0.01), 0.05, 1e-12);
+    EXPECT_NEAR(worn_energy(1e8, 2e-5, 0.1, 0.006, 0.01), 0.125, 1e-12) << "one end is open: 5e-4 and nothing";
+    EXPECT_NEAR(worn_corner(0.002, 0.01, 0.3, 0.024), 0.005, 1e-15);
+    EXPECT_NEAR(worn_corner(0.002, 0.01, 30.0, 0.024), 0.45 * 0.048, 1e-15);
 }
 
 TEST(Wedge, TheStackRestsAtTheSumOfItsWedges)

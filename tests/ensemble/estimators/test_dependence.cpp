@@ -23,7 +23,8 @@ TEST(Dependence, RankSumHasTheVarianceOfAllPermutations)
     std::vector<PairedTrial> trials;
     for (std::size_t i = 0; i < y.size(); ++i)
         trials.push_back({i < first ? std::size_t{0} : std::size_t{1}, y[i]<0, y[i]> 0});
-    const double z = dependence_on(trials, values, 0.95).z;
+    const Dependence found = dependence_on(trials, values, 0.95);
+    const double z = found.z;
 
     const std::vector<double> ranks = {3, 1.5, 1.5, 5, 4, 2, 1, 3.5, 3.5}; // by hand
     const auto sum_of = [&](const std::vector<std::size_t>& order) {
@@ -48,6 +49,15 @@ TEST(Dependence, RankSumHasTheVarianceOfAllPermutations)
     mean /= count;
     EXPECT_EQ(count, 120 * 24);
     EXPECT_NEAR(z, (observed - mean) / std::sqrt(square / count - mean * mean), 1e-12);
+    EXPECT_NEAR(found.p, std::erfc(std::abs(z) / std::sqrt(2.0)), 1e-12); // both tails of the normal distribution
+
+    // sorted 0.1 0.1 0.3 0.5 0.7 1 2 3 3: a third of the way of eight is 2 2/3, two thirds are 5 1/3
+    EXPECT_NEAR(found.between[0], 0.3 + 0.2 * 2 / 3, 1e-12);
+    EXPECT_NEAR(found.between[1], 1 + 1.0 / 3, 1e-12);
+    // the middle third has y = 0, 1 of the first stratum and 0 of the second one
+    EXPECT_NEAR(found.thirds[0].value, 0, 1e-12);
+    EXPECT_NEAR(found.thirds[1].value, 0.25, 1e-12);
+    EXPECT_NEAR(found.thirds[2].value, 0, 1e-12);
 }
 
 struct Drawn {

@@ -139,6 +139,71 @@ TEST(DispersionShares, TheNearestPossibleVariancesByHand)
     EXPECT_NEAR(shares.levels[1].share, 1, 1e-12);
 }
 
+/// Nine records of two twins. Estimates without each record by sums over pairs; the limits of a variance are Student's
+/// of the pseudo-values, those of a share s the numbers at which the mean of (variance - s total) is t standard errors
+/// from 0. Student's quantile of eight degrees of freedom is 2.306004.
+TEST(DispersionShares, LimitsAreTheJackknifeByHand)
+{
+    const double y[9][2] = {{1, 2}, {4, 4}, {0, 1}, {7, 5}, {3, 6}, {2, 2}, {8, 6}, {5, 5}, {1, 3}};
+    std::vector<NestedRun> runs;
+    for (std::uint32_t g = 0; g < 9; ++g)
+        for (const double each : y[g])
+            runs.push_back({g, g, g, 0, each});
+    struct Pair {
+        double total, chaos;
+    };
+    const auto without = [&](std::size_t left_out) {
+        double between = 0, pairs = 0, within = 0, records = 0;
+        for (std::size_t g = 0; g < 9; ++g) {
+            if (g == left_out)
+                continue;
+            within += (y[g][0] - y[g][1]) * (y[g][0] - y[g][1]) / 2;
+            records += 1;
+            for (std::size_t h = 0; h < g; ++h)
+                for (int i = 0; i < 4 && h != left_out; ++i) {
+                    const double d = y[g][i / 2] - y[h][i % 2];
+                    between += d * d / 2;
+                    pairs += 1;
+                }
+        }
+        return Pair{between / pairs, within / records};
+    };
+    const Pair all = without(9);
+    const DispersionShares shares = dispersion_shares(runs, 0.95);
+    EXPECT_NEAR(shares.total, all.total, 1e-12);
+    EXPECT_NEAR(shares.levels[0].variance, all.total - all.chaos, 1e-12);
+    EXPECT_NEAR(shares.levels[3].variance, all.chaos, 1e-12);
+    EXPECT_FALSE(shares.levels[1].known || shares.levels[2].known);
+    // (estimate, standard error) of a combination of the pseudo-values 9 all - 8 without
+    const auto error = [&](auto&& of) {
+        double sum = 0, square = 0;
+        for (std::size_t g = 0; g < 9; ++g) {
+            const double pseudo = 9 * of(all) - 8 * of(without(g));
+            sum += pseudo;
+            square += pseudo * pseudo;
+        }
+        return std::sqrt((square - sum * sum / 9) / 8 / 9);
+    };
+    const auto record = [](const Pair& p) { return p.total - p.chaos; };
+    const auto chaos = [](const Pair& p) { return p.chaos; };
+    constexpr double t = 2.306004135;
+    EXPECT_NEAR(shares.total_limits.upper - all.total, t * error([](const Pair& p) { return p.total; }), 1e-6);
+    EXPECT_NEAR(shares.levels[0].variance_limits.upper - record(all), t * error(record), 1e-6);
+    EXPECT_NEAR(shares.levels[3].variance_limits.lower - chaos(all), -t * error(chaos), 1e-6);
+    const auto expect = [&](const Limits& limits, auto&& part) {
+        for (const double s : {limits.lower, limits.upper})
+            if (s > 0 && s < 1) { // else cut
+                const auto of = [&](const Pair& p) { return part(p) - s * p.total; };
+                EXPECT_NEAR(std::abs(of(all)) / error(of), t, 1e-6) << s;
+            }
+    };
+    expect(shares.levels[0].share_limits, record);
+    expect(shares.levels[3].share_limits, chaos);
+    EXPECT_NEAR(shares.levels[3].share, all.chaos / all.total, 1e-12);
+    EXPECT_GT(shares.levels[0].share_limits.lower, 0);
+    EXPECT_LT(shares.levels[3].share_limits.upper, 1);
+}
+
 TEST(DispersionShares, WithoutDispersionNoShareIsANumber)
 {
     std::vector<NestedRun> runs = nested(12, 0, 20, {1, 1, 1, 1}, false);

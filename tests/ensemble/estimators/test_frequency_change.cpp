@@ -73,6 +73,55 @@ TEST(FrequencyChange, IsTheMeanOfTheMotionsOwnChanges)
     EXPECT_EQ(found.frequency.fragility.lower, found.frequency.total.lower) << "a hazard without fractiles";
 }
 
+/// 101 draws at level 0.9: the limits are the sixth smallest and the sixth largest one, of the very weights, each drawn
+/// change set apart from the estimate by t / z sqrt((m + 1) / (m - 1)).
+TEST(FrequencyChange, LimitsAreThoseOfTheDraws)
+{
+    constexpr std::size_t m = 12;
+    const auto base = [](std::size_t g, std::size_t j) { return j == 0 ? 2 + part(g, 3) : 6 + part(g, 4); };
+    const auto variant = [&](std::size_t g, std::size_t j) { return base(g, j) - (j == 0 ? 1 : 1 + part(g, 2)); };
+    const FrequencyChange found =
+        frequency_change(pairs_of(m, base, variant), power_law(0.01, 1), {.years = {100}, .draws = 101, .seed = 4});
+    const Weights w = weights();
+    std::vector<double> b, v;
+    double sum = 0, square = 0, mean_b = 0, mean_v = 0;
+    for (std::size_t g = 0; g < m; ++g) {
+        b.push_back((w.first * base(g, 0) + w.second * base(g, 1)) / 10);
+        v.push_back((w.first * variant(g, 0) + w.second * variant(g, 1)) / 10);
+        mean_b += b.back() / m;
+        mean_v += v.back() / m;
+        sum += b.back() - v.back();
+        square += (b.back() - v.back()) * (b.back() - v.back());
+    }
+    const double spread =
+        student_quantile(0.95, sum * sum / square - 1) / 1.6448536269514722 * std::sqrt((m + 1.0) / (m - 1.0));
+    ASSERT_FALSE(found.few);
+    std::vector<double> change, ratio, probability;
+    for (std::uint64_t draw = 0; draw < 101; ++draw) {
+        double all = 0, drawn_b = 0, drawn_v = 0;
+        for (std::uint64_t g = 0; g < m; ++g) {
+            const double weight = -std::log(1 - uniform01(4, draw, Stream::bootstrap, g));
+            all += weight;
+            drawn_b += weight * b[g];
+            drawn_v += weight * v[g];
+        }
+        drawn_b /= all;
+        drawn_v /= all;
+        change.push_back(drawn_v - drawn_b);
+        ratio.push_back(std::log(drawn_v / drawn_b));
+        probability.push_back(std::exp(-100 * drawn_b) - std::exp(-100 * drawn_v));
+    }
+    const auto expect = [&](const Limits& limits, std::vector<double>& drawn, double value, auto&& scale) {
+        std::sort(drawn.begin(), drawn.end());
+        EXPECT_NEAR(limits.lower, scale(value + spread * (drawn[5] - value)), 1e-9 * std::abs(limits.lower));
+        EXPECT_NEAR(limits.upper, scale(value + spread * (drawn[95] - value)), 1e-9 * std::abs(limits.upper));
+    };
+    const auto same = [](double x) { return x; };
+    expect(found.frequency.fragility, change, mean_v - mean_b, same);
+    expect(found.ratio.fragility, ratio, std::log(mean_v / mean_b), [](double x) { return std::exp(x); });
+    expect(found.probability[0].fragility, probability, std::exp(-100 * mean_b) - std::exp(-100 * mean_v), same);
+}
+
 /// What is not known of the hazard makes both frequencies larger or smaller, and hardly changes their ratio.
 TEST(FrequencyChange, TheHazardIsCommonToBoth)
 {

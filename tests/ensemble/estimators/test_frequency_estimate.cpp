@@ -2,6 +2,7 @@
 
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 
 #include <gtest/gtest.h>
@@ -50,6 +51,78 @@ TEST(FrequencyEstimate, LognormalIsCornellsClosedFormOfTheFittedCurve)
         EXPECT_LT(found.frequency.total.lower, found.frequency.value);
         EXPECT_GT(found.frequency.total.upper, found.frequency.value);
     }
+}
+
+/// Eight records at ln im = 0 and 1 under lambda = k0 im^-k: the curve passes through both shares, so that those of the
+/// fits without each record follow from what is left, and ln lambda = ln k0 + k b0 / b1 + k2 / (2 b1^2) from them.
+TEST(FrequencyEstimate, LognormalLimitsAreTheJackknifeByHand)
+{
+    const double n[] = {8, 10, 12, 6, 10, 14, 8, 12}; // runs of a record at each stripe: 80
+    const double low[] = {2, 4, 5, 2, 3, 5, 2, 5}, high[] = {6, 8, 10, 4, 9, 10, 6, 11};
+    const double k0 = 1e-3, k = 2.5;
+    std::vector<FragilityRun> runs;
+    double all_low = 0, all_high = 0;
+    for (std::uint32_t g = 0; g < 8; ++g) {
+        runs.push_back({g, {1}, low[g], n[g]});
+        runs.push_back({g, {std::exp(1.0)}, high[g], n[g]});
+        all_low += low[g];
+        all_high += high[g];
+    }
+    const auto of_shares = [&](double p, double q) {
+        const double b0 = link_quantile(Link::probit, p), b1 = link_quantile(Link::probit, q) - b0;
+        return std::log(k0) + k * b0 / b1 + k * k / (2 * b1 * b1);
+    };
+    const double value = of_shares(all_low / 80, all_high / 80);
+    std::vector<double> without;
+    double mean = 0, square = 0;
+    for (std::size_t g = 0; g < 8; ++g) {
+        without.push_back(of_shares((all_low - low[g]) / (80 - n[g]), (all_high - high[g]) / (80 - n[g])));
+        mean += without.back() / 8;
+    }
+    for (const double v : without)
+        square += (v - mean) * (v - mean);
+    // a record has its part of the runs of the information on every target: (sum n)^2 / sum n^2 - 1
+    const double freedom = 6400.0 / (64 + 100 + 144 + 36 + 100 + 196 + 64 + 144) - 1;
+    const double reach = student_quantile(0.95, freedom) * std::sqrt(7.0 / 8 * square);
+    const double unbiased = 8 * value - 7 * mean;
+    const FragilityData data = grouped(runs);
+    const Limits limits = lognormal_frequency(data, power_law(k0, k), {.level = 0.9}).frequency.fragility;
+    EXPECT_NEAR(std::log(limits.lower), unbiased - reach, 1e-6);
+    EXPECT_NEAR(std::log(limits.upper), unbiased + reach, 1e-6);
+    EXPECT_GT(std::abs(unbiased - value), 0.01) << "the correction of the bias must be seen";
+}
+
+/// Ten records with the frequencies y_g = w1 p_g1 + w2 p_g2: Student's interval of ln lambda by their scatter.
+TEST(FrequencyEstimate, LimitsOfSharesByHand)
+{
+    const double low[] = {1, 2, 0, 3, 2, 1, 4, 2, 1, 2}, high[] = {6, 8, 5, 9, 7, 6, 10, 8, 7, 8}; // of ten
+    std::vector<FragilityRun> runs;
+    const HazardModel hazard = power_law(0.01, 1);
+    const std::vector<double> w = stripe_weights({1, 2}, hazard);
+    // (`FrequencyEstimate.WhatIsNotExcludedIsMonotoneAndInNoInterval` has these integrals)
+    const double s = std::log(2.0), place = (1 - (1 + s) / 2) / s;
+    ASSERT_EQ(w.size(), 2U);
+    EXPECT_NEAR(w[0], place * 0.02 + (0.5 - place) * 0.01, 1e-15);
+    EXPECT_NEAR(w[1], place * 0.01 + 0.005, 1e-15);
+    double sum = 0, square = 0, deviation = 0;
+    std::vector<double> y;
+    for (std::uint32_t g = 0; g < 10; ++g) {
+        runs.push_back({g, {1}, low[g], 10});
+        runs.push_back({g, {2}, high[g], 10});
+        y.push_back(w[0] * low[g] / 10 + w[1] * high[g] / 10);
+        sum += y.back();
+        square += y.back() * y.back();
+    }
+    for (const double each : y)
+        deviation += (each - sum / 10) * (each - sum / 10);
+    const FragilityData data = grouped(runs);
+    const RiskNumber found = share_frequency(data, stripe_shares(data), hazard, {.level = 0.95}).frequency;
+    EXPECT_NEAR(found.value, sum / 10, 1e-15);
+    const double freedom = sum * sum / square - 1; // of ten at most nine
+    EXPECT_NEAR(freedom, 8.4, 0.1);
+    const double reach = student_quantile(0.975, freedom) * std::sqrt(deviation / 90) / (sum / 10);
+    EXPECT_NEAR(std::log(found.fragility.upper / found.value), reach, 1e-9);
+    EXPECT_NEAR(std::log(found.value / found.fragility.lower), reach, 1e-9);
 }
 
 /// A best estimate that is the mean of the hazard lies above the median, and the interval does not move with it.

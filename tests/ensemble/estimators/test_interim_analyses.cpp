@@ -113,6 +113,22 @@ TEST(InterimAnalyses, AUniformGridNeedsWhatTheNormalDistributionSays)
         EXPECT_NEAR(static_cast<double>(uniform_trials(h, 0.95)), std::pow(1.96 / (2 * h), 2) - 2, 2) << h;
 }
 
+/// A single analysis of twenty trials: the binomial probabilities of the counts whose interval holds p.
+TEST(InterimAnalyses, CoverageOfOneAnalysisByHand)
+{
+    const InterimAnalyses one(20, 20, 0.05, 0.95);
+    for (const double p : {0.03, 0.3, 0.62}) {
+        double coverage = 0, probability = std::pow(1 - p, 20);
+        for (std::uint64_t s = 0; s <= 20; ++s) {
+            const BinomialInterval interval = one.interval(20, s);
+            coverage += interval.lower <= p && p <= interval.upper ? probability : 0;
+            probability *= static_cast<double>(20 - s) / static_cast<double>(s + 1) * p / (1 - p);
+        }
+        EXPECT_NEAR(one.expected(p, 1).coverage, coverage, 1e-12) << p;
+        EXPECT_NEAR(one.expected(p, 1).trials, 20, 1e-12);
+    }
+}
+
 TEST(InterimAnalyses, ThePlainIntervalIsNotRightUnderTheRule)
 {
     const InterimAnalyses analyses(8, 512, 0.05, 0.95);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using namespace stylobate;
@@ -68,6 +69,59 @@ TEST(MeasureRanking, WhatDrivesTheOutcomeIsFirstAndSufficient)
     // four standard errors of .05 are .062
     EXPECT_GT(sufficient, (0.95 - 0.062) * repeats);
     EXPECT_LT(chance, (0.05 + 0.062) * repeats);
+}
+
+/// Two measures with two values each, under nine records: each curve passes through both of its shares, and a record
+/// has k ln p + (n - k) ln(1 - p) of its likelihood at either value.
+TEST(MeasureRanking, GainAndDifferenceByHand)
+{
+    // records x (a low, v low), (a low, v high), (a high, v low), (a high, v high): reached of four
+    const double reached[9][4] = {{0, 2, 0, 4}, {1, 3, 2, 3}, {0, 3, 1, 4}, {1, 2, 1, 3}, {0, 4, 2, 4},
+                                  {0, 1, 0, 3}, {2, 3, 1, 4}, {0, 2, 2, 4}, {1, 3, 0, 3}};
+    std::vector<FragilityRun> runs;
+    std::array<double, 2> by_a{}, by_v{};
+    for (std::uint32_t g = 0; g < 9; ++g)
+        for (std::size_t i = 0; i < 4; ++i) {
+            runs.push_back({g, {i < 2 ? 1.0 : 2.0, i % 2 == 0 ? 1.0 : 3.0}, reached[g][i], 4});
+            by_a[i / 2] += reached[g][i] / 72;
+            by_v[i % 2] += reached[g][i] / 72;
+        }
+    const auto term = [](double k, double n, double p) { return k * std::log(p) + (n - k) * std::log(1 - p); };
+    double gain_a = 0, gain_v = 0, sum = 0, square = 0;
+    for (const auto& r : reached) {
+        const double a = term(r[0] + r[1], 8, by_a[0]) + term(r[2] + r[3], 8, by_a[1]),
+                     v = term(r[0] + r[2], 8, by_v[0]) + term(r[1] + r[3], 8, by_v[1]);
+        const double none = term(r[0] + r[1] + r[2] + r[3], 16, (by_a[0] + by_a[1]) / 2);
+        gain_a += (a - none) / 144;
+        gain_v += (v - none) / 144;
+        sum += v - a;
+        square += (v - a) * (v - a);
+    }
+    const auto ranked = ranked_measures(grouped(runs), {"a", "v"}, {}, {}, 0.9);
+    EXPECT_EQ(ranked[0].name, "v");
+    EXPECT_NEAR(ranked[0].gain, gain_v, 1e-9);
+    EXPECT_NEAR(ranked[1].gain, gain_a, 1e-9);
+    // Student's interval of a sum over nine records, 1.859548 of eight degrees of freedom
+    const double reach = 1.859548 * std::sqrt(9 * (square - sum * sum / 9) / 8);
+    EXPECT_NEAR(ranked[1].behind.lower, (sum - reach) / 144, 1e-7);
+    EXPECT_NEAR(ranked[1].behind.upper, (sum + reach) / 144, 1e-7);
+    const double slope = (link_quantile(Link::probit, by_v[1]) - link_quantile(Link::probit, by_v[0])) / std::log(3.0);
+    EXPECT_NEAR(ranked[0].dispersion, 1 / slope, 1e-9);
+}
+
+/// A two-sided p-value is the level at which the interval begins to hold 0.
+TEST(MeasureRanking, PValueOfAFeatureIsThatOfItsInterval)
+{
+    const Truth truth = draw(4, 20);
+    const auto of = [&](double level) {
+        return ranked_measures(with_measure(truth.data, 0), {"PGA"}, {"magnitude"}, {truth.magnitude}, level)[0]
+            .sufficiency[0];
+    };
+    const Sufficiency found = of(0.95);
+    ASSERT_GT(found.p_value, 1e-6);
+    ASSERT_LT(found.p_value, 0.5);
+    const Limits limits = of(1 - found.p_value).limits;
+    EXPECT_NEAR(std::min(std::abs(limits.lower), std::abs(limits.upper)), 0, 1e-6 * std::abs(found.coefficient));
 }
 
 TEST(MeasureRanking, SaysItInWords)

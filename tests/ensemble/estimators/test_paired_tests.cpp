@@ -57,6 +57,26 @@ TEST(PairedTests, SignFlipCountsThePatterns)
     }
 }
 
+/// 10001 groups with a difference of one pair each: too many for the distribution, and its tail is McNemar's, that of
+/// Binomial(10001, 1/2).
+TEST(PairedTests, ManyGroupsHaveTheExactTail)
+{
+    for (const std::size_t more : {5001U, 5050U, 5101U, 5151U}) {
+        std::vector<PairedCounts> groups(10001, PairedCounts{0, 1, 0, 1});
+        for (std::size_t g = 0; g < more; ++g)
+            groups[g] = {0, 0, 1, 1};
+        const double exact = mcnemar_p({0, 10001 - more, more, 0});
+        EXPECT_NEAR(sign_flip_p(groups) / exact, 1, 2e-3) << more << ", exact " << exact;
+    }
+    // 5000 groups of three and 5001 of one: a variance of 5000 x 9 + 5001, a sum of 1 + 448; z = 448 / sqrt(50001)
+    std::vector<PairedCounts> uneven(10001, PairedCounts{0, 1, 0, 1});
+    for (std::size_t g = 0; g < 5000; ++g)
+        uneven[g] = g % 2 == 0 ? PairedCounts{0, 3, 0, 1} : PairedCounts{0, 0, 3, 1};
+    for (std::size_t g = 5000; g < 5000 + 2725; ++g)
+        uneven[g] = {0, 0, 1, 1}; // 2725 up, 2276 down
+    EXPECT_NEAR(sign_flip_p(uneven), std::erfc(448 / std::sqrt(2 * 50001.0)), 1e-12);
+}
+
 /// The example of Benjamini and Hochberg (1995), section 3.2: fifteen values, of which Bonferroni's procedure rejects
 /// three at 0.05 and theirs the first four.
 TEST(PairedTests, BenjaminiHochbergRejectsAsInItsPaper)

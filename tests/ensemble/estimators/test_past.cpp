@@ -173,6 +173,40 @@ TEST(Past, TheDrawsOfACellAreJeffreysPosterior)
     EXPECT_NE(likelihood.drawn, past_likelihood(axes, counts, 7, PastUse::cells, 100).drawn);
 }
 
+/// 3 of 10 with the prior count c = 1 / (2 x 2) of a mean over two frequencies: 3.25 / 10.5; of rates the share itself.
+TEST(Past, TheValueOfACellIsTheMeanOfItsPosterior)
+{
+    const PastAxes axes{{1, 2}, {1}, 1};
+    const std::vector<CellCount> counts = {{10, 3}, {0, 0}};
+    EXPECT_EQ(past_likelihood(axes, counts, 1, PastUse::means).value, (std::vector<double>{3.25 / 10.5, 0.5}));
+    EXPECT_EQ(past_likelihood(axes, counts, 1, PastUse::cells).value, (std::vector<double>{3.5 / 11, 0.5}));
+    EXPECT_EQ(past_likelihood(axes, counts, 1, PastUse::rates).value[0], 0.3);
+    // over ln f of 1, 2 and 8 Hz: halves of a third and of two thirds of the whole
+    const std::vector<double> weights = frequency_weights({1, 2, 8});
+    for (const auto& [found, want] : {std::pair{weights[0], 1.0 / 6}, {weights[1], 0.5}, {weights[2], 1.0 / 3}})
+        EXPECT_NEAR(found, want, 1e-15);
+}
+
+/// 1001 draws 0, 1, ..., 1000. Half of them below the value: 2.5 and 97.5 %, that is draws 25 (floor of 25.025) and
+/// 975. 691.5 of 1002 below it: z0 = 0.49619, and Phi(2 z0 -+ 1.959964) of 1001 are 166.8 and 999.4. At 900.5 z0 = 1.28
+/// is limited to 0.5: 168.7 and 999.5; at the least draw to -0.5: 1.5 and 832.3. The interval holds the value.
+TEST(Past, IntervalsAreCorrectedPercentilesByHand)
+{
+    PastLikelihood likelihood{{{1}, {1}, 1}, {500}, {}};
+    for (int b = 0; b <= 1000; ++b)
+        likelihood.drawn.push_back({static_cast<double>((b * 8) % 1001)}); // in any order
+    const auto estimate = [&](double value) {
+        likelihood.value = {value};
+        return past_estimate(likelihood, [](auto cells) { return cells[0]; });
+    };
+    for (const auto& [value, lower, upper] :
+         {std::array{500.0, 25.0, 975.0}, {690.5, 166.0, 999.0}, {900.5, 168.0, 999.0}, {0.0, 0.0, 832.0}}) {
+        EXPECT_EQ(estimate(value).value, value);
+        EXPECT_EQ(estimate(value).lower, lower) << value;
+        EXPECT_EQ(estimate(value).upper, upper) << value;
+    }
+}
+
 TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
 {
     const Logistic truth;

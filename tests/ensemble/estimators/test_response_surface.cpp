@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace stylobate {
 namespace {
@@ -55,6 +57,68 @@ TEST(ResponseSurface, GoesThroughPointsWithoutNoise)
     EXPECT_NEAR(answer.best[0], 0.55, 0.1);
     EXPECT_LE(answer.from[0], answer.best[0]);
     EXPECT_GE(answer.to[0], answer.best[0]);
+}
+
+double matern(double distance, double length)
+{
+    const double a = std::sqrt(5.0) * distance / length;
+    return (1 + a + a * a / 3) * std::exp(-a);
+}
+
+/// Two points without noise, where a process with a flat mean has closed forms: with the correlation r of the points
+/// and the correlations p +- q of a place with them
+///
+///   mean = y0 + q (y2 - y1) / (1 - r),   variance = s2 (own - 2 p2 / (1 + r) - 2 q2 / (1 - r) + (one - 2 p / (1 +
+///   r))^2 (1 + r) / 2)
+///
+/// own = one = 1; of a difference of two places own = 2 (1 - their correlation), one = 0, p and q differences. A model
+/// has the weight exp(-(rest2 + ln det K + ln(1' K^-1 1)) / 2); those below a thousandth of all are left out.
+TEST(ResponseSurface, OfTwoPointsByHand)
+{
+    PairedNoise noise = known_noise({0.3, 0.5}, {1e-14, 0, 0, 1e-14});
+    const ResponseSurface surface({{0}, {1}}, noise);
+    struct Model {
+        double weight, s2, length, r;
+    };
+    std::vector<Model> models;
+    double all = 0;
+    for (const double length : {0.1, 0.15, 0.25, 0.4, 0.7, 1.2, 2.0})
+        for (const double times : {0.35, 0.7, 1.4, 2.8}) {
+            const double s2 = times * times * 0.02, r = matern(1, length); // spread: (0.1^2 + 0.1^2) / (2 - 1)
+            const double rest = 2 * 0.01 / (s2 * (1 - r)), det = s2 * s2 * (1 - r * r), ones = 2 / (s2 * (1 + r));
+            models.push_back({std::exp(-0.5 * (rest + std::log(det) + std::log(ones))), s2, length, r});
+            all += models.back().weight;
+        }
+    double kept = 0;
+    for (Model& model : models) {
+        model.weight = model.weight < 1e-3 * all ? 0 : model.weight;
+        kept += model.weight;
+    }
+    // of a place, or of its difference from another one
+    const auto by_hand = [&](double x, const double* from) {
+        double mean = 0, square = 0;
+        for (const Model& m : models) {
+            const auto k = [&](double at) {
+                return matern(std::abs(x - at), m.length) - (from ? matern(std::abs(*from - at), m.length) : 0);
+            };
+            const double p = (k(0) + k(1)) / 2, q = (k(1) - k(0)) / 2, one = from ? 0 : 1;
+            const double own = from ? 2 * (1 - matern(std::abs(x - *from), m.length)) : 1;
+            const double value = one * 0.4 + 0.2 * q / (1 - m.r);
+            const double variance = m.s2 * (own - 2 * p * p / (1 + m.r) - 2 * q * q / (1 - m.r) +
+                                            std::pow(one - 2 * p / (1 + m.r), 2) * (1 + m.r) / 2);
+            mean += m.weight / kept * value;
+            square += m.weight / kept * (value * value + variance);
+        }
+        return ResponseSurface::Value{mean, std::sqrt(square - mean * mean)};
+    };
+    const auto expect = [](const ResponseSurface::Value& found, const ResponseSurface::Value& want) {
+        EXPECT_NEAR(found.mean, want.mean, 1e-6);
+        EXPECT_NEAR(found.sd, want.sd, 1e-6);
+    };
+    for (const double x : {0.5, 0.25, 0.9})
+        expect(surface.at({x}), by_hand(x, nullptr));
+    const double from = 0.6;
+    expect(surface.difference({0.2}, {from}), by_hand(0.2, &from));
 }
 
 /// An error that all points have in common cancels in differences.
@@ -136,6 +200,119 @@ TEST(PairedNoise, SmoothedFollowsTheSurface)
     EXPECT_DOUBLE_EQ(few.freedom[1], 19);
     EXPECT_GT(smoothed_noise(few, few.share).covariance[3], 10 * few.covariance[3]);
     EXPECT_TRUE(std::isinf(noise.freedom[0]));
+}
+
+/// Three points, seven groups: the prior of 3 x 3 groups has the weight 9 / (6 + 9).
+TEST(PairedNoise, SmoothedByHand)
+{
+    PairedNoise noise;
+    noise.share = {0.2, 0.5, 0.9};
+    noise.covariance = {0.010, 0.005, 0.001, 0.005, 0.010, -0.001, 0.001, -0.001, 0.0025};
+    noise.groups = 7;
+    const double weight = 6.0 / 15;
+    // v / (y (1 - y)) of each, and of all: 0.0225 / (0.16 + 0.25 + 0.09); correlations 0.5, 0.2, -0.2: mean 1/6
+    const double ratio[] = {weight * 0.010 / 0.16 + (1 - weight) * 0.045, weight * 0.010 / 0.25 + (1 - weight) * 0.045,
+                            weight * 0.0025 / 0.09 + (1 - weight) * 0.045};
+    const double mean[] = {0.3, 0.5, 0.8}, found[3][3] = {{1, 0.5, 0.2}, {0.5, 1, -0.2}, {0.2, -0.2, 1}};
+    const PairedNoise smooth = smoothed_noise(noise, {0.3, 0.5, 0.8});
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const auto sd = [&](std::size_t k) { return std::sqrt(ratio[k] * mean[k] * (1 - mean[k])); };
+            const double correlation = i == j ? 1 : weight * found[i][j] + (1 - weight) / 6;
+            EXPECT_NEAR(smooth.covariance[3 * i + j], sd(i) * sd(j) * correlation, 1e-12) << i << j;
+        }
+}
+
+/// On the scale of ln(p / (1 - p)): of 0.2 -+ 0.05 with the quantile q from odds of 1/4 to exp(-+ q 0.05 / 0.16) of
+/// them.
+TEST(PairedNoise, LimitsOfMeansByHand)
+{
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const auto expect = [](const MeanLimits& found, double q_sd) {
+        const double reach = std::exp(q_sd / 0.16);
+        EXPECT_NEAR(found.lower, 0.25 / reach / (1 + 0.25 / reach), 1e-7);
+        EXPECT_NEAR(found.upper, 0.25 * reach / (1 + 0.25 * reach), 1e-7);
+    };
+    expect(mean_limits(0.2, 0.05, 1, none, 20, 0.95), 1.9599640 * 0.05);
+    expect(mean_limits(0.2, 0.05, 1, 9, 20, 0.95), 2.2621572 * 0.05); // Student's of nine degrees of freedom
+    // of few degrees half a group is added to the variance, 0.5 / 20^2
+    expect(mean_limits(0.2, 0.05, 1, 6, 20, 0.95), 1.9599640 * std::sqrt(0.0025 + 0.5 / 400));
+    EXPECT_EQ(mean_limits(0.02, 0.05, 1, none, 20, 0.95).lower, 0);
+    EXPECT_EQ(mean_limits(0.98, 0.05, 1, none, 20, 0.95).upper, 1);
+}
+
+/// The expected improvement of a place is the mean of max(0, p(best point) - p(place)) by quadrature.
+TEST(ResponseSurface, NextPlaceHasTheLargestExpectedImprovement)
+{
+    const std::vector<SearchPlace> points = {{0}, {0.5}, {1}};
+    PairedNoise noise = known_noise({0.4, 0.3, 0.35}, std::vector<double>(9));
+    for (std::size_t i = 0; i < 3; ++i)
+        noise.covariance[i * 4] = 4e-4;
+    const ResponseSurface surface(points, noise);
+    const std::vector<SearchPlace> candidates = {{0.25}, {0.5}, {0.6}, {0.75}, {0.9}};
+    double most = 0, at = 0;
+    for (const SearchPlace& place : candidates) {
+        if (place == points[1])
+            continue;
+        const ResponseSurface::Value d = surface.difference(place, points[1]);
+        double improvement = 0;
+        for (int i = -8000; i < 8000; ++i) {
+            const double z = (i + 0.5) / 1000;
+            improvement += std::max(0.0, -(d.mean + z * d.sd)) * std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / 1000;
+        }
+        if (improvement > most) {
+            most = improvement;
+            at = place[0];
+        }
+    }
+    const NextPlace next = next_place(surface, candidates);
+    EXPECT_EQ(next.place[0], at);
+    EXPECT_NEAR(next.improvement / most, 1, 1e-5);
+}
+
+/// From the joint draws over the candidates, of which there are few enough that all take part.
+TEST(ResponseSurface, AnswerIsThatOfTheDraws)
+{
+    const std::vector<SearchPlace> points = {{0}, {0.5}, {1}};
+    PairedNoise noise = known_noise({0.4, 0.3, 0.35}, std::vector<double>(9));
+    for (std::size_t i = 0; i < 3; ++i)
+        noise.covariance[i * 4] = 4e-4;
+    const ResponseSurface surface(points, noise);
+    const std::vector<SearchPlace> candidates = {{0.3}, {0.5}, {0.6}, {0.7}, {0.8}, {1}};
+    const SearchAnswer answer = search_answer(surface, candidates, 0.9);
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        best = surface.at(candidates[i]).mean < surface.at(candidates[best]).mean ? i : best;
+    ASSERT_EQ(answer.best, candidates[best]);
+    std::vector<double> excess, of_draws;
+    for (const SearchPlace& place : candidates) {
+        const ResponseSurface::Value d = surface.difference(place, candidates[best]);
+        excess.push_back(place == candidates[best] ? 0 : d.mean / d.sd);
+        ASSERT_LT(excess.back(), 4);
+    }
+    double regret = 0;
+    for (const std::vector<double>& draw : surface.draws(candidates, 1000, 1)) {
+        const auto least = static_cast<std::size_t>(std::min_element(draw.begin(), draw.end()) - draw.begin());
+        of_draws.push_back(excess[least]);
+        regret += (draw[best] - draw[least]) / 1000;
+    }
+    std::sort(of_draws.begin(), of_draws.end());
+    const double critical = std::min(of_draws[899], 1.6448536); // the smallest that holds 900 of 1000
+    EXPECT_NEAR(answer.critical, critical, 1e-6);
+    std::vector<SearchPlace> flat;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (excess[i] <= critical)
+            flat.push_back(candidates[i]);
+    EXPECT_EQ(answer.flat, flat);
+    const ResponseSurface::Value at = surface.at(candidates[best]);
+    const MeanLimits limits =
+        mean_limits(at.mean, at.sd, 1, std::numeric_limits<double>::infinity(), noise.groups, 0.9);
+    EXPECT_NEAR(answer.lower, limits.lower, 1e-12);
+    EXPECT_NEAR(answer.upper, limits.upper + regret, 1e-12);
+    EXPECT_GT(regret, 1e-3);
+    // half of the mean spacing of the candidates, 0.7 / 5 / 2, on each side
+    EXPECT_NEAR(answer.from[0], std::max(0.0, flat.front()[0] - 0.07), 1e-12);
+    EXPECT_NEAR(answer.to[0], std::min(1.0, flat.back()[0] + 0.07), 1e-12);
 }
 
 /// Against exact limits (Clopper & Pearson) of counts of 300: 5 % of 0.05 to 0.95, which those of a normal

@@ -38,6 +38,36 @@ TEST(SobolIndices, SharesAreCutToWhatIsPossible)
         EXPECT_TRUE(std::isnan(e.value) && std::isnan(e.lower) && std::isnan(e.upper));
 }
 
+/// Eight rows of two factors, two draws of the rest: y = 3 x1 + (1 + w) x2. The numbers are from exact fractions, with
+/// <y z> as the mean of y_i z_j over i != j, written out from the formulas of sobol_indices.hpp outside of this
+/// program.
+TEST(SobolIndices, OfASmallDesignByHand)
+{
+    const DesignValues design{8, 2, 2, {18, 15, 6,  4,  9, 6, 15, 13, 15, 11, 15, 11, 15, 11, 15, 11, //
+                                        9,  7,  3,  3,  9, 7, 3,  3,  9,  7,  0,  0,  6,  4,  3,  3,  //
+                                        9,  9,  12, 15, 6, 6, 15, 18, 6,  12, 11, 15, 12, 18, 5,  9,  //
+                                        0,  0,  9,  9,  9, 9, 0,  0,  7,  9,  6,  6,  7,  9,  6,  6}};
+    const SobolIndices found = sobol_indices(design, {.resamples = 9});
+    EXPECT_NEAR(found.mean.value, 8.375, 1e-12);
+    EXPECT_NEAR(found.explained.value, 0.8519315228107914, 1e-12);        // the bias Var(m) = 1.54 of m^2 is removed
+    EXPECT_NEAR(found.of_mean[0].first.value, 0.5872836230486206, 1e-12); // 0.577 without the control variate
+    EXPECT_NEAR(found.of_mean[0].total.value, 0.6362966859547606, 1e-12);
+    EXPECT_NEAR(found.of_mean[1].first.value, 0.574937634951757, 1e-12);
+    EXPECT_NEAR(found.of_mean[1].total.value, 0.33582325092056814, 1e-12);
+    ASSERT_EQ(found.of_value.size(), 3U);
+    EXPECT_NEAR(found.of_value[0].first.value, 0.3973652478617941, 1e-12);
+    EXPECT_NEAR(found.of_value[0].total.value, 0.5420812046248992, 1e-12);
+    EXPECT_NEAR(found.of_value[1].first.value, 0.6624897584422146, 1e-12);
+    EXPECT_NEAR(found.of_value[1].total.value, 0.31872367123778794, 1e-12);
+    EXPECT_NEAR(found.of_value[2].first.value, 0.11544321950345075, 1e-12);
+    EXPECT_NEAR(found.of_value[2].total.value, 0.14806847718920857, 1e-12);
+    // of the mean the jackknife is its standard error: the rows' halves of A and B are 10.75, 13, 5.5, 4, 11.25,
+    // 11, 4.5 and 7, with the sum 67 and squares about the mean of 86.5; Student's quantile of seven degrees
+    // is 2.364624
+    EXPECT_NEAR(found.mean.upper - found.mean.value, 2.364624 * std::sqrt(86.5 / 7 / 8), 1e-5);
+    EXPECT_NEAR(found.mean.value - found.mean.lower, 2.364624 * std::sqrt(86.5 / 7 / 8), 1e-5);
+}
+
 /// How often intervals hold the truth, one count for each index: first indices, then total ones.
 struct Coverage {
     std::vector<int> held;
@@ -227,6 +257,21 @@ TEST(SobolIndices, RefusesWhatIsNoDesign)
     EXPECT_THROW(sobol_indices({10, 2, 1, std::vector<double>(39)}, {}), std::invalid_argument);
     EXPECT_THROW(elementary_effects({10, 2, 1, std::vector<double>(30)}, std::vector<double>(19), {}),
                  std::invalid_argument);
+}
+
+/// Effects (2, 4) and (-2, 0) of two rows with two draws of the rest: means 3 and -1; products of the two draws 8 and
+/// 0.
+TEST(ElementaryEffects, OfTwoRowsByHand)
+{
+    const ElementaryEffects found =
+        elementary_effects({2, 1, 2, {1, 3, 2, 5, 2, 2, 1, 2}}, {1, 1}, {.resamples = 50})[0];
+    EXPECT_NEAR(found.mu.value, 1, 1e-12);
+    EXPECT_NEAR(found.mu_star.value, 2, 1e-12);
+    EXPECT_NEAR(found.rms.value, 2, 1e-12);
+    EXPECT_NEAR(found.sigma.value, std::sqrt(6.0), 1e-12); // (4 - 1) 2 / (2 - 1)
+    // against the factor's direction in the second row
+    EXPECT_NEAR(elementary_effects({2, 1, 2, {1, 3, 2, 5, 2, 2, 1, 2}}, {1, -1}, {.resamples = 50})[0].mu.value, 2,
+                1e-12);
 }
 
 /// y = 3 u_1 + 2 u_2^2 + noise, u_3 without effect: e = 3; 2 (2 u + 1/2) of u < 1/2, so mu = 2, sigma^2 = 1/3 and rms^2

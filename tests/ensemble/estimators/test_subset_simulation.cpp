@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace stylobate;
 
@@ -99,6 +101,62 @@ TEST(SubsetSimulationStatistics, IntervalOfRepeatsByHand)
     const Estimate zero = mean_of_repeats({0, 1e-4, 1e-4, 1e-4, 1e-4}, 0.95);
     EXPECT_NEAR(zero.value, 0.8e-4, 1e-12);
     EXPECT_TRUE(std::isnan(zero.lower) && std::isnan(zero.upper));
+}
+
+/// Repeats of mean 2e-4 and variance 0.5e-8 (1 - p are 0.9998): n p (1 - p) / s^2 = 5 x 2e-4 x 0.9998 / 0.5e-8.
+TEST(SubsetSimulation, PlainCostByHand)
+{
+    EXPECT_NEAR(plain_sampling_cost({1e-4, 2e-4, 3e-4, 2e-4, 2e-4}), 199960, 1e-6);
+}
+
+/// The shares of the levels are counted anew from the responses alone, in the order in which they were asked for.
+TEST(SubsetSimulation, ProbabilityIsTheProductOfTheCountedShares)
+{
+    const RareTruth truth = rare_plane(1e-3, 3);
+    const Response response = truth.response();
+    std::vector<std::vector<double>> batches;
+    const Response recorded = [&](const std::vector<double>& points, std::uint64_t first) {
+        batches.push_back(response(points, first));
+        return batches.back();
+    };
+    constexpr std::size_t samples = 60, chains = 12, steps = 5;
+    const SubsetRun run = subset_simulation(
+        3, recorded, {.samples = samples, .level_probability = 0.2, .limit = truth.limit, .seed = 2}, 0);
+    std::vector<double> level = batches.front();
+    double product = 1;
+    std::size_t batch = 1;
+    for (std::size_t l = 0;; ++l) {
+        std::vector<double> sorted = level;
+        std::sort(sorted.rbegin(), sorted.rend());
+        const double next = sorted[chains]; // the greatest of those that do not go on
+        const bool last = next >= truth.limit;
+        std::vector<double> above;
+        double reached = 0;
+        for (const double g : level) {
+            reached += g >= truth.limit;
+            if (g > next)
+                above.push_back(g);
+        }
+        const double share = (last ? reached : static_cast<double>(above.size())) / samples;
+        ASSERT_LT(l, run.levels.size());
+        EXPECT_EQ(run.levels[l].probability, share) << l;
+        product *= share;
+        if (last) {
+            EXPECT_EQ(run.levels.size(), l + 1);
+            break;
+        }
+        std::vector<double> at;
+        for (std::size_t c = 0; c < chains; ++c)
+            at.push_back(above[c * above.size() / chains]);
+        level = at;
+        for (std::size_t step = 1; step < steps; ++step, ++batch) {
+            for (std::size_t c = 0; c < chains; ++c)
+                at[c] = batches[batch][c] > next ? batches[batch][c] : at[c];
+            level.insert(level.end(), at.begin(), at.end());
+        }
+    }
+    EXPECT_NEAR(run.probability / product, 1, 1e-12);
+    EXPECT_GE(run.levels.size(), 3U);
 }
 
 TEST(SubsetSimulationStatistics, IsTheSameHoweverABatchIsDone)

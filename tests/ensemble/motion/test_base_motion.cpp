@@ -390,5 +390,27 @@ TEST(BaseMotion, RecordIsOverAfterItsEnd)
         EXPECT_EQ(value, 0);
 }
 
+/// A block of 1 x 4 m: half the diagonal is sqrt(17) / 2 = 2.0615528 m, p = sqrt(3 x 9.81 / (4 R)) = 1.88915635 rad/s.
+TEST(TailAfterShaking, ByHand)
+{
+    Realization r;
+    r.blocks.resize(2);
+    r.blocks[0].fixed = true;
+    r.blocks[1].half_width_m = 0.5;
+    r.blocks[1].half_height_m = r.blocks[1].y_m = 2;
+    r.blocks[1].mass_kg = 1;
+    r.joints.resize(1);
+    r.joints[0].upper = 1;
+    EXPECT_NEAR(tail_after_shaking(r), 12 / 1.88915635, 1e-6);
+    EXPECT_NEAR(longest_tail(r), 240 / 1.88915635, 2e-5);
+    ExcitationSpec excitation;
+    excitation.kind = ExcitationKind::half_sine;
+    EXPECT_EQ(tail_s(excitation, r), tail_after_shaking(r));
+    excitation.tail_s = 3;
+    EXPECT_EQ(tail_s(excitation, r), 3);
+    excitation.kind = ExcitationKind::none;
+    EXPECT_EQ(tail_s(excitation, r), 0);
+}
+
 } // namespace
 } // namespace stylobate

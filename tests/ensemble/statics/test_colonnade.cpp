@@ -11,6 +11,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 using namespace stylobate;
 using namespace stylobate::model;
@@ -409,6 +410,37 @@ TEST(LimitStates, FollowAScript)
     EXPECT_EQ(o.unseated_block, 4);
     EXPECT_EQ(o.unseating_time_s, 320 * dt);
     EXPECT_EQ(o.total_collapse_time_s, 640 * dt);
+}
+
+/// The epistyle (0.15 x 0.06 m) lies on two columns (0.06 m wide), its middle 0.045 m from the left one's. Turned by 60
+/// degrees its bottom face reaches 0.075 cos 60 = 0.0375 m to either side of its middle, which has moved by its half
+/// height x sin 60; it has a seat while this middle is within 0.03 + 0.0375 m of the column's.
+TEST(LimitStates, ATurnedEpistyleReachesOverLess)
+{
+    const Realization r = paper(2);
+    const Block &left = r.blocks[1], &epistyle = r.blocks[4];
+    const double turn = std::numbers::pi / 3, reach = left.half_width_m + epistyle.half_width_m * std::cos(turn);
+    ASSERT_LT(turn, std::atan(epistyle.half_width_m / epistyle.half_height_m));
+    const double middle = epistyle.x_m - left.x_m + epistyle.half_height_m * std::sin(turn);
+    for (const double beyond : {-1e-6, 1e-6}) {
+        LimitStates limits(r, {}, 0, 1 << 20);
+        std::vector<BlockMotion> moved(r.blocks.size());
+        moved[4].theta_rad = turn;
+        moved[4].x_m = reach - middle + beyond;
+        moved[3].x_m = moved[4].x_m; // the right column goes with it
+        limits.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1), chunk_steps);
+        EXPECT_EQ(limits.unseated(), beyond > 0);
+        // turned with its seat it does not reach over less
+        LimitStates together(r, {}, 0, 1 << 20);
+        moved[1].theta_rad = turn;
+        moved[4].x_m = moved[4].y_m = 0;
+        const double along = face_offset(left, moved[1], epistyle, moved[4]);
+        moved[4].x_m = (left.half_width_m + epistyle.half_width_m - along + beyond) * std::cos(turn);
+        moved[4].y_m = (left.half_width_m + epistyle.half_width_m - along + beyond) * std::sin(turn);
+        moved[3].x_m = moved[4].x_m;
+        together.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1), chunk_steps);
+        EXPECT_EQ(together.unseated(), beyond > 0);
+    }
 }
 
 TEST(LimitStates, WhatHasTurnedAtTheEndHasFallen)

@@ -145,6 +145,34 @@ TEST(Pairing, AFragilityStudyIsGroupedByItsMotions)
     EXPECT_EQ(collapse.overall.counts, (PairedCounts{0, 12, 0, 60}));
 }
 
+/// Two motions of two pairs each that end alike: by how much pairs of one motion depend on each other is not known.
+TEST(Pairing, WithoutADiscordantPairOfGroupsTheUnpairedNumberIsNotKnown)
+{
+    const std::vector<PairedCounts> motions = {{1, 0, 0, 1}, {2, 0, 0, 0}};
+    const PlaceComparison grouped = compare_place(motions, {.groups = 2, .level = 0.95});
+    EXPECT_EQ(grouped.difference, 0);
+    EXPECT_TRUE(std::isnan(grouped.unpaired));
+    // one discordant pair, or pairs that are independent: known
+    EXPECT_GT(
+        compare_place(std::vector<PairedCounts>{{1, 1, 0, 0}, {2, 0, 0, 0}}, {.groups = 2, .level = 0.95}).unpaired, 0);
+    EXPECT_GT(compare_place(std::vector<PairedCounts>{{3, 0, 0, 1}}, {.level = 0.95}).unpaired, 0);
+}
+
+/// Cells of 10 and 90 pairs have equal weights: the mean of two shares has the variance of 2^2 / (1/10 + 1/90) = 36
+/// trials. The limits are the quantiles of Beta(18.5, 18.5) by the continued fraction of the incomplete beta function.
+TEST(Pairing, TheMeanOfCellsHasTheIntervalOfItsVariance)
+{
+    const std::vector<PairedCounts> cells = {{5, 0, 0, 5}, {40, 5, 5, 40}};
+    const PlaceComparison overall = compare_overall(cells, {.cells = 2, .level = 0.95});
+    for (const Share& share : {overall.base, overall.variant}) {
+        EXPECT_NEAR(share.probability, 0.5, 1e-15);
+        EXPECT_NEAR(share.lower, 0.34198404, 1e-7);
+        EXPECT_NEAR(share.upper, 0.65801596, 1e-7);
+        EXPECT_EQ(share.trials, 100U);
+        EXPECT_EQ(share.count, 50U);
+    }
+}
+
 /// The residual of what still moves is not known: such pairs are left out of its limit states, and counted.
 TEST(Pairing, CountsWhatStillMoves)
 {

@@ -9,6 +9,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/experiment/motions.hpp"
 #include "studies/kinds/fragility/damage.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <gtest/gtest.h>
 
@@ -245,6 +246,63 @@ TEST(FragilityStudy, ShakingsFollowOneAnother)
     }
     const Loaded l(study);
     EXPECT_EQ(l.of(3, 2, 0).motion->acceleration_m_s2, sequences.motions[3]->acceleration_m_s2);
+}
+
+/// Nine motions at two stripes, four structures each, two shakings. Of motion m and stripe s k1 have fallen by the end
+/// of the first one and k2 by that of the second: shares of 36 without a motion left out, of 32 with one.
+TEST(FragilityStudy, SharesOfASequenceByHand)
+{
+    const Study study = small({"fragility.shakings=2", "fragility.pause_s=2", "study.realizations=4",
+                               "fragility.contacts=1", "fragility.twins=1", "fragility.intensity.count=2"});
+    ResultHeader header;
+    header.motions = motion_table(load_motions(study));
+    const double k1[9][2] = {{0, 1}, {1, 2}, {0, 0}, {0, 3}, {2, 2}, {1, 1}, {0, 2}, {0, 0}, {1, 4}},
+                 k2[9][2] = {{1, 3}, {1, 3}, {0, 2}, {1, 4}, {3, 4}, {2, 2}, {0, 3}, {1, 1}, {2, 4}};
+    std::vector<FragilityOutcome> rows;
+    for (std::uint64_t i = 0; i < study.total(); ++i) {
+        const std::uint64_t motion = i / 8, stripe = i / 4 % 2;
+        const auto structure = static_cast<double>(i % 4);
+        FragilityOutcome row{i, study.cell(i), 1, {}};
+        ASSERT_EQ(row.cell, 2 * motion + stripe);
+        if (structure < k2[motion][stripe]) {
+            row.outcome.state = State::collapsed;
+            row.outcome.collapse_time_s = structure < k1[motion][stripe] ? 0.1 : 1e3;
+        } else
+            row.outcome.state = State::stood;
+        rows.push_back(row);
+    }
+    const Fragility found = fragility_of(study, header, rows);
+    ASSERT_EQ(found.different, 9U);
+    const auto shares = [&](std::size_t without) {
+        double fallen = 0, fresh = 0;
+        for (std::size_t s = 0; s < 2; ++s) {
+            double n = 0, by_1 = 0, by_2 = 0;
+            for (std::size_t m = 0; m < 9; ++m)
+                if (m != without) {
+                    n += 4;
+                    by_1 += k1[m][s];
+                    by_2 += k2[m][s];
+                }
+            fallen += by_2 / n / 2;
+            fresh += (1 - (1 - by_1 / n) * (1 - by_1 / n)) / 2;
+        }
+        return std::pair(fallen, fresh);
+    };
+    const auto [fallen, fresh] = shares(9);
+    double sum = 0, square = 0;
+    for (std::size_t m = 0; m < 9; ++m) {
+        const auto [f, g] = shares(m);
+        sum += f - g;
+        square += (f - g) * (f - g);
+    }
+    // Student's quantile of eight degrees of freedom
+    const double reach = 2.306004135 * std::sqrt(8.0 / 9 * (square - sum * sum / 9));
+    ASSERT_EQ(found.sequence.size(), 2U);
+    EXPECT_NEAR(found.sequence[1].fallen, fallen, 1e-12);
+    EXPECT_NEAR(found.sequence[1].fresh, fresh, 1e-12);
+    EXPECT_NEAR(found.sequence[1].beyond.lower, fallen - fresh - reach, 1e-8);
+    EXPECT_NEAR(found.sequence[1].beyond.upper, fallen - fresh + reach, 1e-8);
+    EXPECT_EQ(found.sequence[0].beyond.upper, 0);
 }
 
 TEST(FragilityStudy, ACollapseCountsForItsShaking)

@@ -2,6 +2,7 @@
 
 #include "studies/app/console.hpp"
 #include "studies/experiment/limit_state.hpp"
+#include "studies/kinds/adaptive/adaptive_kind.hpp"
 #include "studies/kinds/surface/surface.hpp"
 #include "studies/results/fall_order.hpp"
 #include "tests/program/program.hpp"
@@ -161,6 +162,25 @@ TEST(LimitState, RunsUnderOneMotionAreNotIndependent)
     EXPECT_EQ(few.share(LimitState::collapse).probability, 0.3);
     EXPECT_TRUE(std::isnan(few.share(LimitState::collapse).lower));
     EXPECT_EQ(few.interval(), "none");
+}
+
+/// Cells of 3 of 10 and of none: the mean of 0.3 and 1/2. Their posteriors have the variances p (1 - p) / (n + 2) with
+/// p = 3.5 / 11 and 1/2.
+TEST(LimitState, MeanOfAnAdaptiveSurfaceByHand)
+{
+    SurfaceTable table;
+    table.trials = {10, 0};
+    table.collapses = {3, 0};
+    table.probability = {0.3, std::nan("")};
+    const SurfaceMean mean = mean_of(table);
+    EXPECT_NEAR(mean.value, 0.4, 1e-15);
+    EXPECT_NEAR(mean.error, std::sqrt(3.5 / 11 * 7.5 / 11 / 12 + 0.25 / 2) / 2, 1e-15);
+    Progress progress;
+    set_share(progress, {0.4, 0.1});
+    EXPECT_NEAR(progress.share_lower, 0.4 - 0.196, 1e-15);
+    EXPECT_NEAR(progress.share_upper, 0.4 + 0.196, 1e-15);
+    set_share(progress, {0.1, 0.1});
+    EXPECT_EQ(progress.share_lower, 0);
 }
 
 /// Where nothing has fallen yet the share is not known to be 0.

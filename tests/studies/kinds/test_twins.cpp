@@ -8,6 +8,7 @@
 #include "ensemble/replicas/twins.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
+#include "studies/kinds/replicas/twins.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
 #include <gtest/gtest.h>
@@ -409,6 +410,64 @@ TEST(Discordance, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
         EXPECT_LE(missed, 55) << truth;
         EXPECT_GE(missed, 12) << truth;
     }
+}
+
+/// Two cells pair by pair: what a pair adds is its own discordance less the ratio times the share of all pairs of its
+/// cell that differ from either of its members.
+TEST(Discordance, IntervalOfTheRatioByHand)
+{
+    const std::vector<PairCounts> cells = {{.neither = 4, .original = 1, .twin = 2, .both = 3},
+                                           {.neither = 2, .original = 2, .twin = 1, .both = 3}};
+    const DiscordanceRatio found = discordance_ratio(cells);
+    // 47 of 90 comparisons of different pairs differ in the first cell (as above), 5 x 4 + 3 x 4 - 3 of 56 in the
+    // second
+    const double independent = 10 * 47.0 / 90 + 8 * 29.0 / 56, ratio = 6 / independent;
+    EXPECT_NEAR(found.ratio, ratio, 1e-12);
+    EXPECT_NEAR(found.all.independent, independent / 18, 1e-12);
+    double variance = 0;
+    for (const PairCounts& c : cells) {
+        std::vector<std::pair<int, int>> pairs;
+        pairs.insert(pairs.end(), c.neither, {0, 0});
+        pairs.insert(pairs.end(), c.original, {1, 0});
+        pairs.insert(pairs.end(), c.twin, {0, 1});
+        pairs.insert(pairs.end(), c.both, {1, 1});
+        const auto n = static_cast<double>(pairs.size());
+        double sum = 0, squares = 0;
+        for (const auto& [a, b] : pairs) {
+            double differ = 0;
+            for (const auto& [other_a, other_b] : pairs)
+                differ += (a != other_b) + (other_a != b);
+            const double adds = (a != b) - ratio * differ / n;
+            sum += adds;
+            squares += adds * adds;
+        }
+        variance += (squares - sum * sum / n) * n / (n - 1);
+    }
+    const double half = 1.959963984540054 * std::sqrt(variance) / independent;
+    EXPECT_NEAR(found.upper, ratio + half, 1e-12);
+    EXPECT_NEAR(found.lower, ratio - half, 1e-12);
+    EXPECT_GT(found.lower, 0);
+}
+
+/// Twins moved by 1e-9 and 1e-6 m: of three originals both kinds came apart, 2, 3 and 4 s later after the smaller move.
+TEST(Growth, GainOfASmallerMoveByHand)
+{
+    const Study study = twins_study({"twins.moves_m=[1e-9, 1e-6]"});
+    const double late[] = {5, 7, 9}, early[] = {3, 4, 5};
+    std::vector<FollowedTwin> pairs;
+    for (std::uint64_t i = 0; i < 3; ++i) {
+        pairs.push_back({i, 0, 1e-9, 2.0 + static_cast<double>(i), late[i], 10, 10});
+        pairs.push_back({i, 1, 1e-6, 3, early[i], 10, 10});
+    }
+    const Twins found = twins_of(study, {}, {}, pairs);
+    ASSERT_EQ(found.growth.size(), 2U);
+    EXPECT_EQ(found.growth[0].pairs_lost, 3U);
+    EXPECT_NEAR(found.growth[0].gained_s.value, 3, 1e-12);
+    EXPECT_NEAR(found.growth[0].gained_s.upper - 3, 4.302653 / std::sqrt(3.0), 1e-5); // as of 1, 2, 3 below
+    EXPECT_NEAR(found.growth[0].gained_exponent_per_s, std::log(1000) / 3, 1e-12);
+    EXPECT_TRUE(std::isnan(found.growth[1].gained_exponent_per_s));
+    EXPECT_NEAR(found.growth[0].exponent_per_s[0].value, 3, 1e-12);
+    EXPECT_EQ(found.growth[0].all_horizons_s.value, 7);
 }
 
 TEST(Discordance, WhereNoPairIsDiscordantTheRatioHasAnUpperLimit)
