@@ -8,6 +8,7 @@
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/decisions/search/search_objective.hpp"
+#include "tests/studies/decisions/interval_equations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -197,6 +198,132 @@ TEST(Pairing, CountsWhatStillMoves)
               std::string::npos)
         << comparison_text(comparison);
     EXPECT_NE(comparison_json(comparison).text().find("\"unknown_pairs\": 7"), std::string::npos);
+}
+
+void expect_jeffreys(const Share& share, double k, double n)
+{
+    const auto [lower, upper] = jeffreys_limits(k, n, 0.95);
+    EXPECT_NEAR(share.lower, lower, 1e-9);
+    EXPECT_NEAR(share.upper, upper, 1e-9);
+}
+
+/// Half the width of Newcombe's interval (1998, method 10) of two independent shares of n trials.
+double newcombe_half(double p, double q, double n)
+{
+    constexpr double z = 1.959964;
+    const auto wilson = [&](double share, double sign) {
+        return (share + z * z / (2 * n) + sign * z * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n))) /
+               (1 + z * z / n);
+    };
+    return (std::hypot(q - wilson(q, -1), wilson(p, 1) - p) + std::hypot(wilson(q, 1) - q, p - wilson(p, -1))) / 2;
+}
+
+/// Cells of 10 and of 40 pairs have equal weights: their mean share has the variance of 4 / (1/10 + 1/40) = 32 trials
+/// of one cell.
+TEST(Pairing, OverallEachCellHasTheSameWeight)
+{
+    const std::vector<PairedCounts> cells = {{2, 3, 1, 4}, {6, 2, 10, 22}};
+    const PlaceComparison all = compare_overall(cells, {.cells = 2, .per_cell = 40});
+    EXPECT_NEAR(all.base.probability, (0.5 + 0.2) / 2, 1e-15);
+    EXPECT_NEAR(all.variant.probability, (0.3 + 0.4) / 2, 1e-15);
+    expect_jeffreys(all.base, 11, 32); // 0.35 x 32 = 11.2
+    expect_jeffreys(all.variant, 11, 32);
+    EXPECT_NEAR(all.difference, (-0.2 + 0.2) / 2, 1e-15);
+    EXPECT_EQ(all.counts, (PairedCounts{8, 5, 11, 26}));
+    // cell by cell
+    const PlaceComparison one = compare_place(std::span(cells).first(1), {.cells = 2, .per_cell = 40});
+    expect_jeffreys(one.base, 5, 10);
+    expect_jeffreys(one.variant, 3, 10);
+    EXPECT_NEAR(one.p, 2 * 5 / 16.0, 1e-14) << "McNemar's: at most 1 of 4";
+    // so many realizations of each of two independent studies would have as wide an interval
+    EXPECT_NEAR(newcombe_half(0.5, 0.3, one.unpaired), (one.upper - one.lower) / 2, 1e-6);
+}
+
+/// With a single look the interval is that of a fixed number of pairs, and p that of a normal z.
+TEST(Pairing, AtASingleLookLimitsAndPAreTheNormalOnes)
+{
+    const RepeatedLooks looks({50}, 0.95);
+    const PairLayout layout{.cells = 2, .per_cell = 50, .asked = {50, 50}, .looks = &looks};
+    const std::vector<PairedCounts> cells = {{10, 1, 6, 33}, {20, 4, 12, 14}};
+    const PlaceComparison place = compare_place(std::span(cells).first(1), layout);
+    const PlaceComparison fixed = compare_place(std::span(cells).first(1), {.cells = 2, .per_cell = 50});
+    EXPECT_NEAR(looks.quantile(), 1.959964, 1e-4) << "the integral over the increments is a sum";
+    EXPECT_NEAR(place.lower, fixed.lower, 1e-4);
+    EXPECT_NEAR(place.upper, fixed.upper, 1e-4);
+    EXPECT_NEAR(place.base.lower, fixed.base.lower, 1e-4);
+    EXPECT_NEAR(place.base.upper, fixed.base.upper, 1e-4);
+    EXPECT_NEAR(place.p, std::erfc(5 / std::sqrt(7.0) / std::sqrt(2.0)), 1e-4) << "|b - c| / sqrt(b + c)";
+    const PlaceComparison overall = compare_overall(cells, layout);
+    EXPECT_NEAR(overall.difference, (5 / 50.0 + 8 / 50.0) / 2, 1e-15);
+    // V, the variance of each cell's difference: (q - d^2) / (n - 1), over the square of two cells; Tango's interval of
+    // (Q - d^2) / V pairs
+    const double variance = ((0.14 - 0.01) / 49 + (0.32 - 0.0256) / 49) / 4, q = 0.23, d = 0.13;
+    const double n = (q - d * d) / variance, more = n * (q + d) / 2, less = n * (q - d) / 2;
+    EXPECT_NEAR(tango_score(more, less, n, overall.lower), 1.959964, 1e-3);
+    EXPECT_NEAR(tango_score(more, less, n, overall.upper), -1.959964, 1e-3);
+    EXPECT_NEAR(overall.p, std::erfc(d / (overall.upper - overall.lower) * 2 * 1.959964 / std::sqrt(2.0)), 1e-5);
+}
+
+/// Three of nine motions are reached by all of their runs: Clopper and Pearson's limits of 3 in 9 (record_share.hpp).
+TEST(Pairing, SidesOfAFragilityStudyHaveTheLimitsOfItsMotions)
+{
+    std::vector<PairedCounts> counts(18);
+    for (std::size_t g = 0; g < 9; ++g) {
+        counts[g] = {0, 0, 0, 4};
+        counts[9 + g] = g < 3 ? PairedCounts{0, 4, 0, 0} : PairedCounts{0, 0, 0, 4};
+    }
+    const PairLayout layout{.cells = 2, .groups = 9, .per_cell = 4};
+    const PlaceComparison place = compare_place(std::span(counts).subspan(9), layout);
+    EXPECT_NEAR(place.base.probability, 1.0 / 3, 1e-15);
+    EXPECT_NEAR(place.base.lower, quantile(boost::math::beta_distribution<double>(3, 7), 0.025), 2e-3);
+    EXPECT_NEAR(place.base.upper, quantile(boost::math::beta_distribution<double>(4, 6), 0.975), 2e-3);
+    // over both stripes each of the three has 4 of 8: sums by motion, not by stripe
+    const PlaceComparison overall = compare_overall(counts, layout);
+    EXPECT_NEAR(overall.difference, -1.0 / 6, 1e-15);
+    EXPECT_NEAR(overall.p, 0.25, 1e-14) << "2 of 2^3 patterns of signs";
+}
+
+/// A search for the least frequency: each motion's own frequency, over the power law 1e-3 a^-2.
+TEST(Pairing, AFrequencyThatIsSearchedIsTheMeanOfTheMotions)
+{
+    Sides s(fragility); // 9 motions x stripes at 1 and 2 x 4 structures
+    const PairLayout layout = pair_layout(s.study, {}, 0.95);
+    const SearchObjective objective({.hazard = "k0=1e-3,k=2,measure=pga_m_s2", .keys = {}}, "study.toml", s.study,
+                                    0.95);
+    for (std::uint64_t index = 0; index < 72; ++index) {
+        const std::uint64_t structure = index % 4, stripe = index / 4 % 2, motion = index / 8;
+        const std::uint64_t of_base = stripe == 0 ? (motion < 3 ? 2 : 0) : (motion < 6 ? 4 : 1);
+        s.base.add(row(index, structure < of_base ? State::collapsed : State::stood));
+        s.variant.add(row(index, stripe == 1 && structure < 2 ? State::collapsed : State::stood));
+    }
+    // P falls linearly in ln a to 0 at 1/2, is linear between 1 and 2 and constant beyond, by parts
+    const auto exceeded = [](double a) { return 1e-3 / (a * a); };
+    const auto piece = [&](double a, double from, double to) {
+        return from * exceeded(a) - to * exceeded(2 * a) +
+               (to - from) / std::log(2.0) / 2 * (exceeded(a) - exceeded(2 * a));
+    };
+    const auto frequency = [&](double at_1, double at_2) {
+        return piece(0.5, 0, at_1) + piece(1, at_1, at_2) + at_2 * exceeded(2);
+    };
+    const std::vector<double> own = {frequency(0.5, 1), frequency(0, 1), frequency(0, 0.25)}; // of three motions each
+    const double mean = (own[0] + own[1] + own[2]) / 3;
+    const PairedNoise noise = objective.noise({&s.base, &s.variant}, 0, layout);
+    ASSERT_EQ(noise.share.size(), 2U);
+    EXPECT_NEAR(noise.share[0], mean, 1e-15);
+    EXPECT_NEAR(noise.share[1], frequency(0, 0.5), 1e-15) << "no motion differs";
+    EXPECT_NEAR(noise.most, frequency(1, 1), 1e-12) << "a state that is always reached";
+    EXPECT_EQ(noise.groups, 9);
+    // the variance of a mean of nine, and that of half of 72 counts
+    double squares = 0;
+    for (const double y : own)
+        squares += 3 * (y - mean) * (y - mean);
+    const double half = 0.5 * std::pow(frequency(1, 1) / 72, 2);
+    EXPECT_NEAR(noise.half, half, 1e-6 * half);
+    EXPECT_NEAR(noise.covariance[0], squares / 8 / 9 + half, 1e-6 * noise.covariance[0]);
+    EXPECT_NEAR(noise.covariance[1], 0, 1e-9 * noise.covariance[0]);
+    EXPECT_NEAR(noise.covariance[3], half, 1e-6 * half);
+    EXPECT_NEAR(objective.frequency(s.base, 0, layout).frequency.value, mean, 1e-12);
+    EXPECT_NEAR(objective.change(s.base, s.variant, 0, layout).value, frequency(0, 0.5) - mean, 1e-12);
 }
 
 TEST(Pairing, FindsWhichDrawsAreCommon)
