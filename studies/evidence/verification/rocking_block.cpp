@@ -8,9 +8,10 @@ namespace {
 
 /// State after each step, from the start on, until `enough` says so.
 template <class Enough>
-void follow(const Realization& r, double limit_s, Enough enough)
+void follow(const Realization& r, double limit_s, Enough enough, const ContactSpec& contact = {})
 {
-    const Study study = model::still(limit_s + 1);
+    Study study = model::still(limit_s + 1);
+    study.contact = contact;
     LaneSet set(study, nullptr, kernels(Isa::scalar), r);
     set.load(0, r);
     for (int n = 0; n * r.step_s < limit_s; ++n) {
@@ -51,17 +52,20 @@ double upright_time(const Realization& r, const std::vector<int>& blocks)
     return time;
 }
 
-double impact_restitution(const Realization& r)
+double impact_restitution(const Realization& r, const ContactSpec& contact)
 {
     const Block& b = r.blocks[1];
     const double alpha = std::atan(b.half_width_m / b.half_height_m);
     double lowest = 0;
-    follow(r, 8 / rate_of(r, 1), [&](int, const Snapshot& state) {
-        const double now = state.theta_rad[1];
-        const bool turned = lowest < -1e-3 * alpha && now > lowest;
-        lowest = std::min(lowest, now);
-        return turned;
-    });
+    follow(
+        r, 8 / rate_of(r, 1),
+        [&](int, const Snapshot& state) {
+            const double now = state.theta_rad[1];
+            const bool turned = lowest < -1e-3 * alpha && now > lowest;
+            lowest = std::min(lowest, now);
+            return turned;
+        },
+        contact);
     const auto energy = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
     return std::sqrt(energy(-lowest) / energy(r.initial_tilt_rad));
 }

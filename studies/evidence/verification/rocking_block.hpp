@@ -16,6 +16,7 @@ Realization leaned_block(const model::Stone& stone, double K_n, double part, dou
 double upright_time(const Realization& leaned, const std::vector<int>& blocks = {1});
 
 /// e of the first impact: e2 is the ratio of the energies of the rigid block, leaned as at the peak after and before.
-double impact_restitution(const Realization& leaned);
+/// @param contact its form, and where its dashpots are
+double impact_restitution(const Realization& leaned, const ContactSpec& contact = {});
 
 } // namespace stylobate::verification

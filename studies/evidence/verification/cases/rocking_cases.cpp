@@ -1,5 +1,6 @@
 /// Free rocking of one block against Housner's rigid one.
 
+#include "io/tables/markdown.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/reference_runs.hpp"
@@ -57,6 +58,50 @@ Finding tall_block()
     return f;
 }
 
+/// Restitution of a rocking block in tests, as far as it could be confirmed.
+struct MeasuredRestitution {
+    const char* source;
+    const char* blocks;
+    double aspect = 0; ///< height over width; 0: no number is given
+    double ratio = 0;  ///< measured e over Housner's
+    const char* words = "";
+};
+
+const std::vector<MeasuredRestitution> measured_restitution{
+    {"[ElGawady]", "concrete base", 5, 0.95},
+    {"[ElGawady]", "concrete base", 3, 0.97},
+    {"[ElGawady]", "rubber base", 5, 0.67},
+    {"[Kalliontzis 2016]", "free rocking members, tests of several authors", 0, 0, "consistently above 1"},
+    {"[Ther 2016]", "rocking blocks", 0, 0, "above 1: tests lose less energy than Housner's block"},
+    {"[Vlachakis]", "36 limestone blocks of 12 aspect ratios", 0, 0, "no number in the abstract"},
+};
+
+/// The table of the tests, with the losses that follow from their numbers, and the sources.
+std::string measured_table()
+{
+    std::string table =
+        markdown_head("source (abstract) | blocks | height / width | measured e / Housner's e | energy lost "
+                      "per impact: Housner, measured");
+    for (const MeasuredRestitution& m : measured_restitution) {
+        const double e = 1 - 1.5 / (1 + m.aspect * m.aspect); // sin2 alpha = 1 / (1 + (H / B)2)
+        table += m.ratio > 0 ? markdown_row("{} | {} | {:g} | {:.2f} | {:.2f}, {:.2f}", m.source, m.blocks, m.aspect,
+                                            m.ratio, 1 - e * e, 1 - std::pow(m.ratio * e, 2))
+                             : markdown_row("{} | {} | | {} |", m.source, m.blocks, m.words);
+    }
+    return table +
+           "\nThe losses are computed here from e. Sizes of the blocks are not in the abstracts. [ElGawady]: M. "
+           "ElGawady, Q. Ma, J. Butterworth and J. Ingham, on the effects of interface material on the dynamic "
+           "behaviour of rigid blocks, doi 10.1201/9781003060888-45. [Kalliontzis 2016]: D. Kalliontzis, S. Sritharan "
+           "and A. Schultz, \"Improved coefficient of restitution estimation for free rocking members\", Journal of "
+           "Structural Engineering, issue 12 (2016) 06016002. [Ther 2016]: T. Ther and L. Kollár, \"Refinement of "
+           "Housner's model on rocking blocks\", Bulletin of Earthquake Engineering (accepted 2016). [Vlachakis]: G. "
+           "Vlachakis, C. Colombo and others, \"Energy loss mechanisms of rocking blocks: experimental observations\", "
+           "hal-04481879. The numbers of other tests (granite blocks by Peña and others 2007; Priestley and others "
+           "1978; Lipscombe and Pellegrino 1993; ElGawady and others 2011) could not be confirmed and are not used. "
+           "Aslam, Godden and Scalise (Journal of the Structural Division 106(2) (1980) 377) report that overturning "
+           "is sensitive to small changes of the restitution.";
+}
+
 Finding loss_at_impact()
 {
     // Not an agreement with Housner: the impulse of a flat face on a bed acts inside the edge, and the dashpot at the
@@ -64,17 +109,28 @@ Finding loss_at_impact()
     Finding f;
     const double housner = static_cast<double>(housner_restitution(rigid_block(0.048L, 0.174L).alpha));
     f.equals("Housner's e of MONO against its reference value", 0.893922652, housner, 1e-9);
+    double least = 1, most = 0; // of the energy lost
+    const auto lost = [&](double e) {
+        least = std::min(least, 1 - e * e);
+        most = std::max(most, 1 - e * e);
+        return e;
+    };
     for (const double K : {1e7, 1e8, 1e10}) {
         const Realization leaned = leaned_block(model::mono_stone, K, 0.5, 0.1, 0.4);
         f.equals(fmt::format("e of MONO from 0.5 alpha at K_N = {:g} N/m2, xi = 0.4, by the second solver", K),
-                 reference_restitution(leaned), impact_restitution(leaned), 1e-8);
+                 reference_restitution(leaned), lost(impact_restitution(leaned)), 1e-8);
     }
-    f.at_least("e of MONO at K_N = 1e12 N/m2, xi = 0.4: above Housner's by at least 0.05", housner + 0.05,
-               impact_restitution(leaned_block(model::mono_stone, 1e12, 0.5, 0.1, 0.4)));
-    f.remarks.push_back(fmt::format("Housner's {:.6f} is **not** reached, as expected: his impulse acts only at the "
-                                    "new corner, while here it is distributed over the face. Tests of real blocks "
-                                    "also lie above his value.",
-                                    housner));
+    const double stiffest = lost(impact_restitution(leaned_block(model::mono_stone, 1e12, 0.5, 0.1, 0.4)));
+    f.at_least("e of MONO at K_N = 1e12 N/m2, xi = 0.4: above Housner's by at least 0.05", housner + 0.05, stiffest);
+    f.remarks.push_back(fmt::format(
+        "Housner's {:.4f} is **not** reached: his impulse acts at the new corner alone, while here it is distributed "
+        "over the face, and a dashpot at the centroid does not damp rotation about it. An impact takes {:.3f} to "
+        "{:.3f} of the energy here, and {:.3f} of Housner's block. This is e / e of Housner = {:.2f} to {:.2f}. Tests "
+        "of rocking blocks lie on both sides of 1; where a number could be confirmed, it is below 1. The loss of this "
+        "contact law follows from its equations and is not fitted to stone. ImpactLoss gives the consequence for "
+        "collapse probabilities.",
+        housner, least, most, 1 - housner * housner, std::sqrt(1 - most) / housner, std::sqrt(1 - least) / housner));
+    f.remarks.push_back(measured_table());
     return f;
 }
 
