@@ -24,6 +24,7 @@
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/diagnosis/laws/track.hpp"
+#include "studies/experiment/conventions.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
@@ -175,8 +176,8 @@ void tell_outcomes(const std::string& file, bool all, Told& told)
                             motions.size(), fell, table.rows.size() - fell, text_of(table.findings, all));
 }
 
-/// The band over contact laws, or the command that measures it.
-void tell_laws(const std::string& file, const ResultHeader& header, Told& told)
+/// The conventions of the study, and the band over contact laws or the command that measures it.
+void tell_conventions_and_laws(const std::string& file, const ResultHeader& header, Told& told)
 {
     std::optional<Study> study;
     try {
@@ -184,6 +185,9 @@ void tell_laws(const std::string& file, const ResultHeader& header, Told& told)
     } catch (const InputError&) { // of another version: all else is known of it
         return;
     }
+    const std::string conventions = conventions_text(*study);
+    told.text += fmt::format("conventions: {}\n", conventions);
+    told.json.member("conventions", conventions);
     const std::optional<LawBand> band = law_band_beside(file, *study, header);
     told.text += band ? law_band_text(*band) : law_advice(*study) + "\n";
     if (band)
@@ -221,7 +225,7 @@ void tell_result(const std::string& file, Told& told)
         told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",
                                  header.shard.whole() ? "" : "--shard " + header.shard.text() + " ", file);
     if (!told.unfinished)
-        tell_laws(file, header, told);
+        tell_conventions_and_laws(file, header, told);
     add_lines("warning", "warnings", header.warnings, told);
 }
 
@@ -319,6 +323,9 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.json.member(key, is);
         told.text += fmt::format("  {}: {}\n", what, is);
     }
+    const std::string conventions = conventions_text(study);
+    told.json.member("conventions", conventions);
+    told.text += fmt::format("  Conventions: {}\n", conventions);
     std::vector<std::string> warnings, refusals;
     std::vector<Implausibility> found;
     try {

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/words.hpp"
+#include "studies/experiment/conventions.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 
@@ -38,6 +39,7 @@ void print_json(const CommonOptions& options, const RunReport& r)
         json.member("ranks", static_cast<std::uint64_t>(r.run.ranks->size()));
     if (!r.shard.whole())
         json.member("shard", r.shard.text()).member("shard_complete", r.complete);
+    json.member("conventions", conventions_text(r.study));
     if (r.kind.draws_plainly())
         json.member("limit_states", r.kind.limits_json());
     if (r.complete && r.shard.whole())
@@ -62,7 +64,7 @@ void print_text(const RunReport& r)
                    rate_text(p.rate));
     fmt::print("\n");
     if (r.complete && r.shard.whole()) {
-        fmt::print("{}", r.kind.text());
+        fmt::print("{}conventions: {}\n", r.kind.text(), conventions_text(r.study));
         if (r.laws_interrupted)
             fmt::print(
                 "Interrupted; the study is complete, its runs under other contact laws are not. The same command "
@@ -74,6 +76,7 @@ void print_text(const RunReport& r)
     if (!std::isnan(p.share)) // without those that have not ended because they take long
         fmt::print("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
                    100 * p.share_lower, 100 * p.share_upper);
+    fmt::print("conventions: {}\n", conventions_text(r.study));
     if (r.merged)
         fmt::print("Partial: `stylobate run STUDY.toml -o {}` computes the missing realizations.\n", r.results);
     else if (r.complete)

@@ -6,6 +6,7 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "studies/experiment/conventions.hpp"
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/results/cell_outcomes.hpp"
@@ -105,6 +106,7 @@ public:
         page_.section("Summary");
         if (!kind_.summary(writer_))
             summary();
+        page_.paragraph("Conventions: " + conventions_text(study_) + ".");
         std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
         laws.front() = static_cast<char>(std::toupper(laws.front()));
         page_.paragraph(laws);

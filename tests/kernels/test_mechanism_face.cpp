@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -184,16 +186,92 @@ TEST(RateDamping, AnImpactLosesWhatTheEquationSays)
     EXPECT_LT(-v / landing, 0.9); // it does lose something
 }
 
+/// The monolith on its bed with dashpots at the ends of the contact, as an ordinary differential equation: the part s
+/// of the face that lies in the base is pressed by K s (2 d_i + d_j) / 6 + C s / (2 B) v_i at each of its ends, with
+/// the depths d and the closing speeds v there, and never pulled. Runge and Kutta's method, steps of 2e-6 s.
+class RockerOnItsBed {
+public:
+    RockerOnItsBed(double K, double z, double lean) : K_(K), C_(2 * z * std::sqrt(K * B * m))
+    {
+        // on its corner, pressed in by its weight: K d2 / sin 2 lean
+        const double depth = std::sqrt(m * 9.81 * std::sin(2 * lean) / K);
+        state_ = {0, 0.5 * (B * std::sin(lean) + H * std::cos(lean)) - depth, lean, 0, 0, 0, 0};
+    }
+
+    double angle() const { return state_[2]; }
+
+    void step(double dt)
+    {
+        const State a = rate(state_), b = rate(sum(state_, a, dt / 2)), c = rate(sum(state_, b, dt / 2)),
+                    d = rate(sum(state_, c, dt));
+        for (std::size_t i = 0; i < a.size(); ++i)
+            state_[i] += dt / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    }
+
+private:
+    static constexpr double B = 0.048, H = 0.174, m = 0.813, I = m * (B * B + H * H) / 12;
+    using State = std::array<double, 7>; ///< x, y, angle, their rates, elongation of the tangential spring
+
+    static State sum(State s, const State& d, double dt)
+    {
+        for (std::size_t i = 0; i < s.size(); ++i)
+            s[i] += dt * d[i];
+        return s;
+    }
+
+    State rate(const State& s) const
+    {
+        State d{s[3], s[4], s[5], 0, -9.81, 0, 0};
+        const double sine = std::sin(s[2]), cosine = std::cos(s[2]);
+        double x[2], depth[2]; // of the lower corners against the centre, and under the base's surface
+        for (int i : {0, 1}) {
+            const double along = (i == 0 ? -0.5 : 0.5) * B;
+            x[i] = along * cosine + 0.5 * H * sine;
+            depth[i] = -(s[1] + along * sine - 0.5 * H * cosine);
+        }
+        if (depth[0] <= 0 && depth[1] <= 0)
+            return d;
+        for (int i : {0, 1}) // the face leaves the base between its corners
+            if (depth[i] < 0) {
+                x[i] = x[1 - i] + (x[i] - x[1 - i]) * depth[1 - i] / (depth[1 - i] - depth[i]);
+                depth[i] = 0;
+            }
+        const double part = x[1] - x[0];
+        double force = 0, moment = 0;
+        for (int i : {0, 1}) {
+            const double closing = -(s[4] + s[5] * x[i]);
+            const double F = std::max(0.0, K_ * part * (2 * depth[i] + depth[1 - i]) / 6 + C_ * part / B * closing / 2);
+            force += F;
+            moment += F * x[i];
+        }
+        const double sliding = s[3] + s[5] * s[1]; // of the face at the base's surface
+        const double shear = K_ * B * s[6] + C_ * part / B * sliding;
+        d[3] = -shear / m;
+        d[4] += force / m;
+        d[5] = (moment - shear * s[1]) / I;
+        d[6] = sliding;
+        return d;
+    }
+
+    double K_, C_;
+    State state_{};
+};
+
 TEST(FaceDamping, RestitutionOfTheRockingMonolith)
 {
-    // computed beforehand by another program: end-split dashpots, from half the slenderness, e of the first impact
-    const struct {
-        double z, e;
-    } values[] = {{0.1, 0.965}, {0.2, 0.944}, {0.3, 0.926}, {0.5, 0.912}};
-    for (const auto [z, e] : values) {
+    const double alpha = std::atan(0.048 / 0.174);
+    for (const double z : {0.1, 0.2, 0.3, 0.5}) {
+        RockerOnItsBed rocker(1e8, z, 0.5 * alpha);
+        double lowest = 0;
+        while (lowest > -1e-3 * alpha || rocker.angle() <= lowest) {
+            lowest = std::min(lowest, rocker.angle());
+            rocker.step(2e-6);
+        }
+        const auto energy = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
+        const double e = std::sqrt(energy(-lowest) / energy(0.5 * alpha));
         Realization r = verification::leaned_block(mono_stone, 1e8, 0.5, 0.05, z);
         r.joints[0].extension.face_damping = 1;
-        EXPECT_NEAR(verification::impact_restitution(r), e, 0.004) << z;
+        EXPECT_NEAR(verification::impact_restitution(r), e, 5e-4) << z;
     }
 }
 

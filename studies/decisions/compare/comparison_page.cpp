@@ -7,6 +7,7 @@
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"
 
@@ -92,6 +93,8 @@ private:
             names += (names.empty() ? "" : ", ") + variant.name;
         page_.paragraph(
             fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
+        if (const std::string conventions = conventions_text_of(c_.base_toml); !conventions.empty())
+            page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, conventions));
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
                 continue;

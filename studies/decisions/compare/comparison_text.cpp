@@ -1,6 +1,7 @@
 #include "studies/decisions/compare/comparison_text.hpp"
 
 #include "studies/decisions/compare/comparison_answer.hpp"
+#include "studies/experiment/conventions.hpp"
 
 #include <fmt/format.h>
 
@@ -231,6 +232,8 @@ std::string comparison_text(const Comparison& comparison)
 {
     std::string text = fmt::format("base {}; intervals at {:g} %. {}\n", comparison.base_name, 100 * comparison.level,
                                    common_text(comparison));
+    if (const std::string conventions = conventions_text_of(comparison.base_toml); !conventions.empty())
+        text += "conventions of the base: " + conventions + "\n";
     if (comparison.adaptive_budget > 0)
         text += fmt::format("adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
                             "smaller than {:g}; intervals are valid wherever a cell has stopped\n",
@@ -249,6 +252,7 @@ Json comparison_json(const Comparison& comparison)
     json.member("kind", comparison.kind)
         .member("base", comparison.base_name)
         .member("base_results", comparison.base_results)
+        .member("conventions", conventions_text_of(comparison.base_toml))
         .member("level", comparison.level)
         .member("common", common_text(comparison))
         .member("adjustment", comparison.adjustment)

@@ -1,5 +1,7 @@
 #include "studies/decisions/risk/risk_text.hpp"
 
+#include "studies/experiment/conventions.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -231,6 +233,8 @@ std::string risk_text(const Risk& risk)
     std::string text = fmt::format("{}: limit states of {} by the hazard {}, {:g} % intervals\n", risk.title,
                                    risk.fragility_file, hazard_text(risk.hazard), 100 * risk.level);
     text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
+    if (const std::string conventions = conventions_text_of(risk.study_text); !conventions.empty())
+        text += "conventions: " + conventions + "\n";
     text += table_text(risk) + parts_text(risk);
     for (const StateRisk* s : risk.chosen())
         text += fmt::format("{}: {}\n", s->state, form_text(risk, *s));
@@ -252,6 +256,7 @@ Json risk_json(const Risk& risk)
         .member("site", risk.hazard.site)
         .member("measure", risk.hazard.measure)
         .member("level", risk.level)
+        .member("conventions", conventions_text_of(risk.study_text))
         .member("states", states)
         .member("notes", Json::list(risk.says));
     if (risk.sequences)

@@ -26,20 +26,26 @@ Matrices assemble(const Realization& r, double gravity)
         const Joint& joint = r.joints[j];
         const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
         const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+        const double b = std::min(lower.half_width_m, upper.half_width_m);
+        double weight = 0;
+        for (std::size_t k = j; k < r.joints.size(); ++k)
+            weight += r.blocks[static_cast<std::size_t>(r.joints[k].upper)].mass_kg * gravity;
+        // forces act in the middle of the overlap at rest
+        const double half_overlap = 0.5 * weight / (joint.normal_stiffness_n_m2 * 2 * b);
+        const double h_l = lower.half_height_m - half_overlap, h_u = upper.half_height_m - half_overlap;
         // displacement of the upper face less that of the lower one, vertical at the abscissa x, or horizontal
         const auto relative = [&](bool vertical, double x) {
             Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
             const auto up = static_cast<Eigen::Index>(3 * (joint.upper - 1));
             v(up + (vertical ? 1 : 0)) = 1;
-            v(up + 2) = vertical ? x : upper.half_height_m;
+            v(up + 2) = vertical ? x : h_u;
             if (joint.lower > 0) {
                 const auto low = static_cast<Eigen::Index>(3 * (joint.lower - 1));
                 v(low + (vertical ? 1 : 0)) = -1;
-                v(low + 2) = vertical ? -x : lower.half_height_m;
+                v(low + 2) = vertical ? -x : h_l;
             }
             return v;
         };
-        const double b = std::min(lower.half_width_m, upper.half_width_m);
         for (const double side : {-1.0, 1.0}) {
             const Eigen::VectorXd gap = relative(true, side * b / std::sqrt(3.0));
             m.K += joint.normal_stiffness_n_m2 * b * gap * gap.transpose();
@@ -48,12 +54,20 @@ Matrices assemble(const Realization& r, double gravity)
         m.K += joint.tangential_stiffness_n_m * slide * slide.transpose();
         m.C += joint.normal_damping_n_s_m * open * open.transpose() +
                joint.tangential_damping_n_s_m * slide * slide.transpose();
-        double weight = 0;
-        for (std::size_t k = j; k < r.joints.size(); ++k)
-            weight += r.blocks[static_cast<std::size_t>(r.joints[k].upper)].mass_kg * gravity;
-        for (int block : {joint.lower, joint.upper})
-            if (block > 0)
-                m.K(3 * block - 1, 3 * block - 1) -= weight * r.blocks[static_cast<std::size_t>(block)].half_height_m;
+        // The weight N presses along the normal of the lower face. To second order the bed is then deeper by
+        // X theta_l + (h_l + h_u) theta_l2 / 2 - h_u (theta_u - theta_l)2 / 2, with X = x_u - x_l, and N does that
+        // work.
+        const Eigen::Index u = 3 * (joint.upper - 1), l = 3 * (joint.lower - 1);
+        m.K(u + 2, u + 2) -= weight * h_u;
+        if (joint.lower > 0) {
+            m.K(l + 2, l + 2) += weight * h_l; // h_l + h_u - h_u
+            m.K(u + 2, l + 2) += weight * h_u;
+            m.K(l + 2, u + 2) += weight * h_u;
+            for (const auto& [x, sign] : {std::pair{u, 1.0}, {l, -1.0}}) {
+                m.K(x, l + 2) += sign * weight;
+                m.K(l + 2, x) += sign * weight;
+            }
+        }
     }
     return m;
 }

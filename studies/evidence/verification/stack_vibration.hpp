@@ -11,8 +11,8 @@ namespace stylobate::verification {
 /// Undamped natural frequencies, ascending [Hz].
 ///
 /// Each bed is two springs at Gauss points of the face (exact for a gap that is linear along it) and one tangential
-/// spring at its middle. The weight N on a bed takes N h / 2 of energy for each of its two blocks that turns by 1 rad,
-/// h the half height, since their faces then lie lower than their centres.
+/// spring at its middle. The weight on a bed presses along the normal of the lower face, in the middle of the overlap
+/// at rest: with a shear of the bed it turns the lower block.
 /// @pre a stack of centred blocks on a fixed one, first to last
 std::vector<double> frequencies_hz(const Realization& realization);
 

@@ -1,4 +1,5 @@
-/// The safe step and the linear vibrations, against published digits and against a stack assembled another way.
+/// The safe step and the linear vibrations, against digits of studies/evidence/verification/reference_values.py
+/// (the weight as a dead load) and against a stack assembled another way.
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/step_bound.hpp"

@@ -128,7 +128,7 @@ Cases contact_cases()
 {
     return {
         {"StaticOverlap", subject, "Overlap of the drums of SPEC at rest, K_N = 1e8 N/m2.",
-         "W / (K_N B), seven digits.", "the digits.", static_overlap},
+         "W / (K_N B) by hand, seven digits.", "the digits.", static_overlap},
         {"Overlap", subject,
          "The contact force in one step of 20 000 random pairs: drums of unequal widths, eccentric, flat or on a "
          "corner, with an overlap of 1e-8 to 1e-5 m and a rotation of 1e-7 to 0.3 rad.",
