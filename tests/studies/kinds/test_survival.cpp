@@ -517,22 +517,5 @@ TEST(SurvivalStatistics, TheJointAnswerHoldsOnTwoHundredSimulatedSites)
     EXPECT_LE(static_cast<double>(wrong), 80 + 3.5 * 0.008 * 1600);
 }
 
-/// The interval of a product: the structures draw independently, so that the variances of their logarithms add up.
-TEST(Survival, TogetherTheVariancesOfTheStructuresAddUp)
-{
-    const Study study = made_study("");
-    const PastAxes axes{{1}, {3, 5}, 1};
-    const std::vector<CellCount> counts = {{1000, 500}, {1000, 250}};
-    const CombinedPast both = combined_past({{"a.h5", study, axes, counts}, {"b.h5", study, axes, counts}});
-    const PastEstimate ratio = both.together.front().top_ratio;
-    EXPECT_NEAR(ratio.value, 0.25, 0.002);
-    // of ln(p2 / p1): (1 - p2) / (n p2) + (1 - p1) / (n p1) = 0.003 + 0.001 of each structure; 1.96 deviations to both
-    // sides. 1000 draws know a limit to 0.09 deviations, 4 % of the width.
-    const double width = 2 * 1.96 * std::sqrt(2 * 0.004);
-    EXPECT_NEAR(std::log(ratio.upper / ratio.lower), width, 0.12 * width) << "0.41 more if both had the same draws";
-    const PastEstimate alone = both.alone[0].top_ratio;
-    EXPECT_NEAR(std::log(alone.upper / alone.lower), width / std::sqrt(2), 0.12 * width / std::sqrt(2));
-}
-
 } // namespace
 } // namespace stylobate
