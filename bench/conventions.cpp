@@ -106,7 +106,7 @@ int main(int argc, char** argv)
 {
     CLI::App app("What each convention of a study changes in one collapse probability");
     std::string file = "studies/inputs/small_scale_column.toml";
-    std::uint64_t draws = 4096;
+    std::uint64_t draws = 8192;
     double frequency_hz = 4, pga_m_s2 = 5;
     app.add_option("--study", file, "a surface under a harmonic")->capture_default_str();
     app.add_option("--draws", draws, "realizations of each row")->check(CLI::Range(64, 1000000));

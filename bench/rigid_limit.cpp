@@ -6,9 +6,12 @@
 ///                                                                     paired differences from the finest step
 ///   stylobate_rigid_limit --stiff ...                                 of much stiffer contacts, far slower
 ///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
+///   stylobate_rigid_limit --agreement PAGE                            what the first table of the page shows, for
+///                                                                     scripts/rigid_agreement.sh
 
 #include "bench/mean.hpp"
 #include "bench/processor.hpp"
+#include "bench/rigid_agreement.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/engine/executor.hpp"
 #include "io/tables/markdown.hpp"
@@ -18,6 +21,8 @@
 
 #include <cmath>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -120,10 +125,13 @@ int main(int argc, char** argv)
     int threads = 1;
     std::string only;
     std::optional<double> rate, stiffness, damping;
+    std::string page;
     bool steps = false, stiff = false, cost = false;
     app.add_flag("--steps", steps, "rigid blocks over the step alone");
     app.add_flag("--stiff", stiff, "two corners of much higher stiffness alone")->excludes("--steps");
     app.add_flag("--cost", cost, "realizations per second of processor time")->excludes("--steps")->excludes("--stiff");
+    app.add_option("--agreement", page, "what the first table of this page shows, nothing is run")
+        ->check(CLI::ExistingFile);
     app.add_option("--draws", draws, "realizations of each")->check(CLI::Range(8, 1000000));
     app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
     app.add_option("--cell", only, "one structure and shaking alone");
@@ -131,6 +139,11 @@ int main(int argc, char** argv)
     app.add_option("--stiffness", stiffness, "rows of one K_N alone [N/m2]");
     app.add_option("--damping-ratio", damping, "rows of one damping ratio alone");
     CLI11_PARSE(app, argc, argv);
+    if (!page.empty()) {
+        std::ifstream file(page);
+        fmt::print("{}", agreement_text({std::istreambuf_iterator<char>(file), {}}));
+        return 0;
+    }
     const Table table = cost ? Table::cost : steps ? Table::steps : stiff ? Table::stiff : Table::limit;
     std::vector<Cell> all = rocking_cells();
     if (steps)

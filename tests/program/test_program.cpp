@@ -4,6 +4,7 @@
 
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/experiment/conventions.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -137,6 +138,21 @@ TEST_F(Verbs, RunSaysWhatItDid)
     // the study inside is the one that was given, with its settings
     EXPECT_EQ(parse_study(reader.header().study_toml, "inside").text,
               read_study(column_study, eight_realizations).text);
+}
+
+/// The conventions of the study stand in every summary and on the page (the line itself: test_conventions).
+TEST_F(Verbs, SummariesHaveTheConventions)
+{
+    const std::string line = conventions_text(read_study(column_study, eight_realizations));
+    EXPECT_EQ(json_of(run_eight({"-o", "eight.h5", "--json"}))["conventions"].text, line);
+    EXPECT_NE(run_eight({"-o", "eight.h5"}).out.find("\nconventions: " + line + "\n"), std::string::npos);
+    EXPECT_NE(run(Words{"info", "eight.h5"}).out.find("\nconventions: " + line + "\n"), std::string::npos);
+    EXPECT_EQ(json_of(run(Words{"info", "eight.h5", "--json"}))["conventions"].text, line);
+    Words of_study = run_words(column_study, eight_realizations);
+    of_study.front() = "info";
+    EXPECT_NE(run(of_study).out.find("  Conventions: " + line + "\n"), std::string::npos);
+    ASSERT_EQ(run(Words{"report", "eight.h5", "-o", "eight.html"}).status, 0);
+    EXPECT_NE(read_bytes(folder / "eight.html").find("Conventions: " + line + "."), std::string::npos);
 }
 
 TEST_F(Verbs, RunNamesItsResultsAfterTheStudyAndSpeaksPlainWords)

@@ -1,5 +1,5 @@
 /// From a record to a motion and its measures, against closed forms, a Runge-Kutta solution, and the measures that
-/// were computed by another program for real records.
+/// NumPy gave for real records (`summary.csv` beside them, whose README.md states how each was computed).
 
 #include "ensemble/model/input_error.hpp"
 #include "io/motion/band_pass.hpp"

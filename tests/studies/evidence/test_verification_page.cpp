@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -143,6 +146,18 @@ TEST(RigidBlock, SmallMotionsAboutItsBalanceAreExponential)
     EXPECT_NEAR(static_cast<double>(quarter_period(block, 0.009L)), std::acosh(10.0) / 2, 1e-4);
     EXPECT_FALSE(respond(block, 0.99L, 3, 0.5L, 0).overturned);
     EXPECT_TRUE(respond(block, 50, 3, 0.5L, 0).overturned);
+}
+
+/// Section 8 of kernels/THEORY.md has the table of the case StiffnessEffect.
+TEST(StiffnessEffect, TheTheoryHasItsTableLong)
+{
+    std::ifstream file(std::string(STYLOBATE_SOURCE_DIR) + "/kernels/THEORY.md");
+    const std::string theory{std::istreambuf_iterator<char>(file), {}};
+    const Cases all = all_cases();
+    const std::vector<std::string> remarks =
+        std::ranges::find(all, std::string("StiffnessEffect"), &Case::name)->run().remarks;
+    ASSERT_FALSE(remarks.empty());
+    EXPECT_NE(theory.find(remarks.front()), std::string::npos) << remarks.front();
 }
 
 } // namespace

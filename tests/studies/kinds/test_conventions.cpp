@@ -9,7 +9,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,32 @@ TEST(Conventions, OfTheTextOfAStudy)
     const Study study = read_study(ready_studies + "small_scale_column.toml");
     EXPECT_EQ(conventions_text_of(study.text), conventions_text(study));
     EXPECT_EQ(conventions_text_of("[study]\nkind = \"of another time\"\n"), "");
+}
+
+/// Pages with a headline number have the line of its study below a mark "<!-- conventions of STUDY.toml -->":
+/// `stylobate info studies/inputs/STUDY.toml` prints it.
+TEST(Conventions, StandBesideTheNumbersOfThePages)
+{
+    const std::string mark = "<!-- conventions of ";
+    for (const auto& [page, least] : std::map<std::string, int>{{"README.md", 1},
+                                                                {"docs/check.md", 1},
+                                                                {"docs/decisions.md", 6},
+                                                                {"docs/fragility.md", 2},
+                                                                {"docs/past.md", 1},
+                                                                {"docs/risk.md", 1},
+                                                                {"docs/sensitivity.md", 2},
+                                                                {"docs/twins.md", 1}}) {
+        std::ifstream file(std::string(STYLOBATE_SOURCE_DIR) + "/" + page);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        int marks = 0;
+        for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+            const std::size_t from = at + mark.size(), to = text.find(" -->", from);
+            const std::string line = "*Conventions:* " + line_of(text.substr(from, to - from)) + ". [";
+            EXPECT_EQ(text.substr(to + 5, line.size()), line) << page;
+            ++marks;
+        }
+        EXPECT_GE(marks, least) << page;
+    }
 }
 
 /// Every ready study has a line with a contact and a shaking.
