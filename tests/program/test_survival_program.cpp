@@ -141,8 +141,8 @@ TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
 
 TEST_F(SurvivalProgram, AStateThatNoneReachesIsNotJudged)
 {
-    const std::vector<std::string> odd =
-        with(survival, {"survival.observed={joint_offset_m=[0.02,-0.02,0.02],tolerance_m=0.0001}"});
+    const std::vector<std::string> odd = with(
+        survival, {"survival.observed={joint_offset_m=[0.02,-0.02,0.02],tolerance_m=0.0001}", "survival.structure=2"});
     const Ended ended = run(words(odd, "odd.h5", "2"));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const JsonValue said = json_of(ended)["survival"];

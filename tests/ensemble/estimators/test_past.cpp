@@ -2,9 +2,7 @@
 /// intervals on simulated counts; simulated monuments of a process whose likelihood is known.
 
 #include "ensemble/estimators/past/exclusion.hpp"
-#include "ensemble/estimators/past/final_state.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
-#include "ensemble/estimators/past/mirror_image.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/past/ratio_thresholds.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
@@ -293,65 +291,6 @@ TEST(Past, ThePosteriorFindsThePastThatMadeTheState)
     EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
 }
 
-TEST(Past, AStateAgreesWithinItsTolerancesOrMirrored)
-{
-    MeasuredState measured{{0, 0.004, 0.007}, {0.002, 0.002, 0.001}, false};
-    EXPECT_TRUE(distance(measured, std::vector<double>{0.0019, 0.003, 0.0075}).agrees());
-    const StateDistance off = distance(measured, std::vector<double>{0, 0.004, 0.0095});
-    EXPECT_NEAR(off.value, 2.5, 1e-12);
-    EXPECT_EQ(off.worst, 2U);
-    EXPECT_FALSE(distance(measured, std::vector<double>{0, -0.004, -0.007}).agrees());
-    measured.mirrored = true;
-    EXPECT_TRUE(distance(measured, std::vector<double>{0, -0.004, -0.007}).agrees());
-    EXPECT_TRUE(distance(MeasuredState{}, {}).agrees()); // nothing was measured
-
-    // a nearest state is reported as it was compared
-    const StateDistance mirror = distance(measured, std::vector<double>{0, -0.004, -0.0085});
-    EXPECT_EQ(mirror.worst, 2U);
-    EXPECT_EQ(mirror.found, 0.0085);
-}
-
-/// Two columns, of the left of which the first joint was measured: the mirror image has that of the right one there.
-TEST(Past, InTheMirrorImageOfAColonnadeTheColumnsChangePlaces)
-{
-    MeasuredState measured{{0.004, 0}, {0.001, 0.001}, true, {2, 3}};
-    EXPECT_TRUE(distance(measured, std::vector<double>{0.004, 0, 0.1, 0.1}).agrees());
-    EXPECT_TRUE(distance(measured, std::vector<double>{0.1, 0.1, -0.004, 0}).agrees());
-    EXPECT_FALSE(distance(measured, std::vector<double>{-0.004, 0, 0.1, 0.1}).agrees());
-    EXPECT_FALSE(distance(measured, std::vector<double>{0.1, 0.1, 0.004, 0}).agrees());
-}
-
-TEST(Past, MirrorImage)
-{
-    StructureSpec s = equal_column(3, 1, 1, 0.8, 1, 2000);
-    s.columns[0].drums[1].offset_m = 0.01;
-    const std::optional<MirrorImage> alone = mirror_image(lay_out(s));
-    ASSERT_TRUE(alone);
-    EXPECT_EQ(alone->blocks, (std::vector<std::size_t>{0, 1, 2}));
-    EXPECT_EQ(alone->beds, (std::vector<std::size_t>{0, 1}));
-
-    s.kind = StructureKind::colonnade;
-    s.columns[0].x_m = -2;
-    s.columns.push_back(s.columns[0]);
-    s.columns[1].x_m = 2;
-    s.epistyles.push_back({0, 1, 0, 5, 0.5, 3000});
-    const std::optional<MirrorImage> two = mirror_image(lay_out(s));
-    ASSERT_TRUE(two);
-    EXPECT_EQ(two->blocks, (std::vector<std::size_t>{3, 4, 5, 0, 1, 2, 6}));
-    EXPECT_EQ(two->beds, (std::vector<std::size_t>{2, 3, 0, 1, 5, 4}));
-
-    // three columns at unequal distances, or one of other drums: another structure from behind
-    StructureSpec uneven = s;
-    uneven.epistyles.clear();
-    EXPECT_TRUE(mirror_image(lay_out(uneven)));
-    uneven.columns.push_back(s.columns[0]);
-    uneven.columns[2].x_m = 5;
-    EXPECT_FALSE(mirror_image(lay_out(uneven)));
-    uneven.columns.pop_back();
-    uneven.columns[1].drums[2].mass_kg *= 1.01;
-    EXPECT_FALSE(mirror_image(lay_out(uneven)));
-}
-
 TEST(PastStatistics, TheIntervalOfAnExclusionContainsTheTruth)
 {
     // counts of 48 in each cell of six frequencies by twelve intensities, 200 times
@@ -595,46 +534,6 @@ TEST(Past, AnAxisThatEndsBeforeTheLikelihoodFallsIsOpen)
     EXPECT_FALSE(e.open_below());
     EXPECT_TRUE(e.open_above());
     EXPECT_NEAR(e.highest_frequency.value, 1, 1e-12);
-}
-
-/// Independent structures: L_m = m L, and the sum is the binomial probability without its coefficient.
-TEST(Past, HowManyAlikeStructuresStandIsBinomialWhereTheyFallIndependently)
-{
-    const double x = 0.3, c = 1.7, stands = std::exp(-c * x);
-    EXPECT_NEAR(alike_likelihood(std::vector{x}, 1, c), stands, 1e-15);
-    EXPECT_NEAR(alike_likelihood(std::vector{x, 2 * x, 3 * x, 4 * x}, 3, c), std::pow(stands, 3) * (1 - stands), 1e-15);
-    EXPECT_NEAR(alike_likelihood(std::vector{x, 2 * x, 3 * x, 4 * x, 5 * x}, 2, c),
-                std::pow(stands, 2) * std::pow(1 - stands, 3), 1e-15);
-    // earthquakes that fell all or none: three stand or none does
-    EXPECT_NEAR(alike_likelihood(std::vector{x, x, x}, 3, c), stands, 1e-15);
-    EXPECT_NEAR(alike_likelihood(std::vector{x, x, x}, 2, c), 0, 1e-15);
-}
-
-/// Earthquakes as a Poisson process, each with the probability to stand 0.9 or 0.4, which three structures share.
-TEST(PastStatistics, AlikeStructuresUnderCommonEarthquakesStandAsOftenAsTheSumSays)
-{
-    constexpr double events = 1.5;
-    std::vector<double> exposure;
-    for (int m = 1; m <= 3; ++m)
-        exposure.push_back(events * (1 - 0.5 * (std::pow(0.9, m) + std::pow(0.4, m))));
-    std::mt19937_64 random(31);
-    std::poisson_distribution<int> number(events);
-    std::uniform_real_distribution<double> uniform;
-    constexpr int histories = 20000;
-    std::array<int, 4> stand{};
-    for (int h = 0; h < histories; ++h) {
-        std::array<bool, 3> stands{true, true, true};
-        for (int e = number(random); e > 0; --e) {
-            const double p = uniform(random) < 0.5 ? 0.9 : 0.4;
-            for (bool& one : stands)
-                one = uniform(random) < p && one;
-        }
-        ++stand[static_cast<std::size_t>(std::count(stands.begin(), stands.end(), true))];
-    }
-    for (const auto& [n, choices] : {std::pair{1U, 3.0}, {2U, 3.0}, {3U, 1.0}}) {
-        const double p = choices * alike_likelihood(exposure, n, 1);
-        EXPECT_NEAR(stand[n], histories * p, 4 * std::sqrt(histories * p * (1 - p))) << n;
-    }
 }
 
 /// With structures that fall independently given nothing, all_stand of m is P^(m - 1), and one that stands of N built

@@ -3,6 +3,7 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/statics/step_bound.hpp"
+#include "tests/ensemble/statics/equal_drums.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -16,50 +17,6 @@ using namespace stylobate;
 
 namespace {
 
-struct Column {
-    int free_blocks = 6;
-    double width = 0.048, height = 0.029, mass = 0.1355;
-    double normal_stiffness = 1e8;
-    double ratio = 1; ///< K_T / (K_N B)
-    double xi = 0;
-    bool chord = false;
-    bool ends = false; ///< normal dashpots at the ends of the contact
-};
-
-/// A fixed block and equal free ones on it.
-Realization make(const Column& column)
-{
-    Realization r;
-    const double k_n = column.normal_stiffness * column.width;
-    for (int i = 0; i <= column.free_blocks; ++i) {
-        Block block;
-        block.half_width_m = column.width / 2;
-        block.half_height_m = column.height / 2;
-        block.mass_kg = column.mass;
-        block.inertia_kg_m2 = column.mass * (column.width * column.width + column.height * column.height) / 12;
-        block.y_m = (i + 0.5) * column.height;
-        block.fixed = i == 0;
-        r.blocks.push_back(block);
-        if (i == 0)
-            continue;
-        Joint joint;
-        joint.lower = i - 1;
-        joint.upper = i;
-        joint.normal_stiffness_n_m2 = column.normal_stiffness;
-        joint.tangential_stiffness_n_m = column.ratio * k_n;
-        joint.normal_damping_n_s_m = 2 * column.xi * std::sqrt(k_n * column.mass);
-        joint.tangential_damping_n_s_m = 2 * column.xi * std::sqrt(column.ratio * k_n * column.mass);
-        joint.damping_chord_m = column.chord ? column.width : 0;
-        joint.extension.face_damping = column.ends ? 1 : 0;
-        r.joints.push_back(joint);
-    }
-    r.drums = column.free_blocks + 1;
-    return r;
-}
-
-const Column spec{};
-const Column mono{.free_blocks = 1, .height = 0.174, .mass = 0.813};
-
 LinearResponse response(const Column& column, double gravity = 9.81)
 {
     const Realization r = make(column);
@@ -70,13 +27,6 @@ StepBound bound(const Column& column)
 {
     const Realization r = make(column);
     return step_bound(r.blocks, r.joints);
-}
-
-Column with(Column column, double normal_stiffness, double xi = 0)
-{
-    column.normal_stiffness = normal_stiffness;
-    column.xi = xi;
-    return column;
 }
 
 /// Part of a contact that is pressed, from -1 to 1 over the face.
@@ -416,61 +366,6 @@ TEST(StepBound, DashpotAtAnEdge)
     column.chord = true;
     EXPECT_TRUE(std::isinf(bound(column).edge_s));
     EXPECT_EQ(bound(column).governed_by, StepLimit::dashpot);
-}
-
-/// F = K A (1 + lambda v) is a dashpot lambda F. At ten times the load at rest, F = m g, its coefficient is 10 lambda m
-/// g; at full contact it acts on the mass alone, at an edge on 1 / (1/m + b2/I).
-TEST(StepBound, DashpotThatGrowsWithTheLoad)
-{
-    Realization r = make(with(mono, 1e8));
-    const Block& block = r.blocks[1];
-    const double edge = 1 / 0.813 + 0.024 * 0.024 / block.inertia_kg_m2;
-    for (const double lambda : {1.0, 1e4}) {
-        r.joints[0].extension.rate_s_m = lambda;
-        const double C = 10 * lambda * 0.813 * 9.81;
-        const StepBound got = step_bound(r);
-        EXPECT_NEAR(got.edge_s * C * edge, 1, 1e-9) << lambda;
-        // 4 - 2 dt c - dt2 w2 = 0 with c = 2 C / m
-        const double c = 2 * C / 0.813, dt = got.dashpot_s;
-        EXPECT_NEAR(2 * dt * c + 4 * dt * dt / (got.stiffness_s * got.stiffness_s), 4, 1e-9) << lambda;
-        EXPECT_EQ(got.governed_by, lambda > 1 ? StepLimit::edge_dashpot : StepLimit::dashpot);
-    }
-}
-
-/// A clamp much stiffer than the contacts, at the height y above the middle of the left block and at half its width b:
-/// it may turn, so that it holds its end in both directions and the block has 1/m and 1/m + (b2 + y2)/I. The right
-/// block's end lies y_left + y - y_right above its middle.
-TEST(StepBound, ClampsCountAtTheirHeight)
-{
-    Realization r = make(with(spec, 1e6));
-    r.blocks.resize(3); // the ground and two blocks beside each other on it
-    r.joints.resize(2);
-    r.joints[1].lower = 0;
-    r.drums = 3;
-    Block &left = r.blocks[1], &right = r.blocks[2];
-    r.blocks[0].half_width_m = 0.1;
-    left.x_m = -0.03;
-    right.x_m = 0.03;
-    right.half_height_m = 0.04;
-    right.y_m = left.y_m - left.half_height_m + 0.04;
-    left.reinforcement.clamp_to = 2;
-    left.reinforcement.clamp_n_m = 1e13;
-    left.reinforcement.clamp_strength_n = 1;
-    for (const double height : {-0.01, 0.0, 0.012}) {
-        left.reinforcement.clamp_height_m = height;
-        const double at_right = left.y_m + height - right.y_m;
-        const auto rate = [](const Block& block, double y) {
-            return 1e13 * (1 / block.mass_kg + (block.half_width_m * block.half_width_m + y * y) / block.inertia_kg_m2);
-        };
-        const double most = std::max(rate(left, height), rate(right, at_right));
-        const StepBound got = step_bound(r);
-        EXPECT_NEAR(got.stiffness_s / (2 / std::sqrt(2 * most)), 1, 1e-5) << height;
-        EXPECT_EQ(got.block, rate(left, height) > rate(right, at_right) ? 1 : 2) << height;
-    }
-    right.fixed = true; // then the left end alone
-    left.reinforcement.clamp_height_m = 0.02;
-    const double alone = 1e13 * (1 / left.mass_kg + (0.024 * 0.024 + 0.02 * 0.02) / left.inertia_kg_m2);
-    EXPECT_NEAR(step_bound(r).stiffness_s / (2 / std::sqrt(2 * alone)), 1, 1e-5);
 }
 
 TEST(StepBound, CoefficientsGivenAsSuch)

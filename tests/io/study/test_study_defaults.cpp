@@ -35,6 +35,7 @@ const std::set<std::string> without_default = {
     "surface.adaptive",                                        // as many realizations in each cell
     "fragility.folder", "fragility.pattern", "fragility.unit", // become fragility.records
     "fragility.intensity.period_s",                            // of "sa"
+    "fragility.pause_s", "survival.pause_s",                   // until the structure rests, as long as each takes
     // whole tables, whose every entry is what the study says
     "study.allow"};
 
