@@ -474,14 +474,10 @@ Entries entries_of(const SurvivalSpec& survival)
     out.add(events, survival.events);
     out.add(pause, survival.pause_s);
     out.add(monuments, survival.monuments);
-    if (survival.structure != 1)
-        out.add(structure, survival.structure);
-    if (survival.per_motion != 1)
-        out.add(per_motion, survival.per_motion);
-    if (survival.built != 1) {
-        out.add(built, survival.built);
-        out.add(standing, survival.standing);
-    }
+    out.add(structure, survival.structure);
+    out.add(per_motion, survival.per_motion);
+    out.add(built, survival.built);
+    out.add(standing, survival.standing);
     out.add(stands_for, survival.stands_for_years);
     if (survival.hazard)
         out.add_text(hazard, text_of(*survival.hazard));
