@@ -55,8 +55,8 @@ BinomialFit fit_binomial(Link link, const Eigen::MatrixXd& predictors, const Bin
 ParameterMatrix record_covariance(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
                                   const BinomialFit& fit, const Eigen::VectorXd& weight = {});
 
-/// The influence of each record on the coefficients, the d_g above: the fit less what one Newton step without the record
-/// makes of it. (records x parameters)
+/// The influence of each record on the coefficients, the d_g above: the fit less what one Newton step without the
+/// record makes of it. (records x parameters)
 Eigen::MatrixXd record_influence(Link link, const Eigen::MatrixXd& predictors, const FragilityData& data,
                                  const BinomialFit& fit, const Eigen::VectorXd& weight = {});
 
