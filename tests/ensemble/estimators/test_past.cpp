@@ -383,6 +383,13 @@ TEST(PastStatistics, CredibleIntervalsCoverTwoHundredMonumentsAtTheirLevel)
     }
 }
 
+/// Of four monuments two lie within the middle 95 %, from 0.025 to 0.975.
+TEST(Past, MonumentsInsideAreCounted)
+{
+    EXPECT_EQ(MonumentTest::inside({0.02, 0.03, 0.97, 0.98}, 0.95), 2U);
+    EXPECT_EQ(MonumentTest::inside({0.24, 0.26, 0.5, 0.76}, 0.5), 2U);
+}
+
 TEST(PastStatistics, TheTestFindsAPriorThatIsWrong)
 {
     // monuments of which strong pasts are as frequent as weak ones, judged by a prior that expects weak ones
