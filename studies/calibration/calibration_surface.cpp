@@ -129,13 +129,17 @@ WeightedScores weighted_scores(const std::vector<ScoredPoint>& points, const std
 }
 
 /// (coefficients x units) by least squares, with the smallest ridge that keeps the solution finite where points lie on
-/// a face of the cube.
+/// a face of the cube. It is of columns of one length: of points that lie near each other it would else flatten the
+/// form.
 Matrix fitted_coefficients(const WeightedScores& w)
 {
-    Matrix normal = w.design.transpose() * w.design;
-    normal.diagonal().array() += 1e-9 * normal.trace() / static_cast<double>(w.design.cols());
+    const Vector length = w.design.colwise().norm().transpose();
+    const Vector per = (length.array() > 0).select(length.cwiseInverse(), 1.0);
+    const Matrix columns = w.design * per.asDiagonal();
+    Matrix normal = columns.transpose() * columns;
+    normal.diagonal().array() += 1e-9;
     const Eigen::LDLT<Matrix> solver(normal);
-    return solver.solve(w.design.transpose() * w.scores);
+    return per.asDiagonal() * solver.solve(columns.transpose() * w.scores);
 }
 
 /// Curvature of the sum of the scores, without directions in which the form rises to all sides, and with the prior.

@@ -41,16 +41,6 @@ Campaign of_runs(const Campaign& campaign, const std::vector<std::size_t>& runs)
     return part;
 }
 
-/// Sum and count of squared residuals, winsorized, by run.
-struct Errors {
-    std::vector<double> squares, counts;
-    double rms() const
-    {
-        const double n = std::accumulate(counts.begin(), counts.end(), 0.0);
-        return n > 0 ? std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / n) : 0;
-    }
-};
-
 /// What a study with these causes is off by in every window; nothing if the observer stopped it.
 std::optional<WindowResiduals> residuals_of(WindowComparison& comparison, const SpecimenStructure& built,
                                             const Study& study, const std::vector<SizedCause>& causes,
@@ -66,12 +56,12 @@ std::optional<WindowResiduals> residuals_of(WindowComparison& comparison, const 
     return std::move(residuals.front());
 }
 
-std::optional<Errors> errors_of(const Campaign& campaign, const Study& study, const std::vector<SizedCause>& causes,
-                                const RunOptions& options, SimulationCount& count, Observer& observer)
+std::optional<RunErrors> errors_of(const Campaign& campaign, const Study& study, const std::vector<SizedCause>& causes,
+                                   const RunOptions& options, SimulationCount& count, Observer& observer)
 {
     const SpecimenStructure built = build_specimen(campaign.specimen);
     WindowComparison comparison(campaign, {});
-    Errors errors{std::vector<double>(campaign.runs.size(), 0), std::vector<double>(campaign.runs.size(), 0)};
+    RunErrors errors{std::vector<double>(campaign.runs.size(), 0), std::vector<double>(campaign.runs.size(), 0)};
     if (comparison.windows().empty())
         return errors;
     const std::optional<WindowResiduals> residuals =
@@ -113,6 +103,37 @@ MaybeReal repeat_floor(const Campaign& campaign, const std::vector<std::size_t>&
 }
 
 } // namespace
+
+double RunErrors::rms() const
+{
+    const double n = std::accumulate(counts.begin(), counts.end(), 0.0);
+    return n > 0 ? std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / n) : 0;
+}
+
+std::optional<std::pair<double, double>> interval_of_ratio(const RunErrors& before, const RunErrors& after,
+                                                           std::uint64_t seed)
+{
+    const std::size_t runs = before.squares.size();
+    std::vector<double> ratios;
+    for (std::uint64_t k = 0; k < resamples; ++k) {
+        double sb = 0, nb = 0, sa = 0, na = 0;
+        for (std::size_t i = 0; i < runs; ++i) {
+            const auto r =
+                static_cast<std::size_t>(uniform01(seed, k, Stream::bootstrap, i) * static_cast<double>(runs));
+            sb += before.squares[r];
+            nb += before.counts[r];
+            sa += after.squares[r];
+            na += after.counts[r];
+        }
+        if (nb > 0 && na > 0 && sb > 0)
+            ratios.push_back(std::sqrt(sa / na / (sb / nb)));
+    }
+    if (ratios.size() <= 100)
+        return std::nullopt;
+    std::sort(ratios.begin(), ratios.end());
+    return std::pair{sorted_quantile(ratios, 0.025, QuantileDefinition::above),
+                     sorted_quantile(ratios, 0.975, QuantileDefinition::above)};
+}
 
 Campaign corrected(const Campaign& campaign, const DirectResult& direct)
 {
@@ -182,7 +203,7 @@ struct Simulating {
     SimulationCount& count;
     Observer& observer;
 
-    std::optional<Errors> errors(const Campaign& campaign, const std::vector<SizedCause>& causes) const
+    std::optional<RunErrors> errors(const Campaign& campaign, const std::vector<SizedCause>& causes) const
     {
         return errors_of(campaign, baseline, causes, options, count, observer);
     }
@@ -230,31 +251,6 @@ std::optional<std::vector<JudgedCause>> sized_by(const Campaign& training, const
         }
     }
     return sized;
-}
-
-/// 95 % interval of the ratio of errors, runs drawn anew; nothing where too few draws have any error.
-void resample_runs(const Errors& before, const Errors& after, std::uint64_t seed, ModelGain& gain)
-{
-    const std::size_t runs = before.squares.size();
-    std::vector<double> ratios;
-    for (std::uint64_t k = 0; k < resamples; ++k) {
-        double sb = 0, nb = 0, sa = 0, na = 0;
-        for (std::size_t i = 0; i < runs; ++i) {
-            const auto r =
-                static_cast<std::size_t>(uniform01(seed, k, Stream::bootstrap, i) * static_cast<double>(runs));
-            sb += before.squares[r];
-            nb += before.counts[r];
-            sa += after.squares[r];
-            na += after.counts[r];
-        }
-        if (nb > 0 && na > 0 && sb > 0)
-            ratios.push_back(std::sqrt(sa / na / (sb / nb)));
-    }
-    std::sort(ratios.begin(), ratios.end());
-    if (ratios.size() > 100) {
-        gain.low = sorted_quantile(ratios, 0.025, QuantileDefinition::above);
-        gain.high = sorted_quantile(ratios, 0.975, QuantileDefinition::above);
-    }
 }
 
 /// (runs) the share of simulations that collapse.
@@ -329,7 +325,10 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackSc
     }
     gain.error_before = 1;
     gain.error_after = after->rms() / before->rms();
-    resample_runs(*before, *after, seed, gain);
+    if (const auto interval = interval_of_ratio(*before, *after, seed)) {
+        gain.low = interval->first;
+        gain.high = interval->second;
+    }
     if (const MaybeReal floor = repeat_floor(campaign, halves->left))
         gain.floor = *floor / before->rms();
     gain.text = fmt::format(

@@ -12,8 +12,10 @@
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/windows/window_comparison.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -26,6 +28,17 @@ ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std
 
 /// Sizes of causes that act in the model; those that act on the base's horizontal motion are in its correction.
 std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named);
+
+/// Sum and number of the squared residuals of each run, winsorized.
+struct RunErrors {
+    std::vector<double> squares, counts;
+    double rms() const; ///< of all runs; 0 without residuals
+};
+
+/// 95 % interval of the ratio after / before of the root mean squares, runs drawn anew; nothing where too few draws
+/// have any error.
+std::optional<std::pair<double, double>> interval_of_ratio(const RunErrors& before, const RunErrors& after,
+                                                           std::uint64_t seed);
 
 /// Every second motion is left out; the causes are sized by the others.
 /// @return nothing where there are fewer than two motions, or the observer stopped it

@@ -334,7 +334,9 @@ TEST(PairedRatio, ByHand)
     EXPECT_EQ(paired_ratio({0, 3, 0, 7}, 0.9).lower, 0);
 }
 
-/// By enumeration of the counts of 60 pairs whose two outcomes are dependent.
+/// By enumeration of the counts of 60 pairs whose two outcomes are dependent: the coverage is exact, and no false alarm
+/// is possible. It is at least the level, and hardly more: without the pair that is added it is 0.899, with half of the
+/// variance 0.773, and with that of independent shares 0.994 (summed by another program).
 TEST(PairedRatio, IntervalsContainTheTruth)
 {
     const double p11 = 0.15, p10 = 0.12, p01 = 0.05, p00 = 1 - p11 - p10 - p01;
@@ -355,7 +357,8 @@ TEST(PairedRatio, IntervalsContainTheTruth)
                 ratio += found.lower <= want && want <= found.upper ? p : 0;
             }
     EXPECT_NEAR(all, 1, 1e-9);
-    EXPECT_NEAR(ratio, 0.9, 0.05);
+    EXPECT_GE(ratio, 0.9);
+    EXPECT_LE(ratio, 0.92);
 }
 
 } // namespace

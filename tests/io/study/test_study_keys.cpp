@@ -1,5 +1,5 @@
-/// The description of every key of the study file is that of the reader: its type, range, words and default are tried
-/// on the reader itself.
+/// The description of every key of the study file is that of the reader: its type and words are tried on the reader
+/// itself, and so are the ranges and defaults that docs/study_reference.md states.
 
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/spread_key.hpp"
@@ -7,12 +7,18 @@
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -42,23 +48,28 @@ std::string single(const std::string& excitation, const std::string& structure =
     return "[study]\nkind = \"single\"\n" + structure + contacts + "[excitation]\n" + excitation;
 }
 
+/// A mechanism with all of its parameters.
+std::string whole(const MechanismRule& rule)
+{
+    std::string text = std::string(rule.name) + " = {";
+    for (const MechanismParameter& parameter : rule.parameters)
+        text += (text.ends_with('{') ? " " : ", ") + parameter.key() + " = 0.1";
+    // hertz has no exponent that small, and a ratio of friction may be any
+    const std::size_t exponent = text.find("exponent = 0.1");
+    if (exponent != std::string::npos)
+        text.replace(exponent, 14, "exponent = 1.1");
+    // nor is there stone so weak
+    const std::size_t strength = text.find("stone_strength_pa = 0.1");
+    if (strength != std::string::npos)
+        text.replace(strength, 23, "stone_strength_pa = 1e8");
+    return text + " }\n";
+}
+
 std::string every_mechanism()
 {
     std::string text = "[mechanisms]\n";
-    for (const MechanismRule& rule : mechanism_rules()) {
-        text += std::string(rule.name) + " = {";
-        for (const MechanismParameter& parameter : rule.parameters)
-            text += (text.ends_with('{') ? " " : ", ") + parameter.key() + " = 0.1";
-        // hertz has no exponent that small, and a ratio of friction may be any
-        const std::size_t exponent = text.find("exponent = 0.1");
-        if (exponent != std::string::npos)
-            text.replace(exponent, 14, "exponent = 1.1");
-        // nor is there stone so weak
-        const std::size_t strength = text.find("stone_strength_pa = 0.1");
-        if (strength != std::string::npos)
-            text.replace(strength, 23, "stone_strength_pa = 1e8");
-        text += " }\n";
-    }
+    for (const MechanismRule& rule : mechanism_rules())
+        text += whole(rule);
     return text;
 }
 
@@ -158,8 +169,8 @@ std::vector<std::string> samples()
         for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
             const SpreadKey& key = spread_key(rule.mechanism, i);
             for (const std::string& spread : spreads(key))
-                all.push_back(single(harmonic, bays) + every_mechanism() + "[perturbation.mechanisms]\n" + rule.name +
-                              "." + key.name + " = " + spread + "\n");
+                all.push_back(single(harmonic, bays) + "[mechanisms]\n" + whole(rule) + "[perturbation.mechanisms]\n" +
+                              rule.name + "." + key.name + " = " + spread + "\n");
         }
     return all;
 }
@@ -216,6 +227,102 @@ std::pair<std::string, std::string> of_another_type(const TomlKey& key)
     return {};
 }
 
+/// What the page of the keys states of one of them.
+struct StatedKey {
+    std::string type;   ///< with the range: "number in (0, 40], m"
+    std::string absent; ///< "`0.1`" of a default that is a value, else words
+};
+
+/// The cells of a row of a table.
+std::vector<std::string> cells_of(const std::string& row)
+{
+    std::vector<std::string> cells;
+    for (std::size_t at = row.find("| "); at != std::string::npos && at + 2 < row.size();) {
+        const std::size_t end = row.find(" |", at + 1);
+        cells.push_back(row.substr(at + 2, end == std::string::npos ? end : end - at - 2));
+        at = end == std::string::npos ? end : end + 1;
+    }
+    return cells;
+}
+
+std::string without_quotes(const std::string& cell)
+{
+    return cell.size() > 1 && cell.front() == '`' && cell.back() == '`' ? cell.substr(1, cell.size() - 2)
+                                                                        : std::string();
+}
+
+/// By path. The page is a file of its own: `StudyReference.ThePageIsThatOfTheProgram` compares it with the
+/// descriptions, and here the reader is compared with it.
+std::map<std::string, StatedKey> stated_keys()
+{
+    std::map<std::string, StatedKey> all, spread;
+    std::ifstream page(STYLOBATE_SOURCE_DIR "/docs/study_reference.md");
+    std::string table, columns;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("## `[") || line.starts_with("### `["))
+            table = line.substr(line.find('[') + 1, line.find(']') - line.find('[') - 1);
+        const std::vector<std::string> cells = cells_of(line);
+        if (cells.size() < 4)
+            continue;
+        const std::string name = without_quotes(cells[0]);
+        if (name.empty())
+            columns = cells[0];
+        else if (columns == "key" && table == "perturbation")
+            spread[name] = {cells[1], cells[2]};
+        else if (columns == "key")
+            all[table + "." + name] = {cells[1], cells[2]};
+        else // a quantity that is drawn, with the range of its values
+            for (const auto& [key, stated] : spread) {
+                const bool value = key == "from" || key == "to" || key == "min" || key == "max";
+                all[table + "." + name + "." + key] =
+                    value ? StatedKey{"number in " + cells[2], stated.absent} : stated;
+            }
+    }
+    return all;
+}
+
+/// "number in (0, 40], m", "whole number in [1, 200]; or ...", "list of numbers in [0, 10], m".
+struct StatedRange {
+    bool open = false, whole = false, list = false;
+    double low = 0, high = 0;
+
+    std::string value(double x) const
+    {
+        const std::string text = whole ? std::to_string(static_cast<std::int64_t>(x)) : toml_number(x);
+        return list ? "[" + text + "]" : text;
+    }
+    std::string text() const { return fmt::format("{}{:g}, {:g}]", open ? '(' : '[', low, high); }
+    /// The least and the largest value, and those just beyond them.
+    std::vector<std::string> inside() const { return {value(open ? 1e-30 : low), value(high)}; }
+    std::vector<std::string> outside() const
+    {
+        const auto beyond = [&](double end, double sign) {
+            return value(end + sign * (whole ? 1 : end == 0 ? 1e-300 : 1e-9 * std::fabs(end)));
+        };
+        return {open ? value(low) : beyond(low, -1), beyond(high, 1)};
+    }
+};
+
+std::optional<StatedRange> range_in(const std::string& type)
+{
+    StatedRange range;
+    range.whole = type.find("whole number") != std::string::npos;
+    range.list = type.starts_with("list of ");
+    const std::string begin = range.list ? (range.whole ? "list of whole numbers in " : "list of numbers in ")
+                                         : (range.whole ? "whole number in " : "number in ");
+    if (!type.starts_with(begin) || type.size() < begin.size() + 2)
+        return std::nullopt;
+    const char bracket = type[begin.size()];
+    const std::size_t comma = type.find(", ", begin.size());
+    if ((bracket != '(' && bracket != '[') || comma == std::string::npos)
+        return std::nullopt;
+    range.open = bracket == '(';
+    range.low = std::stod(type.substr(begin.size() + 1));
+    const std::string high = type.substr(comma + 2);
+    range.high = std::stod(high);
+    return high.starts_with("2^") ? std::nullopt : std::optional(range); // as large as a whole number can be
+}
+
 class StudyKeys : public testing::Test {
 protected:
     static void SetUpTestSuite()
@@ -233,6 +340,44 @@ protected:
                 call(path, key);
         });
     }
+    /// The samples, those first in which most parts of a path occur: nearly always the first one uses the key.
+    std::vector<const std::string*> likely(const std::string& path) const
+    {
+        std::vector<std::pair<int, const std::string*>> order;
+        for (const std::string& text : texts_) {
+            int absent = 0;
+            for (std::size_t begin = 0; begin < path.size();) {
+                const std::size_t end = std::min(path.find('.', begin), path.size());
+                absent += text.find(path.substr(begin, end - begin)) == std::string::npos;
+                begin = end + 1;
+            }
+            order.emplace_back(absent, &text);
+        }
+        std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<const std::string*> all;
+        for (const auto& [absent, text] : order)
+            all.push_back(text);
+        return all;
+    }
+    /// Some samples that use a key, at most so many: they refuse a value of another type.
+    std::vector<const std::string*> users(const std::string& path, const TomlKey& key, std::size_t most) const
+    {
+        constexpr int enough = 2; // samples that are tried after the first user
+        const auto [value, words] = of_another_type(key);
+        std::vector<const std::string*> all;
+        int further = 0;
+        for (const std::string* text : likely(path)) {
+            const std::string said = refusal(*text, path, value);
+            const bool list_of_words =
+                key.type == KeyType::texts && said.find("not a list of names") != std::string::npos;
+            if (said.find(path + " = " + value) != std::string::npos &&
+                (said.find(words) != std::string::npos || list_of_words))
+                all.push_back(text);
+            if (all.size() == most || (!all.empty() && ++further > enough))
+                break;
+        }
+        return all;
+    }
     const std::vector<std::string> texts_ = samples();
 };
 
@@ -242,39 +387,60 @@ TEST_F(StudyKeys, TheReaderKnowsEachByItsType)
     for_each_settable([&](const std::string& path, const TomlKey& key) {
         ++keys;
         const std::pair<std::string, std::string> wrong = of_another_type(key);
-        const std::string &value = wrong.first, &words = wrong.second;
-        const bool known = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
-            const std::string said = refusal(text, path, value);
-            const bool list_of_words =
-                key.type == KeyType::texts && said.find("not a list of names") != std::string::npos;
-            return said.find(path + " = " + value) != std::string::npos &&
-                   (said.find(words) != std::string::npos || list_of_words);
-        });
-        EXPECT_TRUE(known) << path << " = " << value << " is refused in no study by \"" << words
-                           << "\"; in the first: " << refusal(texts_[1], path, value);
+        EXPECT_FALSE(users(path, key, 1).empty())
+            << path << " = " << wrong.first << " is refused in no study by \"" << wrong.second
+            << "\"; in the first: " << refusal(texts_[1], path, wrong.first);
     });
     EXPECT_GT(keys, 300);
 }
 
-TEST_F(StudyKeys, TheReaderKnowsEachRange)
+/// Whether a study narrows the range of a key: by the number of its blocks, joints, columns or realizations, or by the
+/// size of a block.
+bool narrower_in_a_study(const std::string& path)
 {
+    static const std::set<std::string> names = {"block",        "blocks",          "joint",    "joints",
+                                                "fixed_blocks", "contacts",        "offset_m", "moves_m",
+                                                "followed",     "tilt_from_block", "minimum",  "first_column"};
+    static const std::set<std::string> paths = {"structure.epistyle_bays", "surface.adaptive.budget", "fragility.twins",
+                                                "sensitivity.samples", "mechanisms.clamp.height_m"};
+    return names.contains(path.substr(path.rfind('.') + 1)) || paths.contains(path) ||
+           path.starts_with("perturbation.drum_offset.");
+}
+
+/// The least and the largest value that the page states are taken, and what is just beyond them is refused.
+TEST_F(StudyKeys, TheReaderHasTheRangesOfThePage)
+{
+    const std::map<std::string, StatedKey> stated = stated_keys();
+    int tried = 0;
     for_each_settable([&](const std::string& path, const TomlKey& key) {
-        if (key.type != KeyType::number && key.type != KeyType::whole)
+        if (!stated.contains(path)) {
+            const bool deviation = path.substr(path.rfind('.') + 1).starts_with("sd"); // no larger than nominal values
+            EXPECT_TRUE(key.type == KeyType::table || path.find('.') == std::string::npos || deviation) << path;
             return;
-        for (const std::string value : {"-1e31", "1e31"}) {
-            const bool told = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
-                return refusal(text, path, value).find("is outside ") != std::string::npos;
-            });
-            EXPECT_TRUE(told) << path << " = " << value;
         }
-        if (key.used.empty() && key.type == KeyType::number && key.absent_is_value) {
-            const bool stated = std::any_of(texts_.begin(), texts_.end(), [&](const std::string& text) {
-                return refusal(text, path, "-1e31").find("is outside " + key.range.text()) != std::string::npos;
-            });
-            const bool by_study = path == "structure.capital.offset_m"; // no more than its width
-            EXPECT_TRUE(stated || by_study) << path << " has another range than " << key.range.text();
-        }
+        const std::optional<StatedRange> range = range_in(stated.at(path).type);
+        if (!range)
+            return;
+        ++tried;
+        const std::vector<const std::string*> of_key = users(path, key, 2);
+        const auto refused = [&](const std::string& text, const std::string& value) {
+            const std::string said = refusal(text, path, value);
+            return said.find(path) != std::string::npos && (said.find(" is outside ") != std::string::npos ||
+                                                            said.find(", which is not a ") != std::string::npos);
+        };
+        const auto expect = [&](const std::string& value, bool refusal_wanted) {
+            EXPECT_TRUE(std::any_of(of_key.begin(), of_key.end(),
+                                    [&](const std::string* text) { return refused(*text, value) == refusal_wanted; }))
+                << path << " = " << value << " of " << range->text() << ": "
+                << (of_key.empty() ? "" : refusal(*of_key.front(), path, value));
+        };
+        for (const std::string& value : range->outside())
+            expect(value, true);
+        if (!narrower_in_a_study(path))
+            for (const std::string& value : range->inside())
+                expect(value, false);
     });
+    EXPECT_GT(tried, 250);
 }
 
 TEST(KeyReader, RefusesAKeyThatIsAbsentAtItsTable)
@@ -308,8 +474,8 @@ TEST_F(StudyKeys, TheReaderTakesEachWordAndNoOther)
         if (key.type != KeyType::word)
             return;
         bool asked = false;
-        for (const std::string& text : texts_) {
-            const std::string said = refusal(text, path, "\"zzzz\"");
+        for (const std::string* text : users(path, key, 3)) {
+            const std::string said = refusal(*text, path, "\"zzzz\"");
             const std::size_t at = said.find("Allowed: ");
             if (said.find(path + " = ") == std::string::npos || at == std::string::npos)
                 continue;
@@ -323,33 +489,61 @@ TEST_F(StudyKeys, TheReaderTakesEachWordAndNoOther)
     });
 }
 
-TEST_F(StudyKeys, TheReaderHasEachDefault)
+/// A study in which a key is absent is the one in which it has the default that the page states, and another one with
+/// another value.
+TEST_F(StudyKeys, TheReaderHasTheDefaultsOfThePage)
 {
+    const std::map<std::string, StatedKey> stated = stated_keys();
+    const auto text_with = [](const std::string& text, const std::string& path, const std::string& value) {
+        try {
+            return parse_study(text, "study.toml", {path + "=" + value}).text;
+        } catch (const InputError&) {
+            return std::string();
+        }
+    };
+    int tried = 0, told_apart = 0;
     for_each_settable([&](const std::string& path, const TomlKey& key) {
-        if (!key.absent_is_value || !key.keys.empty())
+        const std::string absent = stated.contains(path) ? without_quotes(stated.at(path).absent) : "";
+        if (absent.empty())
             return;
-        bool tried = false;
-        for (const std::string& text : texts_) {
-            Study plain, given;
-            try {
-                plain = parse_study(text, "study.toml");
-                given = parse_study(text, "study.toml", {path + "=" + key.absent});
-            } catch (const InputError&) {
-                continue; // it does not use the key
-            }
+        std::vector<std::string> others = {"true", "false", "7"};
+        others.insert(others.end(), key.words.begin(), key.words.end());
+        for (std::string& word : others)
+            word = key.type == KeyType::word ? toml_quoted(word) : word;
+        if (const std::optional<StatedRange> range = range_in(stated.at(path).type)) {
+            const double value = std::atof(absent.c_str());
+            for (const double other : {value * 0.9, value * 1.1, value + 1, value + 0.1, range->low, range->high})
+                others.push_back(range->value(other));
+        }
+        bool known = false, changed = false, apart = path.starts_with("optimise."); // which is no part of a study
+        for (const std::string* text : users(path, key, 3)) {
             // a mechanism that is not named is not there, whatever its neutral value
             const std::string table = path.substr(0, path.rfind('.'));
             const std::string name = table.substr(table.rfind('.') + 1);
-            const std::size_t mechanisms = std::min(text.find("[mechanisms]\n"), text.size());
-            if (path.starts_with("mechanisms.") && text.find("\n" + name + " = ", mechanisms) == std::string::npos)
+            const std::size_t mechanisms = std::min(text->find("[mechanisms]\n"), text->size());
+            const bool unnamed =
+                path.starts_with("mechanisms.") && text->find("\n" + name + " = ", mechanisms) == std::string::npos;
+            if (unnamed || text->find(key.name + " = ") != std::string::npos)
                 continue;
-            tried = true;
-            if (text.find(key.name + " = ") == std::string::npos) {
-                EXPECT_EQ(plain.text, given.text) << path << " = " << key.absent;
-            }
+            const std::string given = text_with(*text, path, absent);
+            if (given.empty())
+                continue;
+            const std::string plain = parse_study(*text, "study.toml").text;
+            EXPECT_EQ(plain, given) << path << " = " << absent;
+            known = true;
+            for (const std::string& other : others)
+                if (const std::string with_other = text_with(*text, path, other);
+                    other != absent && !with_other.empty()) {
+                    changed = true;
+                    apart = apart || with_other != plain;
+                }
         }
-        EXPECT_TRUE(tried) << path << " = " << key.absent << " is taken by no study";
+        tried += known;
+        told_apart += apart;
+        EXPECT_TRUE(apart || !changed) << path << ": no other value makes another study";
     });
+    EXPECT_GT(tried, 60);
+    EXPECT_GT(told_apart, tried - 5) << "few defaults are the only value that a sample takes";
 }
 
 TEST_F(StudyKeys, EachIsNeededWhereItsDescriptionSaysSo)

@@ -4,6 +4,7 @@
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_surface.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
@@ -91,6 +92,105 @@ TEST(CalibrationSurface, FindsTheTopOfAParabolaAndItsDeviation)
     EXPECT_NEAR(fewer.best[0], (a[0] + a[1] + a[2] + a[3]) / 4, 1e-6);
 }
 
+TEST(CalibrationSurface, WindowsOfOneRunAreNotIndependent)
+{
+    // four runs of two equal windows: the deviation of a mean of four, not of eight; scores -h (x - a)2 / 2
+    const std::vector<double> a = {0.40, 0.44, 0.52, 0.48};
+    const double h = 1e6, mean = 0.46;
+    std::vector<ScoredPoint> points;
+    for (const UnitPoint& at : spread_points(1, 40, 0)) {
+        ScoredPoint point{{0.3 + 0.3 * at[0]}, {}};
+        for (std::size_t unit = 0; unit < 8; ++unit)
+            point.scores.push_back(-h / 2 * std::pow(point.at[0] - a[unit / 2], 2));
+        points.push_back(point);
+    }
+    const ScoreSurface surface = fit_surface(points, {0, 0, 1, 1, 2, 2, 3, 3});
+    double squares = 0;
+    for (const double each : a)
+        squares += std::pow(each - mean, 2);
+    const double variance = squares / 3 / 4;
+    EXPECT_NEAR(surface.best[0], mean, 1e-6);
+    EXPECT_NEAR(surface.deviation[0], std::sqrt(variance), 1e-4 * std::sqrt(variance));
+    // that of the curvature alone: 1 / (8 h)
+    EXPECT_NEAR(surface.overdispersion[0], 8 * h * variance, 1e-4 * 8 * h * variance);
+    EXPECT_NEAR(surface.largest, -h * squares, 1e-4 * h * squares) << "two windows of each, at the mean";
+}
+
+TEST(CalibrationSurface, PointsThatLieNearEachOtherKeepTheCurvature)
+{
+    // eight units -h (x - a)2 / 2 with h = 1250 and a variance of the a of 4 / h: the deviation of their mean is
+    // sqrt(4 / (8 h)) = 0.02, wherever the points lie; that of the prior, 0.2887, makes it 0.1 % less
+    const double h = 1250;
+    std::vector<double> a;
+    for (const double each : {-1.4, -0.8, -0.6, -0.2, 0.2, 0.6, 0.8, 1.4}) // of a sum of squares of 6
+        a.push_back(0.5 + each * std::sqrt(4 * 7 / h / 6));
+    for (const double reach : {0.2, 0.01, 0.001}) {
+        std::vector<ScoredPoint> points;
+        for (int i = 0; i < 25; ++i) {
+            ScoredPoint point{{0.5 + reach * (i - 12) / 12}, {}};
+            for (const double each : a)
+                point.scores.push_back(-h / 2 * std::pow(point.at[0] - each, 2));
+            points.push_back(point);
+        }
+        const ScoreSurface surface = fit_surface(points, {0, 1, 2, 3, 4, 5, 6, 7});
+        EXPECT_NEAR(surface.deviation[0], 0.02, 3e-5) << reach;
+        EXPECT_NEAR(surface.overdispersion[0], 4, 5e-3) << reach;
+        EXPECT_NEAR(surface.roughness, 0, 1e-5) << reach;
+    }
+}
+
+TEST(CalibrationSurface, RoughnessIsTheDeviationOfTheResiduals)
+{
+    // residuals of +-0.3 in the order of Thue and Morse, which have no part in 1, x and x2: three coefficients of 16
+    // points. All scores lie near the best one, so that each point has the weight 1.
+    std::vector<ScoredPoint> points;
+    for (int i = 0; i < 16; ++i) {
+        const double x = 0.3 + 0.02 * i, rough = (i ^ i >> 1 ^ i >> 2 ^ i >> 3) & 1 ? 0.3 : -0.3;
+        points.push_back({{x}, {-(x - 0.4) * (x - 0.4), rough}});
+    }
+    const ScoreSurface surface = fit_surface(points, {0, 1});
+    EXPECT_NEAR(surface.roughness, 0.3 * std::sqrt(16.0 / 13), 1e-3);
+    EXPECT_NEAR(surface.reach[0], 0.15, 1e-12);
+}
+
+TEST(CalibrationSurface, CorrelationAndProfileAreThoseOfTheForm)
+{
+    // units -(u^T H u) / 2 about (a, b), H = h (2, 1; 1, 3): the best point is the mean of the (a, b), and cov their
+    // covariance over their number. Along its profile y moves by -1/3 of what x does, and x by -1/2 of what y does.
+    const std::vector<double> a = {0.40, 0.44, 0.52, 0.47, 0.39, 0.48}, b = {0.58, 0.61, 0.66, 0.57, 0.62, 0.62};
+    const double h = 1e6;
+    std::vector<ScoredPoint> points;
+    for (const UnitPoint& at : spread_points(2, 60, 0)) {
+        ScoredPoint point{{0.3 + 0.3 * at[0], 0.5 + 0.2 * at[1]}, {}};
+        for (std::size_t m = 0; m < a.size(); ++m) {
+            const double x = point.at[0] - a[m], y = point.at[1] - b[m];
+            point.scores.push_back(-h / 2 * (2 * x * x + 2 * x * y + 3 * y * y));
+        }
+        points.push_back(point);
+    }
+    const ScoreSurface surface = fit_surface(points, {0, 1, 2, 3, 4, 5});
+    double aa = 0, bb = 0, ab = 0;
+    for (std::size_t m = 0; m < a.size(); ++m) {
+        aa += (a[m] - 0.45) * (a[m] - 0.45);
+        bb += (b[m] - 0.61) * (b[m] - 0.61);
+        ab += (a[m] - 0.45) * (b[m] - 0.61);
+    }
+    EXPECT_NEAR(surface.best[0], 0.45, 1e-6);
+    EXPECT_NEAR(surface.best[1], 0.61, 1e-6);
+    EXPECT_NEAR(surface.deviation[0], std::sqrt(aa / 5 / 6), 1e-5);
+    EXPECT_NEAR(surface.deviation[1], std::sqrt(bb / 5 / 6), 1e-5);
+    EXPECT_NEAR(surface.correlation[1], ab / std::sqrt(aa * bb), 1e-3);
+    EXPECT_NEAR(surface.along[1], -1.0 / 3, 1e-4);
+    EXPECT_NEAR(surface.along[2], -1.0 / 2, 1e-4);
+    EXPECT_NEAR(surface.reach[1], 0.1, 0.005);
+    // no further than the points: (0.3, 0.6) of scores that rise beyond
+    for (ScoredPoint& point : points)
+        point.scores = {100 * point.at[0], -h * std::pow(point.at[1] - 0.6, 2)};
+    const ScoreSurface rising = fit_surface(points, {0, 1});
+    EXPECT_NEAR(rising.best[0], 0.6, 0.01);
+    EXPECT_LE(rising.best[0], 0.6);
+}
+
 TEST(CalibrationSurface, AFlatDirectionHasTheDeviationOfThePrior)
 {
     std::vector<ScoredPoint> points;
@@ -132,6 +232,45 @@ TEST(CalibrationStatistics, PairedGainIsStudentsInterval)
     EXPECT_NEAR(gain.total - gain.low, gain.high - gain.total, 1e-12);
     // of one motion: by windows
     EXPECT_EQ(paired_gain(before, after, {7, 7, 7, 7, 7}).groups, 5U);
+}
+
+/// Residuals of one size z have the scale k = |z| whatever their number: k2 = 5 z2 / (4 + z2 / k2). Student's density
+/// of four degrees at t is 3/8 (1 + t2 / 4)^(-5/2).
+TEST(HistoryEvidence, ScalesAreThoseOfTheRunsThatAreUsed)
+{
+    SyntheticCampaign c;
+    c.runs = 2;
+    const Campaign campaign = measure(c);
+    const WindowComparison windows(campaign, {});
+    const auto evidence = history_evidence(campaign, {}, 0);
+    ASSERT_TRUE(evidence);
+    const std::vector<std::size_t>& runs = evidence->runs();
+    // of the first candidate +-1 in run 0 and +-3 in run 1; of the second one +-2 in both
+    Predictions predictions(2);
+    for (std::size_t w = 0; w < runs.size(); ++w)
+        for (std::size_t k = 0; k < windows.seen(w).size(); ++k) {
+            const double sign = k % 2 == 0 ? 1 : -1;
+            predictions[0].push_back(sign * (runs[w] == 0 ? 1 : 3));
+            predictions[1].push_back(sign * 2);
+        }
+    ASSERT_TRUE(evidence->take(predictions));
+    const auto expected = [&](std::size_t w, double z, double k) {
+        double sum = 0;
+        for (const SeenValue& seen : windows.seen(w))
+            sum += std::log(0.375 * std::pow(1 + z * z / (k * k) / 4, -2.5)) - std::log(k * seen.scale);
+        return sum;
+    };
+    const std::vector<double> by_0 = evidence->own_scores(0, {0}), by_1 = evidence->own_scores(0, {1}),
+                              by_other = evidence->scores(0, 1), own = evidence->own_scores(1, {});
+    ASSERT_EQ(by_0.size(), runs.size());
+    for (std::size_t w = 0; w < runs.size(); ++w) {
+        const double z = runs[w] == 0 ? 1 : 3, tolerance = 1e-6 * std::fabs(by_0[w]);
+        EXPECT_NEAR(by_0[w], expected(w, z, 1), tolerance) << w;
+        EXPECT_NEAR(by_1[w], expected(w, z, 3), tolerance) << w;
+        EXPECT_NEAR(by_other[w], expected(w, z, 2), tolerance) << w;
+        EXPECT_NEAR(own[w], expected(w, 2, 2), tolerance) << w;
+    }
+    EXPECT_FALSE(evidence->take({{1, 2, 3}})) << "of another campaign";
 }
 
 TEST(CalibrationStatistics, KeysAreThoseOfTheStudyFile)

@@ -6,6 +6,7 @@
 #include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration.hpp"
+#include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/outcome_tests.hpp"
 
 #include <fmt/format.h>
@@ -117,6 +118,7 @@ void expect_found(const char* file, const std::vector<std::string>& truth, const
     EXPECT_TRUE(p.effective && !p.determined) << "found by the search: a value of the model";
     EXPECT_GT(form.score, form.nominal_score + 5);
     EXPECT_GT(form.held_out.total, 0) << "tests that were left out are predicted better than by the start";
+    EXPECT_EQ(form.held_out.groups, 6U) << "20 motions in six folds";
     ASSERT_EQ(form.runs.size(), 60u);
     EXPECT_EQ(form.runs[0].run, "line 2");
     EXPECT_EQ(form.runs[3].motion_id, 1);
@@ -185,6 +187,89 @@ TEST(OutcomeTests, RowsBecomeTheStudysMotions)
     EXPECT_NEAR(c.shakings[0].motion->pga_m_s2, 2, 1e-9);
     EXPECT_EQ(c.shakings[0].excitation.pga_m_s2, 0);
     EXPECT_EQ(c.shakings[1].excitation.pga_m_s2, 3);
+}
+
+/// The samples have two cycles of 2 sin(4 pi t), whose velocity (1 - cos(4 pi t)) / (2 pi) has a peak of 1 / pi.
+TEST(OutcomeTests, ARecordIsStretchedToTheFrequencyOfTheRow)
+{
+    const MeasuredFolder folder("stretched");
+    std::string samples = "time_s,acceleration_m_s2\n";
+    for (int i = 0; i <= 200; ++i)
+        samples += fmt::format("{},{}\n", 0.005 * i, 2 * std::sin(0.02 * std::numbers::pi * i));
+    write_content(folder / "base.csv", samples);
+    const Study study =
+        study_with({fmt::format("excitation={{kind=\"table\",file=\"{}\"}}", (folder / "base.csv").string())});
+    write_content(folder / "t.csv",
+                  "pga_m_s2,frequency_hz,pgv_over_pga_s,fell\n3,1,,1\n3,4,,1\n3,,0.477465,1\n3,,,1\n");
+    const OutcomeTests found = outcome_tests(read_outcomes(folder / "t.csv"), study);
+    ASSERT_EQ(found.shakings.size(), 4U);
+    EXPECT_NEAR(found.shakings[0].excitation.time_scale, 2, 0.02) << "2 Hz in a row of 1 Hz";
+    EXPECT_NEAR(found.shakings[1].excitation.time_scale, 0.5, 0.005);
+    EXPECT_NEAR(found.shakings[2].excitation.time_scale, 3, 0.003) << "0.477 s over 1 / (2 pi)";
+    EXPECT_EQ(found.shakings[3].excitation.time_scale, 1);
+}
+
+/// Shares of falls in ensembles of the study's seed + k for shaking k: the mean (falls + 1/2) / (n + 1) of Jeffreys'
+/// posterior. Four equal shakings of which some fall, and a weak one.
+TEST(OutcomeEvidence, ScoresAreLogarithmsOfTheSharesOfItsEnsembles)
+{
+    constexpr std::uint64_t n = 12;
+    const std::vector<double> pga_m_s2 = {7.5, 7.5, 7.5, 7.5, 0.5};
+    const auto study_of = [&](std::size_t k, std::uint64_t seed) {
+        return study_with({"excitation.frequency_hz=6", fmt::format("excitation.pga_m_s2={}", pga_m_s2[k]),
+                           fmt::format("study.realizations={}", n), fmt::format("study.seed={}", seed)});
+    };
+    const auto falls = [&](std::size_t k, std::uint64_t seed) {
+        Study study = study_of(k, seed);
+        study.outcome.follow = Follow::collapse;
+        double fallen = 0;
+        RunPlan plan;
+        plan.total = n;
+        plan.sink = [&](const Realization&, const Outcome& o) { fallen += o.state == State::collapsed; };
+        Observer observer;
+        run_ensemble(Experiment(study), {best_isa(), 1}, plan, observer);
+        return fallen;
+    };
+    OutcomeTests tests;
+    for (std::size_t k = 0; k < 5; ++k) {
+        tests.shakings.push_back({study_of(k, 5).excitation, nullptr});
+        tests.tests.push_back({2 * k, k, true});
+        tests.tests.push_back({2 * k + 1, k, false});
+    }
+    const Study study = study_with(); // of seed 5
+    const auto evidence = outcome_evidence(tests, study.perturbations, n);
+    ASSERT_TRUE(evidence);
+    EXPECT_EQ(evidence->runs().back(), 9U);
+    Observer observer;
+    ASSERT_TRUE(evidence->add({study}, {best_isa(), 1}, observer));
+    const std::vector<double> scores = evidence->own_scores(0, {});
+    ASSERT_EQ(scores.size(), 10U);
+    for (std::size_t k = 0; k < 5; ++k) {
+        const double fallen = falls(k, 5 + k);
+        EXPECT_NEAR(scores[2 * k], std::log((fallen + 0.5) / (n + 1)), 1e-12) << k;
+        EXPECT_NEAR(scores[2 * k + 1], std::log((n - fallen + 0.5) / (n + 1)), 1e-12) << k;
+    }
+    EXPECT_NE(scores[0], scores[2]) << "else the seeds are not seen";
+    EXPECT_NE(scores[2], scores[4]);
+    EXPECT_NEAR(scores[8], std::log(0.5 / 13), 1e-12) << "none falls under the weak one";
+    EXPECT_EQ(evidence->cost().simulations, 5 * n);
+}
+
+TEST(Tolerances, AreThoseOfTheSpecimenAndFivePercentOfFriction)
+{
+    Specimen specimen;
+    specimen.width_tolerance = 0.02;
+    specimen.placement_tolerance_m = 0;
+    specimen.mass_tolerance = 0.01;
+    const std::vector<Perturbation> drawn = tolerances(specimen);
+    ASSERT_EQ(drawn.size(), 3U) << "what is placed exactly is not drawn";
+    EXPECT_EQ(drawn[0].quantity, Quantity::friction);
+    EXPECT_EQ(drawn[0].per, Per::joint);
+    EXPECT_EQ(drawn[0].cov, 0.05);
+    EXPECT_EQ(drawn[1].quantity, Quantity::drum_width);
+    EXPECT_EQ(drawn[1].cov, 0.02);
+    EXPECT_EQ(drawn[2].quantity, Quantity::density);
+    EXPECT_EQ(drawn[2].cov, 0.01);
 }
 
 TEST(OutcomeTests, WhatSaysTooLittleIsRefused)

@@ -377,6 +377,10 @@ TEST(CampaignStatistics, MeansOverRepeatsAndSlopeWithTheirOrder)
     EXPECT_NEAR(value(campaign, "slip_path", 0, 1, 11), std::log(1e-3), 1e-9); // the upper block stays on the lower
     EXPECT_NEAR(value(campaign, "order_slope", 0, 0), std::log(2), 0.01);
     EXPECT_NEAR(value(campaign, "order_slope", 0, 1), 0, 1e-9);
+    // repeats: two of each motion, ln 4 apart at joint 0 and alike at joint 1; four degrees of freedom
+    const auto apart = [&](double one_m, double other_m) { return std::log((other_m + floor) / (one_m + floor)); };
+    EXPECT_NEAR(descriptor(campaign, "repeat_spread"),
+                std::sqrt((std::pow(apart(0.001, 0.004), 2) + std::pow(apart(0.004, 0.016), 2)) / 2 / 4), 1e-9);
 }
 
 TEST(CampaignStatistics, WhatIsNotSeenIsMissing)

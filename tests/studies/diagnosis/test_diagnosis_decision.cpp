@@ -1,7 +1,9 @@
 /// The rule that names causes, on evidence that is written down here.
 
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/decision/named_by_forces.hpp"
+#include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/decision/presentation.hpp"
 
 #include <gtest/gtest.h>
@@ -76,6 +78,58 @@ std::pair<BalanceEvidence, EnsembleDiagnosis> with_force(double score, const std
         fit.gain += gain;
     balance.structures = {fit};
     return {balance, e};
+}
+
+TEST(Evidence, OfOneRunAloneIsNone)
+{
+    // without its best run a cause must keep more than a part of its gain
+    EXPECT_TRUE(not_by_one_run(10, {6, 3, 1}, 0.35));
+    EXPECT_FALSE(not_by_one_run(10, {6, 3, 1}, 0.45));
+    EXPECT_FALSE(not_by_one_run(10, {10}, 0));
+}
+
+TEST(Power, IsTheShareOfTheLabelledCampaignsThatIsNamed)
+{
+    EnsembleDiagnosis e = ensemble_of(1, 1, 1);
+    for (const auto& [cause, z] : {std::pair{0, 0.3}, {-1, 0.0}, {0, 0.6}, {1, 0.9}, {0, -0.9}, {0, 0.9}}) {
+        SimulatedCampaign row;
+        row.cause = cause;
+        row.z = z;
+        e.ensemble.campaigns.push_back(row);
+    }
+    e.by_statistics.labelled_right = {true, true, false, false}; // of the first four labelled ones
+    EXPECT_EQ(e.power(0, 0), 2.0 / 3);
+    EXPECT_EQ(e.power(0, 0.5), 0.5) << "of strong ones, to either side";
+    EXPECT_EQ(e.power(1, 0), 0);
+    EXPECT_FALSE(e.power(2, 0));
+}
+
+/// Eight runs with equal errors before; the squares after are 0.1 ... 0.8 of them. The mean of eight draws of the runs
+/// is about normal: its deviation is that of these numbers, sqrt((64 - 1) / 12) / 10, over sqrt(8).
+TEST(IntervalOfRatio, DrawsRunsAnew)
+{
+    RunErrors before{std::vector<double>(8, 40), std::vector<double>(8, 10)}, after = before;
+    for (std::size_t r = 0; r < 8; ++r)
+        after.squares[r] = 4 * static_cast<double>(r + 1);
+    EXPECT_DOUBLE_EQ(before.rms(), 2);
+    EXPECT_DOUBLE_EQ(after.rms(), 2 * std::sqrt(0.45));
+    const auto found = interval_of_ratio(before, after, 3);
+    ASSERT_TRUE(found);
+    const double deviation = std::sqrt(63.0 / 12) / 10 / std::sqrt(8.0);
+    // 2000 draws know a limit to 0.06 deviations (1 sigma)
+    EXPECT_NEAR(std::pow(found->first, 2), 0.45 - 1.96 * deviation, 0.2 * deviation);
+    EXPECT_NEAR(std::pow(found->second, 2), 0.45 + 1.96 * deviation, 0.2 * deviation);
+    // runs with more residuals weigh more: one of all has nearly all of them
+    before.counts.assign(8, 1e-3);
+    before.squares.assign(8, 4e-3);
+    after = before;
+    before.counts[2] = 10, before.squares[2] = 40;
+    after.counts[2] = 10, after.squares[2] = 10;
+    const auto uneven = interval_of_ratio(before, after, 3);
+    ASSERT_TRUE(uneven);
+    EXPECT_NEAR(uneven->first, 0.5, 1e-3);
+    EXPECT_EQ(uneven->second, 1) << "a third of the draws is without it";
+    EXPECT_FALSE(interval_of_ratio({{0, 0}, {0, 0}}, {{0, 0}, {0, 0}}, 3)) << "no errors at all";
 }
 
 TEST(Decision, NothingBeyondHealthyCampaignsIsNone)

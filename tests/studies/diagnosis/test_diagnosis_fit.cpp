@@ -151,6 +151,11 @@ TEST(RobustFit, EqualErrorsWeighEqually)
     const RobustFit fit = robust_fit(data);
     EXPECT_NEAR(fit.coefficients(0), y0 / n, 1e-5); // the points are symmetric about 0
     EXPECT_NEAR(fit.coefficients(1), y1 / t2, 1e-5);
+    // the scale s of errors of the size 1 (in sd): s^2 = (8 + n w) / (8 + n), 8 errors of the scale 1 beforehand, with
+    // Student's weight w = 5 / (4 + 1 / s^2)
+    const double s2 = std::pow(fit.scale(0), 2), w = 5 / (4 + 1 / s2);
+    EXPECT_NEAR(s2, (8 + n * w) / (8 + n), 1e-6);
+    EXPECT_NEAR(fit.covariance(1, 1), 0.01 * s2 / (w * t2), 1e-6 * 0.01 / t2);
 }
 
 TEST(RobustFit, SizesAreWithinTheirIntervals)

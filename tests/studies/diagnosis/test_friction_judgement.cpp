@@ -129,6 +129,10 @@ TEST(FrictionJudgement, TheErrorIsAJackknifeOverSlides)
     EXPECT_EQ(j.windows, 120u);
     EXPECT_EQ(j.slides, 6u);
     EXPECT_NEAR(j.value, 0.5, 1e-4);
+    // the fit's own: 120 samples of a weight of 5 / (4 + 0.2^2) and half of their noise, hypot(0.05, 0.01); beside it
+    // the one joint may differ by 4 % from all joints together
+    const double information = 120 * 5 / (4 + 0.0385) * 0.25 / (0.25 * 0.0026);
+    EXPECT_NEAR(j.fit, std::sqrt(1 / information + 0.04 * 0.04), 1e-4);
     const double deviation = 0.005 * std::sqrt(6.0 / 5); // of the six about their mean
     EXPECT_NEAR(j.leaving_out * j.value, deviation / std::sqrt(6.0), 0.05 * deviation / std::sqrt(6.0));
     // many windows do not make an interval narrower that the slides have

@@ -52,6 +52,24 @@ TEST(LawLikeness, WhatIsMissing)
     EXPECT_DOUBLE_EQ(LawLikeness(pairs_apart({0, 0}), 0.75).distance({0, 0}, {7, 7}), 0);
 }
 
+/// Distances in units of a law's scatter; of the nearest so many others the mean.
+TEST(IsolationPValue, IsTheRankOfTheMeanDistanceToTheNearest)
+{
+    const double unit = 1.4826 / std::sqrt(2.0);
+    const LawLikeness likeness(pairs_apart({1}), 1);
+    const std::vector<Numbers> nulls = {{0}, {unit}, {3 * unit}, {7 * unit}};
+    const std::vector<double> apart = isolations(likeness, nulls, 2);
+    ASSERT_EQ(apart.size(), 4U);
+    EXPECT_NEAR(apart[0], (1 + 3) / 2.0, 1e-12);
+    EXPECT_NEAR(apart[1], (1 + 2) / 2.0, 1e-12);
+    EXPECT_NEAR(apart[2], (2 + 3) / 2.0, 1e-12);
+    EXPECT_NEAR(apart[3], (4 + 6) / 2.0, 1e-12);
+    EXPECT_NEAR(isolation(likeness, {5 * unit}, nulls, 2), 2, 1e-12);
+    // of the nearest twelve here all: 5 + 4 + 2 + 2 over 4 beside (1 + 3 + 7) / 3, (1 + 2 + 6) / 3, (3 + 2 + 4) / 3 and
+    // (7 + 6 + 4) / 3, of which two are as large
+    EXPECT_NEAR(isolation_p_value(likeness, nulls, {5 * unit}), 3.0 / 5, 1e-12);
+}
+
 TEST(IsolationPValue, IsUniformForLawsOfTheFamilyAndSmallOutside)
 {
     std::mt19937 random(3);
