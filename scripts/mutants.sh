@@ -14,7 +14,7 @@ set -euo pipefail
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd -- "$root"
-tree=build/mutants/tree build=build/mutants/build jobs=$(nproc) keep= action=run regex=
+tree=build/mutants/tree build=build/mutants/build jobs=$(nproc) keep="" action=run regex=""
 while [[ $# -gt 0 ]]; do
     case $1 in
     --list | --check) action=${1#--} ;;
