@@ -246,17 +246,23 @@ class Programs:
         return [t for t in tests if not re.search(r"Long\.|^Long/|Long$|PinnedOutcomes", t)]
 
     def matching(self, name, pattern, statistics):
-        return [t for t in self.tests[name] if ("Statistics" in t) == statistics and
-                any(fnmatch.fnmatchcase(t, p if p.endswith("*") else p + "*") for p in pattern.split(":"))]
+        """Tests of a filter: statistical ones, or all others and those that it names as such."""
+        return [t for t in self.tests[name]
+                if any(fnmatch.fnmatchcase(t, p if p.endswith("*") else p + "*") and
+                       ("Statistics" in t) == (statistics or "Statistics" in p) for p in pattern.split(":"))]
 
-    def stages(self, m):
-        """(program, tests) of the file, then quick ones of the room, then statistical ones."""
-        own = [(p, self.matching(p, f, False)) for p, f in m.tests]
+    def own(self, m):
+        """(program, quick tests) of the file."""
+        return [(p, tests) for p, f in m.tests if (tests := self.matching(p, f, False))]
+
+    def stages(self, m, quick):
+        """Those of the file, then those of the room, then the statistical ones of the file."""
+        own = self.own(m)
         known = {(p, t) for p, tests in own for t in tests}
         program, suites = m.suites
         room = (program, [t for t in self.matching(program, suites, False) if (program, t) not in known])
-        late = [(p, self.matching(p, f, True)) for p, f in dict.fromkeys(m.tests + [m.suites])]
-        return [(p, tests) for p, tests in own + [room] + late if tests]
+        late = [] if quick else [(p, self.matching(p, re.sub(r"\.[^:]*", "*", f), True)) for p, f in m.tests]
+        return own + [(p, tests) for p, tests in [room] + late if tests]
 
     def run(self, number, program, tests, limit):
         """The first test that fails with a mutant; empty: all pass."""
@@ -286,25 +292,25 @@ class Programs:
             self.seconds[key] = time.monotonic() - begin
         return 60 + 10 * self.seconds[key]
 
-    def killer(self, m):
-        for program, tests in self.stages(m):
+    def killer(self, m, quick):
+        for program, tests in self.stages(m, quick):
             failed = self.run(m.number, program, tests, self.limit(program, tests))
             if failed:
                 return failed
         return ""
 
 
-def run(mutants, build, jobs, regex):
+def run(mutants, build, jobs, regex, quick):
     wanted = [m for m in chosen(mutants, regex) if not m.equivalent]
     programs = Programs(build, programs_of(wanted))
-    for program, tests in dict.fromkeys((p, tuple(t)) for m in wanted for p, t in programs.stages(m)[:len(m.tests)]):
+    for program, tests in dict.fromkeys((p, tuple(t)) for m in wanted for p, t in programs.own(m)):
         programs.limit(program, list(tests))
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, text=True,
                             stdout=subprocess.PIPE).stdout.strip()
     results = read_results()
     killed = 0
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        pending = {pool.submit(programs.killer, m): m for m in wanted}
+        pending = {pool.submit(programs.killer, m, quick): m for m in wanted}
         for done in concurrent.futures.as_completed(pending):
             m, test = pending[done], done.result()
             killed += test != ""
@@ -383,7 +389,7 @@ def main():
     elif action == "programs":
         print("\n".join(programs_of(chosen(mutants, words[0]))))
     elif action == "run":
-        return run(mutants, pathlib.Path(words[0]).resolve(), int(words[1]), words[2])
+        return run(mutants, pathlib.Path(words[0]).resolve(), int(words[1]), words[2], "quick" in words[3:])
     elif action == "page":
         write_page(mutants, read_results())
     return 0
