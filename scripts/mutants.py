@@ -303,8 +303,11 @@ class Programs:
 def run(mutants, build, jobs, regex, quick):
     wanted = [m for m in chosen(mutants, regex) if not m.equivalent]
     programs = Programs(build, programs_of(wanted))
-    for program, tests in dict.fromkeys((p, tuple(t)) for m in wanted for p, t in programs.own(m)):
-        programs.limit(program, list(tests))
+    try:  # the tests of the rooms follow when they are needed
+        for program, tests in dict.fromkeys((p, tuple(t)) for m in wanted for p, t in programs.own(m)):
+            programs.limit(program, list(tests))
+    except RuntimeError as error:
+        sys.exit(f"mutants.sh: {error}")
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, text=True,
                             stdout=subprocess.PIPE).stdout.strip()
     results = read_results()
