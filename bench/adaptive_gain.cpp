@@ -3,7 +3,8 @@
 ///   stylobate_adaptive --reference REF.h5 [--run ADAPTIVE.h5 ...] [--sobol SURFACE.h5 ...] [--repeats N]
 ///
 /// The reference is a uniform surface with many realizations. Its shares are taken as the truth of one of the known
-/// surfaces, over which runs are simulated by drawing collapses (no mechanics: thousands of cells in a second).
+/// surfaces. Of intervals by own trials the coverage is computed exactly; of pooled ones runs are simulated by drawing
+/// collapses (no mechanics: seconds for a run).
 /// Adaptive runs of the study itself, with seeds of their own, are then held against it. `scripts/adaptive.sh` makes
 /// all files.
 
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -77,21 +79,86 @@ struct Kind {
 
 struct Measured {
     double realizations = 0; ///< mean
-    double deviation = 0;    ///< of one run
+    double deviation = 0;    ///< of one run; NaN: not computed
     double held = 0, held_between = 0;
-    double worst = 1, worst_p = 0;
+    double held_tenth = 0;                    ///< of the tenth of the cells with the lowest coverage
+    double worst = std::nan(""), worst_p = 0; ///< of the worst cell; NaN: not measured
     std::vector<Kind> kinds = {{"0 to 0.002", -1, 0.002},  {"0.002 to 0.02", 0.002, 0.02}, {"0.02 to 0.05", 0.02, 0.05},
                                {"0.05 to 0.1", 0.05, 0.1}, {"0.1 to 0.25", 0.1, 0.25},     {"0.25 to 0.5", 0.25, 0.51}};
 };
 
-Measured measure(const Known& truth, bool borrow, std::uint64_t minimum, int repeats)
+/// Whether a cell is neither on a plateau nor a cliff.
+bool between(double p)
+{
+    return p > 0.05 && p < 0.95;
+}
+
+/// Cells in the order of their coverage.
+std::vector<std::size_t> by_coverage(const std::vector<double>& coverage)
+{
+    std::vector<std::size_t> cells(coverage.size());
+    std::iota(cells.begin(), cells.end(), std::size_t{0});
+    std::sort(cells.begin(), cells.end(), [&](std::size_t a, std::size_t b) { return coverage[a] < coverage[b]; });
+    return cells;
+}
+
+/// Mean coverage of the first tenth of some cells.
+double tenth(const std::vector<std::size_t>& cells, const std::vector<double>& coverage)
+{
+    const std::size_t n = (cells.size() + 9) / 10;
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        sum += coverage[cells[i]];
+    return sum / static_cast<double>(n);
+}
+
+/// Means over the cells.
+void add_means(Measured& m, const Known& truth, const std::vector<double>& coverage)
+{
+    double n = 0;
+    for (std::size_t cell = 0; cell < coverage.size(); ++cell) {
+        m.held += coverage[cell] / static_cast<double>(coverage.size());
+        if (between(truth.p[cell])) {
+            m.held_between += coverage[cell];
+            ++n;
+        }
+    }
+    m.held_between = n > 0 ? m.held_between / n : std::nan("");
+}
+
+/// Of own trials, by the sum over all paths of each cell (`InterimAnalyses::expected`): the cells do not depend on each
+/// other while the budget lasts.
+Measured exactly(const Known& truth, std::uint64_t minimum)
+{
+    const InterimAnalyses analyses(minimum, most, half_width, adaptive_level);
+    Measured m;
+    m.deviation = std::nan("");
+    std::vector<double> coverage;
+    for (const double p : truth.p) {
+        // with p = 0 or 1 there is one path, of which the interval holds the end
+        const double inside = std::clamp(p, 1e-12, 1 - 1e-12);
+        const InterimAnalyses::Expected e = analyses.expected(inside, analyses.trials().size());
+        coverage.push_back(e.coverage);
+        m.realizations += e.trials;
+    }
+    add_means(m, truth, coverage);
+    const std::vector<std::size_t> cells = by_coverage(coverage);
+    m.held_tenth = tenth(cells, coverage);
+    m.worst = coverage[cells.front()];
+    m.worst_p = truth.p[cells.front()];
+    return m;
+}
+
+/// Of pooled intervals, whose cells depend on each other, by simulated runs. The cells of the lowest tenth are chosen
+/// by half of the runs, and their coverage is that of the other half: the lowest of many estimates is too low.
+Measured measure(const Known& truth, std::uint64_t minimum, int repeats)
 {
     const std::size_t cells = truth.p.size();
     Measured m;
-    std::vector<double> held(cells, 0), counts;
+    std::vector<double> held(cells, 0), choosing(cells, 0), counts;
     for (int i = 0; i < repeats; ++i) {
         std::mt19937_64 engine(static_cast<std::uint64_t>(i) + 1);
-        AdaptiveAllocation allocation({most * cells, minimum, half_width, borrow}, truth.rows, truth.columns, most);
+        AdaptiveAllocation allocation({most * cells, minimum, half_width, true}, truth.rows, truth.columns, most);
         SurfaceTrials data{truth.rows, truth.columns, std::vector<std::uint64_t>(cells, 0),
                            std::vector<std::uint64_t>(cells, 0)};
         while (true) {
@@ -111,7 +178,8 @@ Measured measure(const Known& truth, bool borrow, std::uint64_t minimum, int rep
         for (std::size_t cell = 0; cell < cells; ++cell) {
             const double p = truth.p[cell];
             const bool in = estimates[cell].interval.lower <= p && p <= estimates[cell].interval.upper;
-            held[cell] += in;
+            held[cell] += in / static_cast<double>(repeats);
+            choosing[cell] += i < repeats / 2 && in ? 1.0 / (repeats / 2) : 0;
             for (Kind& kind : m.kinds)
                 if (const double q = std::min(p, 1 - p); q > kind.from && q <= kind.to) {
                     ++kind.cells;
@@ -120,20 +188,12 @@ Measured measure(const Known& truth, bool borrow, std::uint64_t minimum, int rep
                 }
         }
     }
-    double between = 0;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        const double share = held[cell] / repeats;
-        m.held += share / static_cast<double>(cells);
-        if (truth.p[cell] > 0.05 && truth.p[cell] < 0.95) {
-            m.held_between += share;
-            ++between;
-        }
-        if (share < m.worst) {
-            m.worst = share;
-            m.worst_p = truth.p[cell];
-        }
-    }
-    m.held_between = between > 0 ? m.held_between / between : std::nan("");
+    add_means(m, truth, held);
+    std::vector<double> counted;
+    const double chosen_by = repeats / 2, counted_in = repeats - repeats / 2;
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        counted.push_back((held[cell] * repeats - choosing[cell] * chosen_by) / counted_in);
+    m.held_tenth = tenth(by_coverage(choosing), counted);
     for (const double count : counts)
         m.realizations += count / repeats;
     for (const double count : counts)
@@ -155,9 +215,40 @@ std::string share(double value)
 
 void print_known(const Known& truth, const std::string& how, const Measured& m)
 {
-    fmt::print("| {} | {} | {:.0f} ± {:.0f} | {:.1f} | {} | {} | {:.2f} (p = {:.3f}) |\n", truth.name, how,
-               m.realizations, m.deviation, uniform_realizations(truth.p.size()) / m.realizations, share(m.held),
-               share(m.held_between), m.worst, m.worst_p);
+    fmt::print("| {} | {} | {:.0f}{} | {:.1f} | {} | {} | {} | {} |\n", truth.name, how, m.realizations,
+               std::isnan(m.deviation) ? "" : fmt::format(" ± {:.0f}", m.deviation),
+               uniform_realizations(truth.p.size()) / m.realizations, share(m.held), share(m.held_between),
+               share(m.held_tenth), std::isnan(m.worst) ? "" : fmt::format("{:.3f} (p = {:.3f})", m.worst, m.worst_p));
+}
+
+/// The coverage of one cell's own trials as a function of p, exactly.
+void print_one_cell()
+{
+    fmt::print("\nOne cell by its own trials, exactly: coverage and mean number of realizations; the mean over p, and "
+               "the lowest on a grid of 0.0005.\n\n");
+    constexpr std::array<double, 6> shown = {0.001, 0.01, 0.05, 0.1, 0.2, 0.5};
+    std::string head = "half width, minimum | mean | lowest";
+    for (const double p : shown)
+        head += fmt::format(" | p = {}", p);
+    fmt::print("{}", markdown_head(head));
+    for (const auto& [half, minimum] : {std::pair{0.05, 8}, {0.05, 16}, {0.05, 28}, {0.02, 8}, {0.1, 8}}) {
+        const InterimAnalyses analyses(static_cast<std::uint64_t>(minimum), 100000, half, adaptive_level);
+        const auto at = [&](double p) { return analyses.expected(p, analyses.trials().size()); };
+        double mean = 0, lowest = 1, lowest_p = 0;
+        constexpr int parts = 1000;
+        for (int i = 0; i < parts; ++i) {
+            const double p = 0.5 * (i + 0.5) / parts, coverage = at(p).coverage;
+            mean += coverage / parts;
+            if (coverage < lowest) {
+                lowest = coverage;
+                lowest_p = p;
+            }
+        }
+        fmt::print("| ±{}, {} | {:.3f} | {:.3f} (p = {:.4f}) |", half, minimum, mean, lowest, lowest_p);
+        for (const double p : shown)
+            fmt::print(" {:.3f}, {:.0f} |", at(p).coverage, at(p).trials);
+        fmt::print("\n");
+    }
 }
 
 SurfaceTable table_of(const std::string& file, const SurfaceTable* like)
@@ -238,24 +329,26 @@ int report(const std::string& file, const std::vector<std::string>& runs, const 
                count(reference.trials), main.rows, main.columns, count(reference.collapses) / count(reference.trials),
                uniform_realizations(main.p.size()), half_width);
 
-    fmt::print(
-        "{}",
-        markdown_head(
-            "surface | intervals | realizations | times fewer | hold, all cells | hold, 0.05 < p < 0.95 | worst cell"));
-    print_known(main, "own trials", measure(main, false, 8, 4 * repeats));
-    const Measured borrowed = measure(main, true, 8, 2 * repeats);
+    fmt::print("{}",
+               markdown_head(
+                   "surface | intervals | realizations | times fewer | hold, all cells | hold, 0.05 < p < 0.95 | hold, "
+                   "lowest tenth | worst cell"));
+    print_known(main, "own trials", exactly(main, 8));
+    const Measured borrowed = measure(main, 8, repeats);
     print_known(main, "pooled", borrowed);
-    print_known(main, "pooled, minimum 16", measure(main, true, 16, repeats));
+    print_known(main, "pooled, minimum 16", measure(main, 16, repeats));
     for (const Known& truth : known_surfaces()) {
-        print_known(truth, "own trials", measure(truth, false, 8, repeats));
-        print_known(truth, "pooled", measure(truth, true, 8, repeats));
+        print_known(truth, "own trials", exactly(truth, 8));
+        print_known(truth, "pooled", measure(truth, 8, repeats));
+        std::fflush(stdout);
     }
+    print_one_cell();
     fmt::print("\nSmall-scale column, reference, pooled intervals, by min(p, 1 - p):\n\n");
     fmt::print("{}", markdown_head("min(p, 1 - p) | cells | hold | realizations of a cell"));
     for (const Kind& kind : borrowed.kinds)
         if (kind.cells > 0)
-            fmt::print("| {} | {:.0f} | {:.3f} | {:.0f} |\n", kind.name, kind.cells / (2 * repeats),
-                       kind.held / kind.cells, kind.trials / kind.cells);
+            fmt::print("| {} | {:.0f} | {:.3f} | {:.0f} |\n", kind.name, kind.cells / repeats, kind.held / kind.cells,
+                       kind.trials / kind.cells);
     if (!runs.empty()) {
         fmt::print("\nAdaptive runs of the study:\n\n");
         fmt::print("{}", markdown_head("seed | realizations | times fewer | rounds | widest ± | cells whose interval "
@@ -276,7 +369,7 @@ int main(int argc, char** argv)
 {
     std::string reference;
     std::vector<std::string> runs, sobol;
-    int repeats = 20;
+    int repeats = 40;
     CLI::App app("Gain of adaptive surfaces, and coverage of their intervals");
     app.add_option("--reference", reference, "a uniform surface with many realizations")->required();
     app.add_option("--run", runs, "adaptive runs of the same study");

@@ -2,7 +2,7 @@
 # Measures the gain of adaptive surfaces and the coverage of their intervals, and writes the tables into docs/adaptive.md.
 #
 #   scripts/adaptive.sh [SEEDS [REPEATS]]    adaptive runs of the study itself with that many seeds (default 4), and that
-#                                            many simulated runs of each known surface (default 20)
+#                                            many simulated runs of each known surface (default 40)
 #
 # Results are kept in results/adaptive and used again. The reference (±0.02 in every cell, from each cell's own trials)
 # takes minutes.
@@ -10,7 +10,7 @@ set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 seeds=${1:-4}
-repeats=${2:-20}
+repeats=${2:-40}
 . scripts/built.sh stylobate stylobate_adaptive
 study=studies/inputs/small_scale_column_adaptive.toml
 out=results/adaptive

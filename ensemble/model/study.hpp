@@ -257,10 +257,12 @@ struct RareSpec {
     std::uint64_t repeats = 10;
     static constexpr double level_probability = 0.1;
     static constexpr std::uint64_t most_levels = 10; ///< beyond the first one
-    /// A realization's index is its repeat x this + its number in the repeat.
-    static constexpr std::uint64_t indices_of_repeat = std::uint64_t{1} << 32;
+    /// The pilot, which is number 0, and the repeats after it.
+    std::uint64_t simulations() const { return repeats + 1; }
+    /// A realization's index is the number of its simulation x this + its number in it.
+    static constexpr std::uint64_t indices_of_simulation = std::uint64_t{1} << 32;
     /// Upper bound of its realizations.
-    std::uint64_t most() const { return repeats * samples * (most_levels + 1); }
+    std::uint64_t most() const { return simulations() * samples * (most_levels + 1); }
 };
 
 /// The density of the prior over the intensity of the past shaking.
@@ -538,7 +540,7 @@ struct Study {
         if (sensitivity)
             return sensitivity->total();
         if (rare)
-            return rare->repeats * RareSpec::indices_of_repeat;
+            return rare->simulations() * RareSpec::indices_of_simulation;
         return realizations * cells() * (static_cast<std::uint64_t>(events()) + (twins ? twins->kinds.size() : 0));
     }
     /// The original of a twin, or the realization of one event with the same draws; of an original its own index.

@@ -29,7 +29,8 @@ struct RestPolynomial {
 ///                                                      falls, 1 between
 ///
 /// The kind `harmonic` tapers the displacement: it ends at rest without a correction, but its acceleration overshoots
-/// in the ramp (1.7 % for two cycles, 59 % for half a one) and is no longer the plain amplitude. Here no peak of the
+/// in the ramp (by up to 2.0 % for two cycles, 61 % for half a one: `ramp_overshoot`) and is no longer the plain
+/// amplitude. Here no peak of the
 /// ramp is above the plateau. The taper causes a drift, which `rest`, a polynomial of degree 5 in the displacement,
 /// removes over the whole duration; the tests measure how small it is.
 struct TaperedSine {
@@ -70,8 +71,8 @@ private:
 ///
 /// with f going from `from_hz` to `to_hz` linearly or as an exponential (equal times for equal ratios). The
 /// displacement is given, so the motion is at rest at both ends exactly. Its acceleration overshoots in the ramps as
-/// that of `harmonic` does (1.7 % for two cycles); on the plateau its amplitude differs from 1 in the second order of
-/// f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests check).
+/// that of `harmonic` does (by up to 2.0 % for two cycles); on the plateau its amplitude differs from 1 in the second
+/// order of f' / f2 (less than 1 % in a sweep over four octaves in a minute, which the tests check).
 struct SineSweep {
     SineSweep(double from_hz, double to_hz, Spacing spacing, double duration_s, double ramp_cycles);
 
@@ -93,5 +94,15 @@ private:
     double slope_; ///< linear: f'
     double cycles_;
 };
+
+/// Largest acceleration of a sine whose displacement is ramped as that of `harmonic`, over that of its plateau, at the
+/// phase at which it is largest. With k = 2 pi ramp_cycles and x = c / ramp_cycles the acceleration over the plateau's
+/// is
+///
+///   (s - s'' / k2) sin - (2 s' / k) cos,      so that the factor is the maximum of hypot(s - s'' / k2, 2 s' / k) over
+///   x
+///
+/// (own derivation). At a given phase it is less: kernels/THEORY.md, section 4. @pre ramp_cycles > 0
+double ramp_overshoot(double ramp_cycles);
 
 } // namespace stylobate

@@ -34,7 +34,8 @@ enum class Stream : std::uint64_t {
     bootstrap = 69,           ///< which runs are resampled for an interval; index = resample, element = draw
     scramble = 70, ///< of Sobol points; index = cell, element = dimension x 2^32 + 2^digit + the digits before
     twin = 71,     ///< displacement of perturbed replicas of a fragility study; element = block
-    subset = 72,   ///< of subset simulation; index = repeat x 2^32 + evaluation, element = number of the point
+    subset = 72,   ///< of subset simulation; index = simulation x 2^32 + evaluation, element = number of the point;
+                   ///< element 2^32 of the first evaluation of a level: which samples begin its chains
     sequence = 73, ///< which records follow a record; index = record, element = place in the sequence
     years = 74, ///< earthquakes of simulated years; index = history, element 0: their number, 3 i + 1 to 3 i + 3: time,
                 ///< intensity and motion of earthquake i; from 2^32 on the same of those below the threshold

@@ -34,7 +34,8 @@ inline const NumberKey frequency{"frequency_hz",
                                  {.used = {with_frequency, no_axes}, .example = "1.0"}};
 inline const NumberKey pga{"pga_m_s2",
                            acceleration_range,
-                           "largest acceleration; of a harmonic motion the amplitude on its plateau",
+                           "largest acceleration; of a harmonic motion and a sweep the amplitude on the plateau, which "
+                           "the ramps exceed (by up to 2.0 % with 2 cycles, 61 % with half a cycle)",
                            {.used = {synthetic, one_motion}, .example = "4.0"}};
 inline const WordKey<HarmonicEdge> start{"start",
                                          edge_names,

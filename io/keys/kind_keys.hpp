@@ -211,13 +211,15 @@ namespace rare_keys {
 
 inline const WholeKey samples{
     "samples",
-    {100, 1'000'000, "Realizations of each level; a tenth of them is the number of chains."},
+    {200, 1'000'000,
+     "Realizations of each level; a tenth of them is the number of chains. With fewer, some repeats are often 0."},
     RareSpec{}.samples,
     "realizations of each level of the subset simulation; a tenth of them is the number of chains"};
 inline const WholeKey repeats{"repeats",
                               {5, 1000, "Independent repeats: their scatter gives the interval."},
                               RareSpec{}.repeats,
-                              "independent repeats: their scatter gives the interval"};
+                              "independent repeats: their scatter gives the interval; a pilot that chooses the levels "
+                              "comes first and is not counted"};
 inline const TableKey table{"rare",
                             "the subset simulation of a rare collapse",
                             {&samples, &repeats},

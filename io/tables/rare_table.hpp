@@ -15,11 +15,12 @@ struct RareTable {
     double lower = 0;
     double upper = 0;
     std::string interval;            ///< "repeats 0.95"
-    std::uint64_t realizations = 0;  ///< in all
+    std::uint64_t realizations = 0;  ///< in all, those of the pilot counted
     double plain_realizations = 0;   ///< that plain sampling would take for the same error; NaN if not known
     std::vector<double> repeats;     ///< (repeats) each one's probability
     std::size_t levels = 0;          ///< of the repeat that has most
-    std::vector<double> threshold_m; ///< (repeats x levels) peak displacement of the top; NaN where there is no level
+    std::vector<double> threshold_m; ///< (repeats x levels) peak displacement of the top; NaN where there is no level.
+                                     ///< The pilot's, and so the same in all repeats that come so far
     std::vector<double> share;       ///< (repeats x levels) above the next threshold, or collapsed
     std::vector<double> acceptance;  ///< (repeats x levels) of the chains' candidates
     std::vector<double> stuck;       ///< (repeats x levels) share of the chains that never moved

@@ -24,7 +24,7 @@ COLUMN = INPUTS / "small_scale_column.toml"
     ("small_scale_column", SMALL_SURFACE | {"output.realizations": "none"}),
     ("fragility_column", SMALL_FRAGILITY),
     ("free_rocking", {}),
-    ("rare_collapse", {"rare.samples": 100, "rare.repeats": 5}),
+    ("rare_collapse", {"rare.samples": 200, "rare.repeats": 5}),
 ])
 def test_files_have_the_bytes_of_the_program(folder, name, settings):
     program("run", INPUTS / f"{name}.toml", "-o", "program.h5", "--quiet", settings=settings)

@@ -2,11 +2,11 @@
 /// Contact parameters, and any other number of a study file, from measured response: how likely they make what was
 /// measured, how well they are known, and what was not determined.
 ///
-/// Determined are values of the specimen, with intervals that hold whatever its contact law is: the friction, where
-/// `judge_friction` determines it; it is then held at that value, otherwise at the study's. The search finds
-/// values of this model with its contact law, which predict best: they are effective, and determine nothing of the
-/// specimen, however narrow their intervals are. Stiffness and damping of a contact law that the specimen does not have
-/// cannot be anything else.
+/// Determined are values of the specimen, with intervals that do not rest on the model's law of normal contact and were
+/// tested on specimens of two other laws (docs/calibration.md): the friction, where `judge_friction` determines it; it
+/// is then held at that value, otherwise at the study's. The search finds values of this model with its contact law,
+/// which predict best: they are effective, and determine nothing of the specimen, however narrow their intervals are.
+/// Stiffness and damping of a contact law that the specimen does not have cannot be anything else.
 ///
 /// Evidence is either histories, scored window by window (`window_comparison.hpp`), or outcomes (fell or stood),
 /// scored by the share of falls in small ensembles. The search is a scan over the whole range (friction is a cliff:
@@ -65,7 +65,7 @@ struct FittedParameter {
     double to = 0;
     bool bounded_below = false; ///< the data exclude the lower end of the range
     bool bounded_above = false;
-    bool determined = false; ///< a value of the specimen, with an interval that holds whatever its contact law is
+    bool determined = false; ///< a value of the specimen, by no law of normal contact
     bool effective = false;  ///< a value of this model with its contact law; the interval is that of the model's value
     std::string note;        ///< in words: what a value rests on, why it is effective or not determined
     std::vector<ProfilePoint> profile;

@@ -1,6 +1,7 @@
 #include "studies/check/weak_spots.hpp"
 
 #include "ensemble/model/nominal.hpp"
+#include "ensemble/motion/synthetic_sine.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
@@ -50,17 +51,25 @@ WeakSpot spot(std::string text, std::string todo)
     return {"", std::move(text), std::move(todo)};
 }
 
-/// The strongest of the shaking [m/s2].
+/// By how much the shaking may exceed its nominal PGA, which is that of the plateau: in the ramps of a displacement.
+double overshoot(const ExcitationSpec& e)
+{
+    const bool ramps =
+        e.kind == ExcitationKind::sweep ||
+        (e.kind == ExcitationKind::harmonic && (e.start == HarmonicEdge::smooth || e.end == HarmonicEdge::smooth));
+    return ramps ? ramp_overshoot(e.ramp_cycles) : 1;
+}
+
+/// The strongest of the shaking [m/s2], with its overshoots.
 double strongest_m_s2(const Subject& s)
 {
-    if (s.study().surface) {
-        const Axis& axis = s.study().surface->pga_m_s2;
-        return std::max(axis.from, axis.to);
-    }
     double pga = 0;
-    for (const Realization& r : s.sample(64))
-        pga = std::max(pga, r.pga_m_s2);
-    return pga;
+    if (s.study().surface)
+        pga = std::max(s.study().surface->pga_m_s2.from, s.study().surface->pga_m_s2.to);
+    else
+        for (const Realization& r : s.sample(64))
+            pga = std::max(pga, r.pga_m_s2);
+    return pga * (s.study().fragility ? 1 : overshoot(s.study().excitation)); // scaled by the peak of its samples
 }
 
 /// Below the limit of statics no rigid block moves, whatever the history of the shaking. (A rare event is one of the

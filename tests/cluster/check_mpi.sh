@@ -45,7 +45,7 @@ settings() { # of one kind, one to a line
     rows) printf '%s\n' "${axes[@]}" --set study.realizations=100 ;;
     counts) printf '%s\n' "${axes[@]}" --set study.realizations=100 --set output.realizations=none ;;
     adaptive) printf '%s\n' "${axes[@]}" --set surface.adaptive.budget=1000 ;;
-    rare) printf '%s\n' --set rare.samples=100 --set rare.repeats=5 ;;
+    rare) printf '%s\n' --set rare.samples=200 --set rare.repeats=5 ;;
     twins) printf '%s\n' "${axes[@]}" --set study.realizations=6 --set twins.followed=1 ;;
     fragility) printf '%s\n' --set study.realizations=2 --set fragility.motions=8 --set fragility.contacts=1 ;;
     sensitivity) printf '%s\n' --set sensitivity.samples=16 ;;

@@ -43,7 +43,7 @@ STUDIES = {
         {"study.realizations": "2", "fragility.motions": "8", "fragility.contacts": "1"},
     ),
     "sensitivity": ("sensitivity_column.toml", {"sensitivity.samples": "16"}),
-    "rare": ("rare_collapse.toml", {"rare.samples": "100"}),
+    "rare": ("rare_collapse.toml", {"rare.samples": "200"}),
     "rigid blocks": ("rigid_column.toml", {"study.realizations": "2"}),
 }
 

@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SmallStudy{"sensitivity",
                                "sensitivity_column.toml",
                                {"sensitivity.samples=6", "sensitivity.inner=2", "excitation.pga_m_s2=7"}},
-                    SmallStudy{"rare", "rare_collapse.toml", {"rare.samples=100", "rare.repeats=5"}}),
+                    SmallStudy{"rare", "rare_collapse.toml", {"rare.samples=200", "rare.repeats=5"}}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST_F(LibraryRun, OfAStoppedRunTheFairPartCounts)

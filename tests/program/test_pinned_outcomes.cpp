@@ -129,7 +129,7 @@ const std::vector<ReducedStudy>& reduced_studies()
          {"study.realizations=6", "fragility.motions=8",
           "fragility.intensity={measure=\"pgv\",from=0.5,to=3.0,count=3,spacing=\"log\"}"}},
         surface("near_fault_pulse", 0.4, 1, 4, 12),
-        {"rare_collapse", {"rare.samples=100", "rare.repeats=5"}},
+        {"rare_collapse", {"rare.samples=200", "rare.repeats=5"}},
         surface("record", 1, 3, 4, 12),
         surface("restored_column", 1, 3, 4, 12),
         surface("rigid_column", 1, 4, 4, 12),

@@ -252,7 +252,7 @@ TEST_F(Kinds, ReportOfACalibrationIsAPage)
 
 TEST_F(Kinds, ARareEventHasAPicture)
 {
-    done(run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/rare_collapse.toml", {"rare.samples=100", "rare.repeats=5"},
+    done(run_words(STYLOBATE_SOURCE_DIR "/studies/inputs/rare_collapse.toml", {"rare.samples=200", "rare.repeats=5"},
                    {"-o", "rare.h5", "--quiet"}));
     done({"export", "rare.h5", "--to", "png", "-o", "rare.png"});
     EXPECT_TRUE(read_bytes(folder / "rare.png").starts_with("\x89PNG"));

@@ -17,7 +17,7 @@ TEST_F(NewStudy, RunsAsItStands)
           "surface.pga_m_s2.count=1", "surface.pga_m_s2.from=8"}},
         {"fragility", {"study.realizations=1", "fragility.motions=8", "fragility.intensity.count=2"}},
         {"sensitivity", {"sensitivity.samples=2"}},
-        {"rare", {"rare.samples=100", "rare.repeats=5", "excitation.pga_m_s2=8"}},
+        {"rare", {"rare.samples=200", "rare.repeats=5", "excitation.pga_m_s2=8"}},
         {"survival",
          {"study.realizations=1", "surface.frequency_hz.count=1", "surface.frequency_hz.from=2",
           "surface.pga_m_s2.count=3", "surface.pga_m_s2.from=6"}}};

@@ -51,6 +51,7 @@ TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     const Ended quiet = risk({"--hazard", "k0=1e-3,k=3,measure=pgv", "-o", "quiet.h5", "--quiet"});
     EXPECT_TRUE(quiet.out.ends_with("\nquiet.h5\n")) << testing::PrintToString(quiet);
+    EXPECT_EQ(quiet.out.find("the mean hazard is"), std::string::npos) << "without fractiles there is none";
     EXPECT_EQ(quiet.err, "");
     const JsonValue json = json_of(ended), fragility = json_of(ran_);
     int compared = 0;
@@ -72,6 +73,11 @@ TEST_F(RiskProgram, LognormalIsTheClosedFormAndTheFileIsRead)
         const JsonValue& hundred = found["over_years"].items[1];
         EXPECT_EQ(hundred["years"].number, 100);
         EXPECT_NEAR(hundred["probability"]["value"].number, 1 - std::exp(-100 * want), 1e-6);
+        // the mean of a lognormal hazard is exp(sigma2 / 2) of its median
+        const JsonValue& mean = found["mean_hazard"];
+        EXPECT_NEAR(mean["frequency_1_year"].number / want, std::exp(0.08), 1e-6);
+        EXPECT_NEAR(mean["over_years"].items[1]["probability"].number, 1 - std::exp(-100 * want * std::exp(0.08)),
+                    1e-6);
         ++compared;
     }
     EXPECT_GE(compared, 3);

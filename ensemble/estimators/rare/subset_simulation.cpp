@@ -33,10 +33,15 @@ struct Samples {
     std::vector<double> response;
 };
 
+/// Which samples begin the chains of a level: an element beyond those of any point.
+constexpr std::uint64_t starts_element = std::uint64_t{1} << 32;
+
 class Subset {
 public:
-    Subset(std::size_t dimension, const Response& response, const SubsetOptions& options, std::uint64_t repeat)
-        : dimension_(dimension), evaluate_(response), options_(options), repeat_(repeat),
+    /// @param plan levels whose thresholds and steps are kept; null: they are chosen
+    Subset(std::size_t dimension, const Response& response, const SubsetOptions& options, std::uint64_t simulation,
+           const std::vector<SubsetLevel>* plan)
+        : dimension_(dimension), evaluate_(response), options_(options), simulation_(simulation), plan_(plan),
           chains_(
               static_cast<std::size_t>(std::lround(options.level_probability * static_cast<double>(options.samples)))),
           length_(chains_ > 0 ? options.samples / chains_ : 0)
@@ -54,38 +59,44 @@ public:
         samples.response = respond(samples.points);
         SubsetLevel level;
         level.threshold = -std::numeric_limits<double>::infinity();
-        double product = 1, before = 1; ///< of the shares, with and without that of the level
+        double product = 1; ///< of the shares
         while (true) {
-            std::vector<double> sorted = samples.response;
-            std::sort(sorted.begin(), sorted.end(), std::greater<>());
-            // The level is the greatest response that does not continue: the product is then unbiased for any behaviour
-            // of the chains (Brehier et al., Annals of Applied Probability 26 (2016) 3559). The least of those that
-            // continue, which is often taken, makes each factor greater by one over the number of chains.
-            const double next = sorted[chains_];
-            const bool last = next >= options_.limit;
-            level.probability = last ? share(samples.response, options_.limit, true) : share(samples.response, next);
+            const double next = next_threshold(samples.response, level.threshold);
+            level.probability = share(samples.response, next);
+            const bool last = next == options_.limit || level.probability == 0;
             run_.levels.push_back(level);
             product *= level.probability;
-            if (last || run_.levels.size() > options_.most_levels || !(next > level.threshold) ||
-                level.probability == 0) {
-                // the limit is not reached, and there is no higher level: the estimate is the share that fails here
-                run_.probability = last ? product : before * share(samples.response, options_.limit, true);
+            if (last) {
+                run_.probability = product;
                 return run_;
             }
-            before = product;
             level.threshold = next;
             samples = walk(samples, level);
         }
     }
 
 private:
-    std::uint64_t number(std::uint64_t evaluation) const { return (repeat_ << 32) | evaluation; }
+    std::uint64_t number(std::uint64_t evaluation) const { return (simulation_ << 32) | evaluation; }
 
-    /// Of the responses above a value, or not below it.
-    static double share(const std::vector<double>& response, double value, bool or_equal = false)
+    /// Where the samples of a level are divided; the limit if it is the last level.
+    double next_threshold(const std::vector<double>& response, double threshold) const
     {
+        const std::size_t level = run_.levels.size();
+        if (plan_)
+            return level + 1 < plan_->size() ? (*plan_)[level + 1].threshold : options_.limit;
+        std::vector<double> sorted = response;
+        std::sort(sorted.begin(), sorted.end(), std::greater<>());
+        const double next = sorted[chains_]; // the greatest response that does not continue
+        const bool higher = next > threshold && sorted.front() > next;
+        return higher && next < options_.limit && level < options_.most_levels ? next : options_.limit;
+    }
+
+    /// Of the responses above a threshold, or not below the limit.
+    double share(const std::vector<double>& response, double value) const
+    {
+        const bool limit = value == options_.limit;
         const auto count = std::count_if(response.begin(), response.end(),
-                                         [=](double g) { return g > value || (or_equal && g == value); });
+                                         [=](double g) { return g > value || (limit && g == value); });
         return static_cast<double>(count) / static_cast<double>(response.size());
     }
 
@@ -110,9 +121,12 @@ private:
             if (from.response[i] > level.threshold)
                 above.push_back(i);
         Samples all, at; // everything, and where the chains are
-        for (std::size_t c = 0; c < chains_;
-             ++c) { // evenly over all that go on: where responses are equal, fewer than chains
-            const std::size_t i = above[c * above.size() / chains_];
+        // evenly over all that go on, from a random one: each begins chains_ / above.size() chains on average
+        const double begin_at = uniform01(options_.seed, number(run_.evaluations), Stream::subset, starts_element);
+        for (std::size_t c = 0; c < chains_; ++c) {
+            const double place = (static_cast<double>(c) + begin_at) / static_cast<double>(chains_);
+            const std::size_t i =
+                above[std::min(above.size() - 1, static_cast<std::size_t>(place * static_cast<double>(above.size())))];
             at.response.push_back(from.response[i]);
             const auto begin = from.points.begin() + static_cast<std::ptrdiff_t>(i * dimension_);
             at.points.insert(at.points.end(), begin, begin + static_cast<std::ptrdiff_t>(dimension_));
@@ -120,9 +134,12 @@ private:
         all = at;
         std::vector<bool> moved(chains_, false);
         std::size_t taken = 0;
+        level.steps = plan_ ? (*plan_)[run_.levels.size()].steps : std::vector<double>{};
         for (std::size_t step = 1; step < length_; ++step) {
             const std::size_t before = taken;
-            const std::vector<double> candidates = propose(at.points);
+            if (!plan_)
+                level.steps.push_back(std::min(1.0, step_));
+            const std::vector<double> candidates = propose(at.points, level.steps[step - 1]);
             const std::vector<double> response = respond(candidates);
             for (std::size_t c = 0; c < chains_; ++c)
                 if (response[c] > level.threshold) {
@@ -133,19 +150,18 @@ private:
                 }
             all.points.insert(all.points.end(), at.points.begin(), at.points.end());
             all.response.insert(all.response.end(), at.response.begin(), at.response.end());
-            const double share = static_cast<double>(taken - before) / static_cast<double>(chains_);
-            step_ *= std::exp((share - wanted_acceptance) / std::sqrt(static_cast<double>(step)));
+            const double accepted = static_cast<double>(taken - before) / static_cast<double>(chains_);
+            step_ *= std::exp((accepted - wanted_acceptance) / std::sqrt(static_cast<double>(step)));
         }
         const auto candidates = static_cast<double>(chains_ * (length_ - 1));
         level.acceptance = static_cast<double>(taken) / candidates;
         level.stuck = static_cast<double>(std::count(moved.begin(), moved.end(), false)) / static_cast<double>(chains_);
-        level.step = step_;
         return all;
     }
 
-    std::vector<double> propose(const std::vector<double>& points) const
+    std::vector<double> propose(const std::vector<double>& points, double s) const
     {
-        const double s = std::min(1.0, step_), r = std::sqrt(1 - s * s);
+        const double r = std::sqrt(1 - s * s);
         std::vector<double> candidates(points.size());
         for (std::size_t c = 0; c < chains_; ++c) {
             double* v = &candidates[c * dimension_];
@@ -162,9 +178,10 @@ private:
     std::size_t dimension_;
     const Response& evaluate_;
     SubsetOptions options_;
-    std::uint64_t repeat_;
+    std::uint64_t simulation_;
+    const std::vector<SubsetLevel>* plan_;
     std::size_t chains_, length_;
-    double step_ = 0.6; ///< f; what one level has learnt the next one begins with
+    double step_ = 0.6; ///< of a pilot; what one level has learnt the next one begins with
     SubsetRun run_;
 };
 
@@ -185,10 +202,16 @@ double variance_of(const std::vector<double>& values)
 
 } // namespace
 
-SubsetRun subset_simulation(std::size_t dimension, const Response& response, const SubsetOptions& options,
-                            std::uint64_t repeat)
+SubsetRun subset_pilot(std::size_t dimension, const Response& response, const SubsetOptions& options,
+                       std::uint64_t simulation)
 {
-    return Subset(dimension, response, options, repeat).run();
+    return Subset(dimension, response, options, simulation, nullptr).run();
+}
+
+SubsetRun subset_simulation(std::size_t dimension, const Response& response, const SubsetOptions& options,
+                            const std::vector<SubsetLevel>& plan, std::uint64_t simulation)
+{
+    return Subset(dimension, response, options, simulation, &plan).run();
 }
 
 Estimate mean_of_repeats(const std::vector<double>& repeats, double level)

@@ -10,14 +10,21 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace stylobate {
 
 namespace {
 
 constexpr double smallest_share = 1e-10; // of a record that is not taken as 0
+
+Limits hull(const Limits& a, const Limits& b)
+{
+    return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
 
 /// Edges of the parts, in ln im.
 std::vector<double> edges_of(const FragilityData& data, std::size_t parts)
@@ -66,12 +73,14 @@ double outside_of(const HazardModel& hazard, F&& between)
 }
 
 /// Shares of the frequency and its parts, from the frequency between two intensities.
-/// @param between (from, to) -> RiskNumber   @param value (from, to) -> its value alone
+/// @param between (from, to) -> RiskNumber   @param value (curve of the hazard, from, to) -> a frequency alone
 template <class Between, class Value>
 void fill(FrequencyEstimate& estimate, const std::vector<double>& edges, const HazardModel& hazard, Between&& between,
           Value&& value)
 {
     estimate.frequency = between(-no_end, no_end);
+    if (!hazard.fractiles.empty())
+        estimate.by_mean_hazard = value(mean_curve(hazard), -no_end, no_end);
     for (std::size_t i = 0; i + 1 < edges.size(); ++i)
         estimate.parts.push_back({std::exp(edges[i]), std::exp(edges[i + 1]), between(edges[i], edges[i + 1])});
     const double all = estimate.frequency.value;
@@ -79,14 +88,19 @@ void fill(FrequencyEstimate& estimate, const std::vector<double>& edges, const H
         return;
     estimate.below = estimate.parts.front().frequency.value / all;
     estimate.above = estimate.parts.back().frequency.value / all;
-    estimate.beyond_hazard = outside_of(hazard, value) / all;
+    const HazardCurve best = best_curve(hazard);
+    estimate.beyond_hazard = outside_of(hazard, [&](double from, double to) { return value(best, from, to); }) / all;
 }
 
 class LognormalFrequency {
 public:
-    LognormalFrequency(const FragilityData& data, const HazardModel& hazard, const FrequencyOptions& options)
+    /// The same of another form, whose intervals are to be in those of this one.
+    using Other = std::function<RiskNumber(double from, double to)>;
+
+    LognormalFrequency(const FragilityData& data, const HazardModel& hazard, const FrequencyOptions& options,
+                       Other other)
         : hazard_(hazard), options_(options), curves_(hazard, options.level),
-          curve_(fitted_curve(data, log_predictors(data), Link::probit))
+          curve_(fitted_curve(data, log_predictors(data), Link::probit)), other_(std::move(other))
     {
         assert(curve_.fit.maximum == Maximum::inside && curve_.fit.coefficients[1] > 0);
         if (data.records >= least_records)
@@ -101,7 +115,7 @@ public:
         const ParameterVector& b = curve_.fit.coefficients;
         fill(
             found, edges, hazard_, [&](double from, double to) { return number(from, to); },
-            [&](double from, double to) { return frequency(b, curves_.best, from, to); });
+            [&](const HazardCurve& hazard, double from, double to) { return frequency(b, hazard, from, to); });
         const double last = edges[edges.size() - 2], events = curves_.best.frequency(last);
         const double within = frequency(b, curves_.best, edges[1], last);
         found.bounds = {within + events * link_at(Link::probit, b[0] + b[1] * last).below,
@@ -118,7 +132,11 @@ private:
     RiskNumber number(double from, double to) const
     {
         const double value = frequency(curve_.fit.coefficients, curves_.best, from, to);
-        return combined(value, limits(value, from, to), curves_.spread([&](const HazardCurve& hazard) {
+        Limits both = limits(value, from, to);
+        if (other_)
+            if (const RiskNumber other = other_(from, to); other.value > 0)
+                both = hull(both, other.fragility);
+        return combined(value, both, curves_.spread([&](const HazardCurve& hazard) {
             return frequency(curve_.fit.coefficients, hazard, from, to);
         }));
     }
@@ -164,6 +182,7 @@ private:
     HazardCurves curves_;
     FittedCurve curve_;
     Jackknife without_;
+    Other other_;
 };
 
 class ShareFrequency {
@@ -176,6 +195,7 @@ public:
         for (std::size_t j = 0; j < data.points(); ++j) {
             nodes_.push_back(std::log(data.intensity[j]));
             monotone_.push_back(shares.stripes[j].monotone);
+            trials_.push_back(shares.stripes[j].trials);
         }
         while (first_ + 1 < monotone_.size() && monotone_[first_] == 0)
             ++first_;
@@ -198,11 +218,38 @@ public:
         found.form = FragilityForm::shares;
         fill(
             found, edges_of(data_, options_.parts), hazard_, [&](double from, double to) { return number(from, to); },
-            [&](double from, double to) { return frequency(curves_.best, from, to); });
+            [&](const HazardCurve& hazard, double from, double to) { return frequency(hazard, from, to); });
         found.bounds = steps(-no_end, no_end, monotone_, monotone_);
         found.unseen = not_excluded(curves_.best, nodes_.front(), no_end); // weaker shaking was not run
         found.separated = separated_;
         return found;
+    }
+
+    /// Of events in [from, to].
+    RiskNumber number(double from, double to) const
+    {
+        const std::vector<double> weights = curves_.best.node_weights(nodes_, from, to);
+        const double most = most_of(curves_.best, from, to);
+        std::vector<double> own; // frequency of each record
+        double value = 0;
+        for (const auto& shares : own_) {
+            own.push_back(std::inner_product(weights.begin(), weights.end(), shares.begin(), 0.0));
+            value += own.back() / static_cast<double>(own_.size());
+        }
+        Limits limits{0, not_excluded(curves_.best, from, to)};
+        if (most > 0)
+            limits = mean_limits(own, value, most);
+        if (most > 0 && separated_)
+            limits = hull(limits, steps(from, to, low_, high_));
+        else if (value > 0) {
+            const double ratio = curved_over_straight(from, to);
+            limits = hull(limits, {ratio * limits.lower, ratio * limits.upper});
+        }
+        return combined(value, limits, curves_.spread([&](const HazardCurve& hazard) {
+            return value > 0  ? frequency(hazard, from, to)
+                   : most > 0 ? most_of(hazard, from, to)
+                              : not_excluded(hazard, from, to);
+        }));
     }
 
 private:
@@ -238,28 +285,32 @@ private:
                                   0.0);
     }
 
-    RiskNumber number(double from, double to) const
+    /// The frequency of events in [from, to] with a lognormal curve through the shares of every two stripes, over that
+    /// with the straight line: a fragility is convex where it begins to rise and concave where it ends, which a line
+    /// cuts off. Of the monotone shares; one of none (or all) of n trials counts as half a trial more than none (or
+    /// less than all).
+    double curved_over_straight(double from, double to) const
     {
         const std::vector<double> weights = curves_.best.node_weights(nodes_, from, to);
-        const double most = most_of(curves_.best, from, to);
-        std::vector<double> own; // frequency of each record
-        double value = 0;
-        for (const auto& shares : own_) {
-            own.push_back(std::inner_product(weights.begin(), weights.end(), shares.begin(), 0.0));
-            value += own.back() / static_cast<double>(own_.size());
+        const double straight = std::inner_product(weights.begin(), weights.end(), monotone_.begin(), 0.0);
+        double curved = straight;
+        for (std::size_t j = 0; j + 1 < nodes_.size(); ++j) {
+            const double a = std::max(from, nodes_[j]), b = std::min(to, nodes_[j + 1]);
+            if (!(a < b) || !(monotone_[j] < monotone_[j + 1]))
+                continue;
+            const std::vector<double> within = curves_.best.node_weights(nodes_, a, b);
+            const double low = probit_of(j), slope = (probit_of(j + 1) - low) / (nodes_[j + 1] - nodes_[j]);
+            if (slope > 0)
+                curved += curves_.best.lognormal_integral(low - slope * nodes_[j], slope, a, b) -
+                          std::inner_product(within.begin(), within.end(), monotone_.begin(), 0.0);
         }
-        Limits limits{0, not_excluded(curves_.best, from, to)};
-        if (most > 0)
-            limits = mean_limits(own, value, most);
-        if (most > 0 && separated_) {
-            const Limits any = steps(from, to, low_, high_);
-            limits = {std::min(limits.lower, any.lower), std::max(limits.upper, any.upper)};
-        }
-        return combined(value, limits, curves_.spread([&](const HazardCurve& hazard) {
-            return value > 0  ? frequency(hazard, from, to)
-                   : most > 0 ? most_of(hazard, from, to)
-                              : not_excluded(hazard, from, to);
-        }));
+        return straight > 0 && curved > 0 ? curved / straight : 1;
+    }
+
+    double probit_of(std::size_t stripe) const
+    {
+        const double least = 0.5 / (trials_[stripe] + 1);
+        return link_quantile(Link::probit, std::clamp(monotone_[stripe], least, 1 - least));
     }
 
     /// Of the mean of numbers of the records, each of which is between 0 and `most`.
@@ -330,10 +381,10 @@ private:
     const HazardModel& hazard_;
     const FrequencyOptions options_;
     HazardCurves curves_;
-    std::vector<double> nodes_, monotone_; ///< (stripes)
-    std::vector<double> low_, high_;       ///< (stripes) limits of their shares
-    std::vector<std::vector<double>> own_; ///< (records x stripes) shares
-    std::size_t first_ = 0;                ///< stripe of the interval: the first one with damage, else the last one
+    std::vector<double> nodes_, monotone_, trials_; ///< (stripes)
+    std::vector<double> low_, high_;                ///< (stripes) limits of their shares
+    std::vector<std::vector<double>> own_;          ///< (records x stripes) shares
+    std::size_t first_ = 0; ///< stripe of the interval: the first one with damage, else the last one
     bool separated_ = false;
 };
 
@@ -345,9 +396,13 @@ const char* to_string(FragilityForm form)
 }
 
 FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
-                                      const FrequencyOptions& options)
+                                      const FrequencyOptions& options, const StripeShares* shares)
 {
-    return LognormalFrequency(data, hazard, options).estimate();
+    if (!shares)
+        return LognormalFrequency(data, hazard, options, {}).estimate();
+    const ShareFrequency by_shares(data, *shares, hazard, options);
+    return LognormalFrequency(data, hazard, options, [&](double from, double to) { return by_shares.number(from, to); })
+        .estimate();
 }
 
 std::vector<double> stripe_weights(const std::vector<double>& intensity, const HazardModel& hazard)

@@ -11,6 +11,7 @@
 #include "ensemble/estimators/risk/hazard.hpp"
 #include "ensemble/estimators/risk/risk_number.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct FrequencyOptions {
 struct FrequencyEstimate {
     FragilityForm form = FragilityForm::lognormal;
     RiskNumber frequency; ///< [1/year]
+    /// [1/year] by the mean of the hazard over its fractiles (`mean_curve`); NaN without fractiles.
+    double by_mean_hazard = std::numeric_limits<double>::quiet_NaN();
     /// Below the range of the runs, `parts` within it, above it.
     std::vector<FrequencyPart> parts;
     double below = 0, above = 0; ///< shares of the frequency that come from outside of the range of the runs
@@ -61,9 +64,13 @@ struct FrequencyEstimate {
 /// The interval by the records: the jackknife of ln lambda over records (the frequencies without each record in turn),
 /// with the degrees of freedom of its gradient (`record_spread`), as of the curve itself (`jackknife_limits`). From 0
 /// to infinity where it cannot be given: fewer than `least_records`, or a curve that depends on one record.
+/// @param shares of the data: the interval then contains that of `share_frequency` too, of each part in which a run
+///        reached the state (own choice). A curve of which no lack of fit was found is not known to be the true one,
+///        and the interval of the form that such a test chooses does not contain what is not known of the form
+///        (docs/risk.md has the coverage of both).
 /// @pre the data have one measure and a fitted curve that rises with the intensity (`FragilityCurve::maximum`)
 FrequencyEstimate lognormal_frequency(const FragilityData& data, const HazardModel& hazard,
-                                      const FrequencyOptions& options = {});
+                                      const FrequencyOptions& options = {}, const StripeShares* shares = nullptr);
 
 /// Weights w of the stripes [1/year]: the frequency by shares is sum_j w_j p_j, over all intensities and with the best
 /// estimate of the hazard (`HazardCurve::node_weights`).
@@ -77,8 +84,10 @@ std::vector<double> stripe_weights(const std::vector<double>& intensity, const H
 /// where one record alone has all the scatter, it is that of a bounded mean (`record_share.hpp`), y_g between 0 and the
 /// frequency at P = 1 from the first stripe with damage on, which holds with no damage at all, and is wide.
 ///
-/// Where the stripes separate (`FrequencyEstimate::separated`), the interval also contains every curve that rises:
-/// steps through the limits of the stripes' shares (own choice).
+/// Between two stripes the form is not known: the interval also contains its own limits with a lognormal curve through
+/// the shares of every two stripes instead of the straight line. Where the stripes separate
+/// (`FrequencyEstimate::separated`), it contains every curve that rises: steps through the limits of the stripes'
+/// shares (both own choices).
 /// @param shares of the data   @pre two stripes at least
 FrequencyEstimate share_frequency(const FragilityData& data, const StripeShares& shares, const HazardModel& hazard,
                                   const FrequencyOptions& options = {});

@@ -16,6 +16,16 @@ HazardCurve best_curve(const HazardModel& hazard);
 /// @pre two fractiles at least
 HazardCurve quantile_curve(const HazardModel& hazard, double probability);
 
+/// The mean of the curves over their probabilities, at each intensity: between two fractiles, and beyond the outer
+/// ones, ln frequency is a + b z in the normal quantile z, of which the mean over z1 to z2 is
+///
+///   exp(a + b2 / 2) (Phi(z2 - b) - Phi(z1 - b)),
+///
+/// so that of two fractiles it is the mean exp(a + b2 / 2) of a lognormal distribution. A frequency by the fragility is
+/// linear in the hazard, so that by this curve it is the mean over the hazard.
+/// @pre two fractiles at least
+HazardCurve mean_curve(const HazardModel& hazard);
+
 /// A frequency at three curves of the hazard, over its value at the best estimate: the limits of a central interval
 /// and the median.
 struct HazardSpread {

@@ -28,9 +28,14 @@ RiskNumber combined(double value, const Limits& fragility, const std::optional<H
     return number;
 }
 
+double probability_over(double frequency, double years)
+{
+    return -std::expm1(-frequency * years);
+}
+
 RiskNumber probability_over(const RiskNumber& frequency, double years)
 {
-    const auto at = [years](double f) { return -std::expm1(-f * years); };
+    const auto at = [years](double f) { return probability_over(f, years); };
     const auto limits = [&](const Limits& l) { return Limits{at(std::max(l.lower, 0.0)), at(l.upper)}; };
     return {at(frequency.value), limits(frequency.total), limits(frequency.fragility), limits(frequency.hazard),
             frequency.fragility_part};

@@ -27,6 +27,7 @@ struct RiskNumber {
 RiskNumber combined(double value, const Limits& fragility, const std::optional<HazardSpread>& hazard);
 
 /// 1 - exp(-frequency x years): at least one event in these years, of a Poisson process.
+double probability_over(double frequency, double years);
 RiskNumber probability_over(const RiskNumber& frequency, double years);
 
 } // namespace stylobate

@@ -63,7 +63,8 @@ void check_state(const std::string& state, const std::vector<std::string>& names
 std::vector<std::string> hazard_notes(const HazardModel& hazard);
 
 /// Of each limit state both forms where the data bear them. The lognormal curve is chosen where it fits (lack of fit, p
-/// of at least 0.05) or where there are no stripes, else the shares.
+/// of at least 0.05) or where there are no stripes, else the shares. The interval of a chosen curve contains that of
+/// the shares.
 /// @throws InputError for an unknown limit state, and where no limit state has an estimate
 Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOptions& options);
 

@@ -48,11 +48,15 @@ std::string risk_answer(const Risk& risk)
                            "the runs, or stronger, its probability in {:g} years is at most {:.3g} % ({:g} % interval "
                            "from 0).",
                            s.meaning, years, 100 * p.total.upper, 100 * risk.level);
-    return fmt::format(
-        "In {:g} years the limit state '{}' is reached with a probability of {:.3g} % ({:.3g} to {:.3g}; "
-        "{:g} % interval), on average once in {:.4g} years.",
-        years, s.meaning, 100 * p.value, 100 * p.total.lower, 100 * p.total.upper, 100 * risk.level,
-        1 / s.estimate.frequency.value);
+    const std::string text =
+        fmt::format("In {:g} years the limit state '{}' is reached with a probability of {:.3g} % ({:.3g} to {:.3g}; "
+                    "{:g} % interval), on average once in {:.4g} years.",
+                    years, s.meaning, 100 * p.value, 100 * p.total.lower, 100 * p.total.upper, 100 * risk.level,
+                    1 / s.estimate.frequency.value);
+    if (std::isnan(s.estimate.by_mean_hazard))
+        return text;
+    return text + fmt::format(" By the mean hazard, the mean over its fractiles, the probability is {:.3g} %.",
+                              100 * probability_over(s.estimate.by_mean_hazard, years));
 }
 
 std::string risk_grounds(const Risk& risk)

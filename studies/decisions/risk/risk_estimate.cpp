@@ -60,11 +60,12 @@ std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& haza
     const auto add = [&](FragilityForm form) {
         StateRisk risk{s.state.name, s.state.describe, form, risks.empty(), true, "", {}, {}};
         if (form == FragilityForm::lognormal) {
-            risk.estimate = lognormal_frequency(s.data, hazard, frequency);
+            const bool both = fits && shares;
+            risk.estimate = lognormal_frequency(s.data, hazard, frequency, both ? &*s.stripes : nullptr);
             risk.fragility = curve_points(s);
-            risk.note =
-                fmt::format("by the lognormal curve, {} (p = {:.2g})",
-                            fits ? "of which no lack of fit was found" : "although it does not fit", s.fit.p_value);
+            risk.note = fmt::format("by the lognormal curve, {} (p = {:.2g}){}",
+                                    fits ? "of which no lack of fit was found" : "although it does not fit",
+                                    s.fit.p_value, both ? ", with an interval that contains that of the shares" : "");
         } else {
             risk.estimate = share_frequency(s.data, *s.stripes, hazard, frequency);
             risk.fragility = share_points(s);

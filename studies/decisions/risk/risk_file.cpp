@@ -15,7 +15,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr SealedFormat format{"stylobate-risk", "risk estimate", 2, 2, "compute it again"};
+constexpr SealedFormat format{"stylobate-risk", "risk estimate", 3, 3, "compute it again"};
 
 Table general_table(const Risk& risk)
 {
@@ -54,7 +54,7 @@ Table states_table(const Risk& risk)
     std::vector<std::string> states, meanings, forms, notes;
     std::vector<std::int32_t> chosen, determined;
     std::vector<RiskNumber> frequency;
-    std::vector<double> below, above, beyond, lowest, highest, unseen;
+    std::vector<double> by_mean, below, above, beyond, lowest, highest, unseen;
     for (const StateRisk& s : risk.states) {
         states.push_back(s.state);
         meanings.push_back(s.meaning);
@@ -63,6 +63,7 @@ Table states_table(const Risk& risk)
         chosen.push_back(s.chosen);
         determined.push_back(s.determined);
         frequency.push_back(s.estimate.frequency);
+        by_mean.push_back(s.estimate.by_mean_hazard);
         below.push_back(s.estimate.below);
         above.push_back(s.estimate.above);
         beyond.push_back(s.estimate.beyond_hazard);
@@ -78,6 +79,7 @@ Table states_table(const Risk& risk)
     table.add("chosen", std::move(chosen), shape);
     table.add("determined", std::move(determined), shape);
     add_numbers(table, "annual_frequency", frequency);
+    table.add("mean_hazard_annual_frequency", std::move(by_mean), shape, "1/year");
     table.add("share_below", std::move(below));
     table.add("share_above", std::move(above));
     table.add("share_beyond_hazard", std::move(beyond));
@@ -136,7 +138,8 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
         states.refuse("its lists of states differ in length");
     const auto &chosen = states.integers("chosen", shape), &determined = states.integers("determined", shape);
     const std::vector<RiskNumber> frequency = numbers_of<RiskNumber>(states, "annual_frequency", shape);
-    const auto &below = states.numbers("share_below", shape), &above = states.numbers("share_above", shape),
+    const auto &by_mean = states.numbers("mean_hazard_annual_frequency", shape),
+               &below = states.numbers("share_below", shape), &above = states.numbers("share_above", shape),
                &beyond = states.numbers("share_beyond_hazard", shape),
                &lowest = states.numbers("lowest_annual_frequency", shape),
                &highest = states.numbers("highest_annual_frequency", shape),
@@ -147,15 +150,16 @@ std::vector<StateRisk> states_of(const Table& states, const Table& parts, const 
             forms[i] == to_string(FragilityForm::shares) ? FragilityForm::shares : FragilityForm::lognormal;
         if (forms[i] != to_string(form))
             states.refuse("a limit state has a fragility of no known form");
-        found.push_back({names[i],
-                         meanings[i],
-                         form,
-                         chosen[i] != 0,
-                         determined[i] != 0,
-                         notes[i],
-                         FrequencyEstimate{
-                             form, frequency[i], {}, below[i], above[i], beyond[i], {lowest[i], highest[i]}, unseen[i]},
-                         {}});
+        found.push_back(
+            {names[i],
+             meanings[i],
+             form,
+             chosen[i] != 0,
+             determined[i] != 0,
+             notes[i],
+             FrequencyEstimate{
+                 form, frequency[i], by_mean[i], {}, below[i], above[i], beyond[i], {lowest[i], highest[i]}, unseen[i]},
+             {}});
     }
     const auto state = [&](const Table& table, std::int32_t row) -> StateRisk& {
         if (row < 0 || static_cast<std::size_t>(row) >= found.size())

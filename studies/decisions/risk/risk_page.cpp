@@ -104,7 +104,8 @@ void add_result(const Risk& risk, HtmlPage& page)
         table.align += "l";
         table.head.emplace_back(fmt::format("in {:g} years", years));
     }
-    table.align += "r";
+    table.align += "lr";
+    table.head.emplace_back(mean_hazard_head(risk));
     table.head.emplace_back("uncertainty due to fragility");
     for (const StateRisk* s : risk.chosen()) {
         std::vector<Html> row{s->meaning, to_string(s->form)};
@@ -112,6 +113,7 @@ void add_result(const Risk& risk, HtmlPage& page)
             row.emplace_back(frequency_text(s->estimate.frequency));
             for (const double years : risk.years)
                 row.emplace_back(over_text(s->estimate.frequency, years));
+            row.emplace_back(mean_hazard_text(risk, *s));
             const double part = s->estimate.frequency.fragility_part;
             row.emplace_back(std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part));
         } else {
@@ -122,11 +124,14 @@ void add_result(const Risk& risk, HtmlPage& page)
         table.rows.push_back(std::move(row));
     }
     page.table(table);
-    page.note(fmt::format("In brackets: {:g} % intervals, of the fragility (its motions) and of the hazard (its "
-                          "fractiles) together. Each earthquake meets the structure as new. Probabilities over years "
-                          "are those of a Poisson process. The last column is the part of the squared width of the "
-                          "interval, on a logarithmic scale, that is of the fragility.",
-                          100 * risk.level));
+    page.note(fmt::format(
+        "In brackets: {:g} % intervals, of the fragility (its motions) and of the hazard (its "
+        "fractiles) together. Each earthquake meets the structure as new. Probabilities over years "
+        "are those of a Poisson process. The values are by the best estimate of the hazard; the "
+        "mean hazard is the mean of its curves over their fractiles, by which the frequency is the "
+        "mean over what is not known of the hazard. The last column is the part of the squared width of the "
+        "interval, on a logarithmic scale, that is of the fragility.",
+        100 * risk.level));
 }
 
 void add_parts(const Risk& risk, HtmlPage& page)

@@ -21,7 +21,7 @@ std::string table_text(const Risk& risk)
     std::string text = fmt::format("  {:<16} {:<10} {:<34}", "limit state", "fragility", "a year");
     for (const double years : risk.years)
         text += fmt::format(" {:<26}", fmt::format("in {:g} years", years));
-    text += " uncertainty due to fragility\n";
+    text += fmt::format(" {:<26} uncertainty due to fragility\n", mean_hazard_head(risk));
     for (const StateRisk* s : risk.chosen()) {
         text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form));
         if (!s->determined) {
@@ -32,7 +32,8 @@ std::string table_text(const Risk& risk)
         text += fmt::format("{:<34}", frequency_text(s->estimate.frequency));
         for (const double years : risk.years)
             text += fmt::format(" {:<26}", over_text(s->estimate.frequency, years));
-        text += fmt::format(" {}\n", part_text(s->estimate.frequency.fragility_part));
+        text +=
+            fmt::format(" {:<26} {}\n", mean_hazard_text(risk, *s), part_text(s->estimate.frequency.fragility_part));
     }
     return text;
 }
@@ -167,17 +168,22 @@ Json json_of(const StateRisk& s, const Risk& risk)
         return json;
     json.member("frequency_1_year", json_of(e.frequency));
     Json over = Json::list(), parts = Json::list();
+    Json by_mean = Json::list();
     for (const double years : risk.years) {
-        Json one = Json::object();
+        Json one = Json::object(), mean = Json::object();
         one.member("years", years).member("probability", json_of(probability_over(e.frequency, years)));
         over.item(one);
+        mean.member("years", years).member("probability", probability_over(e.by_mean_hazard, years));
+        by_mean.item(mean);
     }
+    Json mean_hazard = Json::object();
+    mean_hazard.member("frequency_1_year", e.by_mean_hazard).member("over_years", by_mean);
     for (const FrequencyPart& part : e.parts) {
         Json one = Json::object();
         one.member("from", part.from).member("to", part.to).member("frequency_1_year", json_of(part.frequency));
         parts.item(one);
     }
-    return json.member("over_years", over).member("disaggregation", parts);
+    return json.member("over_years", over).member("mean_hazard", mean_hazard).member("disaggregation", parts);
 }
 
 } // namespace
@@ -191,6 +197,17 @@ std::string over_text(const RiskNumber& frequency, double years)
 {
     const RiskNumber p = probability_over(frequency, years);
     return percent_text(p.value, p.total);
+}
+
+std::string mean_hazard_head(const Risk& risk)
+{
+    return fmt::format("in {:g} years, mean hazard", risk.years.back());
+}
+
+std::string mean_hazard_text(const Risk& risk, const StateRisk& state)
+{
+    const double frequency = state.estimate.by_mean_hazard;
+    return std::isnan(frequency) ? "–" : fmt::format("{:.3g} %", 100 * probability_over(frequency, risk.years.back()));
 }
 
 std::string hazard_text(const HazardModel& hazard)
@@ -235,6 +252,8 @@ std::string risk_text(const Risk& risk)
     text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
     if (const std::string conventions = conventions_text_of(risk.study_text); !conventions.empty())
         text += "conventions: " + conventions + "\n";
+    if (!risk.hazard.fractiles.empty())
+        text += "Values are by the best estimate of the hazard; the mean hazard is the mean over its fractiles.\n";
     text += table_text(risk) + parts_text(risk);
     for (const StateRisk* s : risk.chosen())
         text += fmt::format("{}: {}\n", s->state, form_text(risk, *s));

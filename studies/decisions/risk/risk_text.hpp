@@ -21,6 +21,11 @@ std::string percent_text(double value, const Limits& limits);
 /// The same of the probability over years that a frequency gives.
 std::string over_text(const RiskNumber& frequency, double years);
 
+/// Head of the column of the mean hazard, "in 100 years, mean hazard", and a limit state's probability there, "4.83 %";
+/// a dash without fractiles.
+std::string mean_hazard_head(const Risk& risk);
+std::string mean_hazard_text(const Risk& risk, const StateRisk& state);
+
 /// "hazard.csv at 23.7,37.9".
 std::string hazard_text(const HazardModel& hazard);
 

@@ -4,12 +4,13 @@
 /// A free window of the simulation may like a friction that the specimen does not have: where little slides, the
 /// friction of the model stands in for whatever else its contact law gets wrong, and a tight interval means nothing. So
 /// friction is judged by the balance of forces alone (`law_samples.hpp`): where a joint slides all through a smoothing
-/// window, F_T = mu F_N whatever the contact law. Slides are few, and the windows of one slide err together; so
-/// the interval comes from how the estimate changes when a slide is left out, not from the number of windows:
+/// window, F_T = mu F_N by Coulomb's law, and no law of normal contact enters. Slides are few, and the windows of one
+/// slide err together; so the interval comes from how the estimate changes when a slide is left out, not from the
+/// number of windows:
 ///
 ///   sd^2 = sd_fit^2 + sd_slides^2,    interval = mu exp(+- k sd / mu)
 ///
-/// with k = 1.96. How often they hold, in campaigns of contact laws that the model does not have, is in
+/// with k = 1.96. How often they hold, in campaigns of two contact laws that the model does not have, is in
 /// `docs/calibration.md`. Where the interval is wide, or rests on too few windows, the friction is not determined.
 
 #include "ensemble/model/campaign.hpp"

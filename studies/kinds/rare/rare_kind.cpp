@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace stylobate {
 
@@ -43,9 +44,12 @@ double response_of(const Outcome& outcome)
     }
 }
 
-RareTable table_of(const std::vector<SubsetRun>& runs)
+/// @param all the pilot, whose realizations count as cost only, and the repeats
+RareTable table_of(const std::vector<SubsetRun>& all)
 {
     RareTable table;
+    table.realizations = all.front().evaluations;
+    const std::span runs(all.begin() + 1, all.end());
     for (const SubsetRun& run : runs) {
         table.repeats.push_back(run.probability);
         table.realizations += run.evaluations;
@@ -130,23 +134,22 @@ bool RareKind::plan(Rounds& rounds)
     const std::size_t dimension = sampler.size();
     Progress& progress = rounds.progress;
     progress.open_end = true;
-    progress.total = spec.repeats * RareSpec::indices_of_repeat;
-    std::vector<SubsetRun> runs;
-    std::uint64_t repeat = 0;
+    progress.total = study_.total();
+    std::vector<SubsetRun> runs; ///< the pilot, and the repeats
 
     const Response response = [&](const std::vector<double>& points, std::uint64_t first) {
         const std::size_t n = points.size() / dimension;
-        const std::uint64_t begin = repeat * RareSpec::indices_of_repeat + first;
+        const std::uint64_t begin = runs.size() * RareSpec::indices_of_simulation + first;
         std::vector<double> numbers(points.size());
         std::transform(points.begin(), points.end(), numbers.begin(), probability_of);
         std::vector<std::uint64_t> batch(n);
         std::iota(batch.begin(), batch.end(), begin);
 
-        // estimated from the repeats so far; nothing before the first one has ended
+        // estimated from the simulations so far; nothing before the first one has ended
         const std::uint64_t finished =
             std::accumulate(runs.begin(), runs.end(), std::uint64_t{0},
                             [](auto sum, const SubsetRun& r) { return sum + r.evaluations; });
-        progress.expected = runs.empty() ? 0 : finished * spec.repeats / runs.size();
+        progress.expected = runs.empty() ? 0 : finished * spec.simulations() / runs.size();
         const auto realize = [&](std::uint64_t index) {
             const auto at = static_cast<std::size_t>(index - begin) * dimension;
             return sampler.realization(index, std::span(numbers).subspan(at, dimension));
@@ -166,8 +169,9 @@ bool RareKind::plan(Rounds& rounds)
     subset.limit = std::numeric_limits<double>::infinity();
     subset.seed = study_.seed;
     try {
-        for (; repeat < spec.repeats; ++repeat)
-            runs.push_back(subset_simulation(dimension, response, subset, repeat));
+        runs.push_back(subset_pilot(dimension, response, subset));
+        while (runs.size() < spec.simulations())
+            runs.push_back(subset_simulation(dimension, response, subset, runs.front().levels, runs.size()));
     } catch (const Stopped&) {
         return false;
     }

@@ -3,8 +3,9 @@
 /// with chains as lanes (ensemble/estimators/rare/subset_simulation.hpp).
 ///
 /// The numbers that a realization is drawn with are the standard normal ones of a chain's point, each by its
-/// distribution function; a step of all chains is one batch of the executor. Which point comes next depends on the
-/// outcomes before, and these on nothing but (study, seed): so does the whole.
+/// distribution function; a step of all chains is one batch of the executor. The pilot is simulation 0, the repeats
+/// follow. Which point comes next depends on the outcomes before, and these on nothing but (study, seed): so does the
+/// whole.
 
 #include "io/tables/rare_table.hpp"
 #include "studies/kinds/kind.hpp"

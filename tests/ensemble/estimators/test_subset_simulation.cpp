@@ -22,25 +22,31 @@ double beyond(double b)
 
 struct Score {
     int held = 0, designs = 0;
-    double sum = 0, evaluations = 0, plain = 0;
+    double sum = 0, squares = 0, evaluations = 0, plain = 0;
     double share() const { return static_cast<double>(held) / designs; }
+    double mean() const { return sum / designs; }
+    double error_of_mean() const { return std::sqrt((squares / designs - mean() * mean()) / designs); }
 };
 
-Score score(const RareTruth& truth, int designs, std::size_t repeats)
+Score score(const RareTruth& truth, int designs, std::size_t repeats, std::size_t samples = 500)
 {
     Score score;
     const Response response = truth.response();
     for (int design = 0; design < designs; ++design) {
+        const SubsetOptions options{.samples = samples, .limit = truth.limit, .seed = 100U + unsigned(design)};
+        const SubsetRun pilot = subset_pilot(truth.dimension, response, options);
+        score.evaluations += static_cast<double>(pilot.evaluations);
         std::vector<double> found;
+        double mean = 0;
         for (std::size_t r = 0; r < repeats; ++r) {
-            const SubsetRun run = subset_simulation(truth.dimension, response,
-                                                    {.limit = truth.limit, .seed = 100U + unsigned(design)}, r);
+            const SubsetRun run = subset_simulation(truth.dimension, response, options, pilot.levels, r + 1);
             found.push_back(run.probability);
+            mean += run.probability / truth.probability / static_cast<double>(repeats);
             score.evaluations += static_cast<double>(run.evaluations);
         }
-        const Estimate estimate = mean_of_repeats(found, 0.95);
-        score.held += estimate.contains(truth.probability);
-        score.sum += estimate.value / truth.probability;
+        score.held += mean_of_repeats(found, 0.95).contains(truth.probability);
+        score.sum += mean;
+        score.squares += mean * mean;
         score.plain += 1 / plain_sampling_cost(found);
         ++score.designs;
     }
@@ -86,15 +92,15 @@ TEST(SubsetSimulationStatisticsLong, IntervalsHoldWhatIsKnown)
         const std::string text =
             fmt::format("{} of {:g}: held by {} of {}, mean {:.4f} of it, plain sampling takes {:.1f} "
                         "times as many for the same error",
-                        truth.name, truth.probability, s.held, s.designs, s.sum / s.designs, gain);
+                        truth.name, truth.probability, s.held, s.designs, s.mean(), gain);
         std::printf("%s\n", text.c_str());
         held += s.held;
         designs += s.designs;
-        EXPECT_GE(s.share(), 0.92) << text; // three deviations
-        EXPECT_NEAR(s.sum / s.designs, 1, 0.04) << text;
+        EXPECT_GE(s.share(), 0.92) << text;                      // three deviations
+        EXPECT_NEAR(s.mean(), 1, 4 * s.error_of_mean()) << text; // 1 in 16,000 by chance
         EXPECT_GT(gain, truth.probability > 5e-4 ? 1 : truth.probability > 5e-5 ? 5 : 40) << text;
     }
-    EXPECT_NEAR(static_cast<double>(held) / designs, 0.95, 0.01) << held << " of " << designs;
+    EXPECT_NEAR(static_cast<double>(held) / designs, 0.95, 0.015) << held << " of " << designs; // three deviations
 }
 
 /// With few repeats and with many.
@@ -106,13 +112,49 @@ TEST(SubsetSimulationStatisticsLong, IntervalsHoldWithAnyNumberOfRepeats)
     }
 }
 
+<<<<<<< HEAD
 /// The mean of many estimates, which the choice of levels and of steps must not pull to one side.
 TEST(SubsetSimulationStatisticsLong, IsUnbiased)
+=======
+/// The mean of many estimates, which the choice of levels and of steps must not pull to one side. With five chains of
+/// ten samples the pilots themselves are 4 % too large (200,000 of them: 1.042 +- 0.003), the standard error of the
+/// mean of 60,000 repeats is 0.6 %, and four of them are allowed: 1 in 16,000 by chance.
+TEST(SubsetSimulationStatistics, IsUnbiased)
+>>>>>>> wip-s
 {
-    for (const RareTruth& truth : {rare_plane(1e-3), rare_shell(1e-4), rare_corner(1e-4)}) {
-        const Score s = score(truth, 400, 10);
-        EXPECT_NEAR(s.sum / s.designs, 1, 0.03) << truth.name; // 4000 runs, each 0.45 off: 0.007
+    const Score few = score(rare_plane(1e-3, 2), 6000, 10, 50);
+    EXPECT_LT(few.error_of_mean(), 0.0075);
+    EXPECT_NEAR(few.mean(), 1, 4 * few.error_of_mean());
+    for (const RareTruth& truth : {rare_shell(1e-4), rare_corner(1e-4)}) {
+        const Score s = score(truth, 200, 10);
+        EXPECT_LT(s.error_of_mean(), 0.015) << truth.name;
+        EXPECT_NEAR(s.mean(), 1, 4 * s.error_of_mean()) << truth.name;
     }
+}
+
+/// Repeats keep what the pilot has chosen, whatever their own responses are.
+TEST(SubsetSimulationStatistics, RepeatsKeepTheLevelsAndStepsOfThePilot)
+{
+    const RareTruth truth = rare_plane(1e-4);
+    const SubsetOptions options{.samples = 200, .limit = truth.limit, .seed = 3};
+    const SubsetRun pilot = subset_pilot(truth.dimension, truth.response(), options);
+    ASSERT_GE(pilot.levels.size(), 4U);
+    const SubsetRun run = subset_simulation(truth.dimension, truth.response(), options, pilot.levels, 1);
+    ASSERT_EQ(run.levels.size(), pilot.levels.size());
+    double product = 1;
+    for (std::size_t l = 0; l < run.levels.size(); ++l) {
+        EXPECT_EQ(run.levels[l].threshold, pilot.levels[l].threshold);
+        EXPECT_EQ(run.levels[l].steps, pilot.levels[l].steps);
+        EXPECT_EQ(run.levels[l].steps.size(), l == 0 ? 0U : 9U); // chains of ten samples
+        product *= run.levels[l].probability;
+    }
+    EXPECT_EQ(run.probability, product);
+    // a repeat with nothing above a threshold ends there, as 0
+    std::vector<SubsetLevel> far = pilot.levels;
+    far[1].threshold = 100;
+    const SubsetRun none = subset_simulation(truth.dimension, truth.response(), options, far, 1);
+    EXPECT_EQ(none.probability, 0);
+    EXPECT_EQ(none.evaluations, 200U);
 }
 
 /// Cox's interval of a lognormal mean: with logarithms of mean m and variance v, by hand.
@@ -201,11 +243,13 @@ TEST(SubsetSimulationStatistics, IsTheSameHoweverABatchIsDone)
         return response;
     };
     const SubsetOptions options{.samples = 300, .limit = limit, .seed = 5};
-    const SubsetRun a = subset_simulation(dimension, at_once, options, 3);
-    const SubsetRun b = subset_simulation(dimension, backwards, options, 3);
+    const std::vector<SubsetLevel> plan = subset_pilot(dimension, at_once, options).levels;
+    const SubsetRun a = subset_simulation(dimension, at_once, options, plan, 3);
+    const SubsetRun b =
+        subset_simulation(dimension, backwards, options, subset_pilot(dimension, backwards, options).levels, 3);
     EXPECT_EQ(a.probability, b.probability);
     EXPECT_EQ(a.evaluations, b.evaluations);
-    EXPECT_NE(a.probability, subset_simulation(dimension, at_once, options, 4).probability);
+    EXPECT_NE(a.probability, subset_simulation(dimension, at_once, options, plan, 4).probability);
     for (std::size_t i = 1; i < a.levels.size(); ++i) {
         EXPECT_GT(a.levels[i].threshold, a.levels[i - 1].threshold);
         EXPECT_NEAR(a.levels[i].acceptance, 0.44, 0.15);
@@ -220,9 +264,10 @@ TEST(SubsetSimulationStatistics, SaysWhatItCouldNotReach)
     const Response flat = [](const std::vector<double>& points, std::uint64_t) {
         return std::vector<double>(points.size() / dimension, 1.0);
     };
-    const SubsetRun run = subset_simulation(dimension, flat, {.limit = 2}, 0);
+    const SubsetRun run = subset_pilot(dimension, flat, {.limit = 2});
     EXPECT_EQ(run.probability, 0);
     EXPECT_LE(run.levels.size(), 2U);
+    EXPECT_EQ(subset_simulation(dimension, flat, {.limit = 2}, run.levels, 1).probability, 0);
     EXPECT_TRUE(std::isnan(mean_of_repeats({0, 0, 0, 0, 0}, 0.95).value));
     EXPECT_TRUE(std::isnan(mean_of_repeats({1e-3}, 0.95).upper));
     // invalid realizations: no chain goes there, and they are counted
@@ -232,10 +277,10 @@ TEST(SubsetSimulationStatistics, SaysWhatItCouldNotReach)
             g.push_back(points[i + 1] > 2 ? std::nan("") : points[i]);
         return g;
     };
-    const SubsetRun with_holes = subset_simulation(dimension, holes, {.samples = 2000, .limit = 3}, 0);
+    const SubsetRun with_holes = subset_pilot(dimension, holes, {.samples = 2000, .limit = 3});
     EXPECT_GT(with_holes.invalid, 20U);
     EXPECT_NEAR(with_holes.probability / (beyond(3) * (1 - beyond(2))), 1, 0.5);
-    EXPECT_THROW(subset_simulation(dimension, flat, {.samples = 10}, 0), std::invalid_argument);
+    EXPECT_THROW(subset_pilot(dimension, flat, {.samples = 10}), std::invalid_argument);
 }
 
 } // namespace

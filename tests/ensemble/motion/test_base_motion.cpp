@@ -1,6 +1,7 @@
 // Base motion against its formulas in extended precision, and along a record against exact integration.
 
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/synthetic_sine.hpp"
 #include "kernels/base_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -165,18 +166,31 @@ TEST(BaseMotion, NothingAfterItEnds)
     }
 }
 
+/// Peak acceleration over A w2 while the ramp lasts, at phase 0 and at the phase at which it is largest: values of the
+/// closed form of the second derivative, maximized over time and phase outside of this program; the motion of a phase
+/// half a cycle later has the opposite sign.
 TEST(BaseMotion, SmoothStartOvershoots)
 {
-    // peak acceleration over A w2 while the ramp lasts, from the closed form of its second derivative
-    const std::vector<std::pair<double, double>> cases{{0.5, 1.5854}, {1, 1.1122}, {2, 1.0175}, {3, 1.0059}};
-    for (const auto& [ramp, overshoot] : cases) {
-        const Drive d{MotionFormula::harmonic, 1e-4, 1, 10, 0, false, false, ramp};
-        double peak = 0;
-        for (double first = 0; first * d.rate < ramp + 1; first += chunk_steps)
-            for (double value : d.table(first))
-                peak = std::max(peak, std::fabs(value));
-        const double w = 2 * std::numbers::pi * d.rate;
-        EXPECT_NEAR(peak / (w * w), overshoot, 6e-5) << ramp;
+    struct Case {
+        double ramp, at_zero, worst_phase, worst; ///< phase in cycles
+    };
+    for (const Case& c : {Case{0.5, 1.585378, 0.4333, 1.613729}, Case{1, 1.112157, 0.4383, 1.120532},
+                          Case{2, 1.017513, 0.4398, 1.019693}, Case{3, 1.005911, 0.4472, 1.006512}}) {
+        const auto peak = [&](double phase) {
+            const Drive d{MotionFormula::harmonic, 2.5e-4, 1, 10, phase, false, false, c.ramp};
+            double largest = 0;
+            for (double first = 0; first * d.rate < c.ramp + 1; first += chunk_steps)
+                for (double value : d.table(first))
+                    largest = std::max(largest, std::fabs(value));
+            const double w = 2 * std::numbers::pi * d.rate;
+            return largest / (w * w);
+        };
+        // second differences and the largest of steps are too small by the order of the square of a step
+        EXPECT_NEAR(peak(0), c.at_zero, 4e-6) << c.ramp;
+        EXPECT_NEAR(peak(c.worst_phase), c.worst, 4e-6) << c.ramp;
+        for (int i = 0; i < 25; ++i)
+            EXPECT_LT(peak(i / 50.0), c.worst + 1e-6) << c.ramp << ' ' << i;
+        EXPECT_NEAR(ramp_overshoot(c.ramp), c.worst, 6e-7) << c.ramp;
     }
 }
 

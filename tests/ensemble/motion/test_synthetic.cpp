@@ -365,7 +365,7 @@ TEST(SineSweep, AccelerationIsTheDisplacementsAndNearlyConstant)
             in_cycle = std::max(in_cycle, std::fabs(a));
             last = a;
         }
-        EXPECT_LT(peak, 1.02); // the ramp of two cycles overshoots by 1.7 %
+        EXPECT_LT(peak, 1.02); // the ramp of two cycles overshoots by 2.0 % at most
         EXPECT_GT(least_peak, 0.99);
     }
 }

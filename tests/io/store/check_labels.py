@@ -43,7 +43,7 @@ files = {
                   {"fragility", "motions"}),
     "sensitivity": ("sensitivity_column",
                     ["sensitivity.samples=6", "sensitivity.inner=2", "excitation.pga_m_s2=7"], {"sensitivity"}),
-    "rare": ("rare_collapse", ["rare.samples=100", "rare.repeats=5"], {"rare"}),
+    "rare": ("rare_collapse", ["rare.samples=200", "rare.repeats=5"], {"rare"}),
     "twins": ("twins_column", axes + ["twins.followed=1", "run.max_invalid_fraction=1"], {"twins"}),
     "single": ("free_rocking", [], {"trajectories/0"}),
 }

@@ -70,10 +70,26 @@ std::string weak_shaking(const LoadedStudy& loaded)
     return {};
 }
 
-TEST(WeakSpots, ShakingBelowTheStaticLimit) // of the monolith 2.706 m/s2
+/// Of the monolith 2.706 m/s2. A harmonic motion exceeds its nominal PGA in its ramps: with two cycles by a factor of
+/// 1.0197, which 2.654 m/s2 needs; with half a cycle by 1.6137: 1.677 m/s2 (kernels/THEORY.md, section 4).
+TEST(WeakSpots, ShakingBelowTheStaticLimit)
 {
-    EXPECT_TRUE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.69"})));
-    EXPECT_FALSE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.72"})));
+    EXPECT_TRUE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.65"})));
+    EXPECT_FALSE(has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=2.66"})));
+    const auto half = [](const std::string& pga) {
+        return has("below_limit",
+                   ready("small_scale_monolith", {"surface.pga_m_s2={ from = 1.0, to = " + pga + ", count = 4 }",
+                                                  "excitation.ramp_cycles=0.5"}));
+    };
+    EXPECT_TRUE(half("1.67"));
+    EXPECT_FALSE(half("1.68"));
+    // without ramps the nominal PGA is the largest acceleration
+    const auto abrupt = [](const std::string& pga) {
+        return has("below_limit", ready("small_scale_monolith", {"surface.pga_m_s2.to=" + pga,
+                                                                 "excitation.start=abrupt", "excitation.end=abrupt"}));
+    };
+    EXPECT_TRUE(abrupt("2.70"));
+    EXPECT_FALSE(abrupt("2.71"));
     EXPECT_EQ(weak_shaking(ready("small_scale_monolith", {"surface.pga_m_s2.to=2.69"})), "")
         << "2.69 g is no earthquake";
     // 0.05 to 0.6 m/s2 is 0.05 to 0.6 g

@@ -176,6 +176,7 @@ inline Risk sample_risk(bool with_sequences)
         StateRisk s{name, "what it is", form, chosen, determined, "why", {}, {}};
         s.estimate.form = form;
         s.estimate.frequency = sample_risk_number(1e-3);
+        s.estimate.by_mean_hazard = 1.2e-3;
         s.estimate.below = 0.01;
         s.estimate.above = 0.02;
         s.estimate.beyond_hazard = 0.03;

@@ -46,6 +46,11 @@ TEST(RiskAnswer, IsOneSentenceWithItsInterval)
     EXPECT_EQ(risk_answer(risk(0.2)),
               "In 100 years the limit state 'a block falls' is reached with a probability of 9.52 "
               "% (4.88 to 18.1; 90 % interval), on average once in 1000 years.");
+    Risk with_mean = risk(0.2); // 1 - exp(-0.12)
+    with_mean.states.front().estimate.by_mean_hazard = 1.2e-3;
+    EXPECT_TRUE(risk_answer(with_mean).ends_with(
+        "in 1000 years. By the mean hazard, the mean over its fractiles, the probability is 11.3 %."))
+        << risk_answer(with_mean);
     Risk open = risk(0.2);
     open.states.front().determined = false;
     open.states.front().estimate.bounds = {1e-4, 0.02};

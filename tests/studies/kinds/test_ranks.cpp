@@ -74,14 +74,14 @@ TEST_F(StudiesOnRanks, OfASurfaceWithRowsAndWithCounts)
 TEST_F(StudiesOnRanks, WhoseRoundsDependOnTheRows)
 {
     have_the_bytes_of_one(ready_study("small_scale_column_adaptive", two_cells(200, {"surface.adaptive.budget=300"})));
-    have_the_bytes_of_one(ready_study("rare_collapse", {"rare.samples=100", "rare.repeats=5"}));
+    have_the_bytes_of_one(ready_study("rare_collapse", {"rare.samples=200", "rare.repeats=5"}));
 }
 
 /// Stopped by a rank on its way, and continued by another number of them, and by a process alone.
 TEST_F(StudiesOnRanks, AreContinuedByAnyNumberOfThem)
 {
     for (const LoadedStudy& loaded : {ready_study("small_scale_column", two_cells(200)),
-                                      ready_study("rare_collapse", {"rare.samples=100", "rare.repeats=5"})}) {
+                                      ready_study("rare_collapse", {"rare.samples=200", "rare.repeats=5"})}) {
         const std::string whole = (folder / "whole.h5").string(), part = (folder / "part.h5").string();
         fs::remove(whole);
         make_results(loaded, whole);

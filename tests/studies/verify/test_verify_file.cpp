@@ -275,7 +275,7 @@ TEST_F(VerifyFile, TakesPartsOfARun)
     }
     // unfinished files of kinds whose realizations depend on earlier ones
     for (const auto& [input, settings] :
-         {std::pair{"rare_collapse", std::vector<std::string>{"rare.samples=100", "rare.repeats=5"}},
+         {std::pair{"rare_collapse", std::vector<std::string>{"rare.samples=200", "rare.repeats=5"}},
           std::pair{"small_scale_column_adaptive",
                     two_cells(20, {"surface.adaptive={budget=40,minimum=4,half_width=0.05,borrow=true}"})}}) {
         const LoadedStudy loaded = ready_study(input, settings);
