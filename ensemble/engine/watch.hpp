@@ -186,23 +186,29 @@ STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int
 }
 
 /// The criterion of rest, for the end of a realization and for `Outcome::at_rest`: after the shaking, at every check of
-/// the last `rest_steps`, the kinetic energy relative to the base was below `rest_energy_j`, no more than `rest_slip_m`
-/// had slipped since the check before, and no block was about to fall.
+/// the last `rest_steps`, the kinetic energy relative to the base was below `rest_energy_j`, the potential energy was
+/// not above that of the start by more than `rest_potential` of the barrier, no more than `rest_slip_m` had slipped
+/// since the check before, and no block was about to fall. A block that hovers near its balance for some time has
+/// little kinetic energy, too; its potential energy tells it from one that lies.
 STYLOBATE_INLINE bool at_rest(const Watch& w)
 {
     return w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps;
 }
+
+inline constexpr double rest_potential = 0.1;
 
 /// Sees whether the realization lies still.
 /// @return whether it has for so long, or is out of time, that it is over
 STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int lane, bool undecided, Watch& w)
 {
     const double kinetic = 0.5 * b.at(OfRealization::kinetic, lane) / (w.step_s * w.step_s);
+    const double potential = b.at(OfRealization::potential, lane) / (w.step_s * w.step_s) - w.start_potential_j;
     const double time = static_cast<double>(w.steps) * w.step_s;
     const double slip = b.at(OfRealization::slip, lane) - w.slip_m;
     w.slip_m += slip;
     const bool slips = slip > w.rest_slip_m;
-    if (time >= w.shaking_end_s && !undecided && !slips && abs_of(kinetic) < w.rest_energy_j) {
+    const bool hovers = potential > rest_potential * w.barrier_j;
+    if (time >= w.shaking_end_s && !undecided && !slips && !hovers && abs_of(kinetic) < w.rest_energy_j) {
         if (w.quiet == 0) {
             w.quiet_since = w.steps;
             w.quiet_top_m = 0;

@@ -11,29 +11,6 @@ namespace stylobate {
 
 namespace {
 
-/// Limits of a share by Wilson's score, of a real number of trials.
-struct Wilson {
-    double lower, upper;
-};
-Wilson wilson(double share, double trials, double z)
-{
-    const double z2 = z * z, middle = (share + z2 / (2 * trials)) / (1 + z2 / trials);
-    const double half = z / (1 + z2 / trials) * std::sqrt(share * (1 - share) / trials + z2 / (4 * trials * trials));
-    return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
-}
-
-/// The half width of Newcombe's interval.
-double newcombe_half(double p, double q, double trials_p, double trials_q, double z)
-{
-    const Wilson a = wilson(p, trials_p, z), b = wilson(q, trials_q, z);
-    return (std::hypot(q - b.lower, a.upper - p) + std::hypot(b.upper - q, p - a.lower)) / 2;
-}
-
-double two_sided_student(double level, double freedom)
-{
-    return quantile(boost::math::students_t_distribution<double>(freedom), (1 + level) / 2);
-}
-
 struct GroupSums {
     double groups = 0, pairs = 0;
 };
@@ -99,6 +76,11 @@ PairedDifference score_interval(double pairs, double base_only, double variant_o
     return found;
 }
 
+double two_sided_student(double level, double freedom)
+{
+    return quantile(boost::math::students_t_distribution<double>(freedom), (1 + level) / 2);
+}
+
 PairedDifference paired_difference(const PairedCounts& counts, double level)
 {
     const double z = two_sided_normal(level);
@@ -134,31 +116,33 @@ PairedDifference grouped_difference(std::span<const PairedCounts> groups, double
     return found;
 }
 
-PairedDifference stratified_at(std::span<const PairedCounts> strata, double z)
+PairedDifference weighted_difference(std::span<const PairedCounts> strata, std::span<const double> weights, double z)
 {
-    double cells = 0, d = 0, q = 0, variance = 0, inverse = 0;
+    double sum = 0, d = 0, q = 0, variance = 0, inverse = 0;
     bool single = false; // a cell with one pair gives no variance
-    for (const PairedCounts& cell : strata) {
+    for (std::size_t i = 0; i < strata.size(); ++i) {
+        const PairedCounts& cell = strata[i];
         const auto n = static_cast<double>(cell.pairs());
         if (n == 0)
             continue;
-        cells += 1;
-        inverse += 1 / n;
+        const double weight = weights.empty() ? 1 : weights[i];
+        sum += weight;
+        inverse += weight * weight / n;
         single = single || n == 1;
         const double share = static_cast<double>(cell.discordant()) / n;
         const double own = (static_cast<double>(cell.variant_only) - static_cast<double>(cell.base_only)) / n;
-        d += own;
-        q += share;
-        variance += (share - own * own) / std::max(n - 1, 1.0);
+        d += weight * own;
+        q += weight * share;
+        variance += weight * weight * (share - own * own) / std::max(n - 1, 1.0);
     }
-    if (cells == 0)
+    if (sum == 0)
         return {std::numeric_limits<double>::quiet_NaN(), -1, 1, 1, z};
-    d /= cells;
-    q /= cells;
-    variance /= cells * cells;
+    d /= sum;
+    q /= sum;
+    variance /= sum * sum;
     // the pairs of equal cells with the same mean of 1 / n; cells that are all or nothing seem to have no variance, and
     // the gain of strata is bounded as a design effect is
-    const double pairs = cells * cells / inverse;
+    const double pairs = sum * sum / inverse;
     const double n = variance > 0 && !single ? std::min((q - d * d) / variance, 2 * pairs) : pairs;
     PairedDifference found = score_interval(n, n * (q - d) / 2, n * (q + d) / 2, z);
     found.value = d;
@@ -167,60 +151,38 @@ PairedDifference stratified_at(std::span<const PairedCounts> strata, double z)
 
 PairedDifference stratified_difference(std::span<const PairedCounts> strata, double level)
 {
-    return stratified_at(strata, two_sided_normal(level));
+    return weighted_difference(strata, {}, two_sided_normal(level));
 }
 
-double unpaired_realizations(double base, double variant, double half_width, double z, double base_effect,
-                             double variant_effect)
+double pairing_gain(std::span<const PairedCounts> strata)
 {
-    double low = 0, high = 1; // its logarithm in base 2
-    const auto half = [&](double log_n) {
-        const double n = std::exp2(log_n);
-        return newcombe_half(base, variant, n / base_effect, n / variant_effect, z);
-    };
-    while (half(high) > half_width && high < 200)
-        high *= 2;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = (low + high) / 2;
-        (half(middle) > half_width ? low : high) = middle;
-    }
-    return std::exp2((low + high) / 2);
-}
-
-double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedCounts::*reached)() const)
-{
-    const GroupSums sums = sums_of(groups);
-    if (sums.groups < 2 || sums.groups == sums.pairs)
-        return 1;
-    double all = 0, between = 0;
-    for (const PairedCounts& group : groups)
-        all += static_cast<double>((group.*reached)());
-    const double share = all / sums.pairs;
-    for (const PairedCounts& group : groups) {
-        const double excess = static_cast<double>((group.*reached)()) - static_cast<double>(group.pairs()) * share;
-        between += excess * excess;
-    }
-    return bounded_effect(between, sums.pairs * share * (1 - share), sums);
-}
-
-double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (PairedCounts::*reached)() const)
-{
-    double cells = 0, mean = 0, variance = 0, all = 0;
-    bool single = false;
+    double alone = 0, paired = 0;
     for (const PairedCounts& cell : strata) {
         const auto n = static_cast<double>(cell.pairs());
-        if (n == 0)
+        if (n < 2) // gives no variance
             continue;
-        const double share = static_cast<double>((cell.*reached)()) / n;
-        cells += 1;
-        all += n;
-        single = single || n == 1;
-        mean += share;
-        variance += share * (1 - share) / std::max(n - 1, 1.0);
+        const double base = static_cast<double>(cell.base()) / n, variant = static_cast<double>(cell.variant()) / n;
+        const double d = variant - base;
+        alone += (base * (1 - base) + variant * (1 - variant)) / (n - 1);
+        paired += (static_cast<double>(cell.discordant()) / n - d * d) / (n - 1);
     }
-    mean /= cells;
-    const double without = mean * (1 - mean) / all;
-    return without > 0 && !single ? std::max(variance / (cells * cells) / without, 0.01) : 1.0;
+    return paired > 0 ? alone / paired : std::numeric_limits<double>::quiet_NaN();
+}
+
+double pairing_gain_of_groups(std::span<const PairedCounts> groups)
+{
+    PairedCounts all;
+    for (const PairedCounts& group : groups)
+        all += group;
+    double alone = 0, paired = 0;
+    for (const PairedCounts& group : groups) {
+        const double part = static_cast<double>(group.pairs()) / static_cast<double>(all.pairs());
+        const double base = static_cast<double>(group.base()) - part * static_cast<double>(all.base());
+        const double variant = static_cast<double>(group.variant()) - part * static_cast<double>(all.variant());
+        alone += base * base + variant * variant;
+        paired += (variant - base) * (variant - base);
+    }
+    return paired > 0 ? alone / paired : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace stylobate

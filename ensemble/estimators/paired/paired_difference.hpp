@@ -56,11 +56,14 @@ PairedDifference paired_difference(const PairedCounts& counts, double level);
 PairedDifference grouped_difference(std::span<const PairedCounts> groups, double level);
 /// The mean over strata with pairs.
 PairedDifference stratified_difference(std::span<const PairedCounts> strata, double level);
-/// The same at a quantile.
-PairedDifference stratified_at(std::span<const PairedCounts> strata, double quantile);
+/// The same at a quantile, with a weight of each stratum; no weights: equal ones.
+PairedDifference weighted_difference(std::span<const PairedCounts> strata, std::span<const double> weights,
+                                     double quantile);
 
 /// Quantile of the standard normal distribution for a two-sided level.
 double two_sided_normal(double level);
+/// The same of Student's distribution.
+double two_sided_student(double level, double freedom);
 
 /// The share of the variant over that of the base, of independent pairs: the normal interval of the logarithm, with its
 /// variance (b + c) / (n_base n_variant), n_base and n_variant the pairs that reached it (delta method), in which one
@@ -71,21 +74,18 @@ struct PairedRatio {
 };
 PairedRatio paired_ratio(const PairedCounts& counts, double level);
 
-/// How many realizations of each of two studies that are drawn independently have an interval of this half width:
-/// Newcombe's hybrid score interval ("Interval estimation for the difference between independent proportions",
-/// Statistics in Medicine 17 (1998) 873, method 10) of the shares that were found. Without a discordant pair it is as
-/// wide as the paired one, so that the number is that of the pairs.
+/// How many times as many realizations of each of two studies that are drawn independently give the mean difference
+/// over strata the variance that pairs give it: with the shares a and b of the two, the share q of discordant pairs, d
+/// = b - a and sums over the strata,
 ///
-/// @param base, variant shares   @param base_effect, variant_effect design effects of the shares, 1 of independent
-///        trials   @param half_width > 0
-double unpaired_realizations(double base, double variant, double half_width, double quantile, double base_effect = 1,
-                             double variant_effect = 1);
-
-/// Design effect of the share of one side, as D above. @param reached of a group in one of the two
-double share_effect(std::span<const PairedCounts> groups, std::uint64_t (PairedCounts::*reached)() const);
-
-/// The same of the mean over strata of equal weight: their variance over that of as many trials without strata, at
-/// least 0.01.
-double strata_effect(std::span<const PairedCounts> strata, std::uint64_t (PairedCounts::*reached)() const);
+///   sum (a (1 - a) + b (1 - b)) / (n - 1)  /  sum (q - d2) / (n - 1).
+///
+/// Below 1 where more pairs differ than if the two were independent. A stratum with fewer than two pairs is left out.
+/// NaN where the paired variance is 0, as without a discordant pair: nothing is known of it then.
+double pairing_gain(std::span<const PairedCounts> strata);
+/// The same over groups of pairs that depend on each other, where studies drawn independently have groups of their own
+/// (other motions): sum (A_g2 + B_g2) / sum (B_g - A_g)2, with the excess A_g and B_g of the counts of a group over its
+/// part of the total. With one pair in each group this is `pairing_gain` of one stratum.
+double pairing_gain_of_groups(std::span<const PairedCounts> groups);
 
 } // namespace stylobate

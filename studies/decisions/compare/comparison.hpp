@@ -29,8 +29,8 @@ struct PlaceComparison {
     double difference = 0; ///< variant - base; NaN without pairs
     double lower = -1;     ///< paired interval
     double upper = 1;
-    double unpaired = 0;   ///< realizations of each study that an unpaired comparison needs for the same half width;
-                           ///< NaN where that is not known
+    double unpaired = 0;   ///< realizations of each of two studies drawn independently whose difference has the same
+                           ///< variance; NaN where that is not known
     double p = 1;          ///< exact two-sided test that the studies do not differ
     double p_adjusted = 1; ///< over the cells of the limit state; of all cells together as `p`
 

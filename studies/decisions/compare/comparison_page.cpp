@@ -4,6 +4,7 @@
 #include "io/drawing/plot_structure.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/decisions/compare/capacity_rows.hpp"
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
@@ -69,6 +70,7 @@ public:
             common_text(c_) +
             fmt::format(" Differences are variant minus base, with paired intervals at {:g} %.", 100 * c_.level));
         overall();
+        capacities();
         pictures();
         named();
         page_.section("What is common");
@@ -214,6 +216,34 @@ private:
                                       verdict_tag(limit, limit.overall)});
             page_.table(table);
         }
+    }
+
+    /// Of the first limit state, a column for each variant.
+    void capacities()
+    {
+        HtmlTable table{"l", {"shaking"}, {}, {}};
+        for (const VariantComparison& variant : c_.variants) {
+            const std::vector<CapacityRow> rows = capacity_rows(c_, variant.limits.front());
+            if (rows.empty())
+                return;
+            table.align += "r";
+            table.head.emplace_back(variant.name);
+            table.rows.resize(rows.size());
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                if (table.rows[i].empty())
+                    table.rows[i].emplace_back(rows[i].place);
+                table.rows[i].emplace_back(capacity_text(rows[i].ratio));
+            }
+        }
+        table.caption = fmt::format("Capacity ({} at {}) over that of the base", capacity_measure(c_),
+                                    c_.variants.front().limits.front().name);
+        page_.table(table);
+        page_.note(
+            "The ratio of the geometric means over the realizations. Capacities beyond the range of the study "
+            "count as at its end, and between two intensities of the study (\"steps\") the shares are not known, "
+            "so that the ratio may be off by this factor: more intensities make it sharper. The ratio is a bound where "
+            "the two still differ there, and drawn towards 1 "
+            "where a part of both stands at the strongest shaking or falls at the weakest.");
     }
 
     void pictures()

@@ -1,4 +1,5 @@
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/compare/capacity_rows.hpp"
 
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/experiment/conventions.hpp"
@@ -110,6 +111,32 @@ Json dependence_json(const InputDependence& input)
         .member("thirds", thirds);
 }
 
+Json capacity_json(const Comparison& comparison, const LimitComparison& limit)
+{
+    Json rows = Json::list();
+    for (const CapacityRow& row : capacity_rows(comparison, limit))
+        rows.item(Json::object()
+                      .member("place", row.place)
+                      .member("ratio", row.ratio.value)
+                      .member("lower", row.ratio.lower)
+                      .member("upper", row.ratio.upper)
+                      .member("steps", row.ratio.grid)
+                      .member("at_least", row.ratio.at_least)
+                      .member("at_most", row.ratio.at_most));
+    return rows;
+}
+
+/// Of the first limit state, over the frequencies.
+std::string capacities_text(const Comparison& comparison, const VariantComparison& variant)
+{
+    std::string text;
+    for (const CapacityRow& row : capacity_rows(comparison, variant.limits.front()))
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", row.place, capacity_text(row.ratio));
+    return text.empty() ? text
+                        : fmt::format("  capacity ({} at {}) over that of the base: {}\n", capacity_measure(comparison),
+                                      variant.limits.front().name, text);
+}
+
 Json variant_json(const Comparison& comparison, const VariantComparison& variant)
 {
     Json inputs = Json::list();
@@ -126,6 +153,7 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
                                       .member("overall", place_json(limit, limit.overall))
                                       .member("worse_cells", named_json(comparison, limit, true))
                                       .member("better_cells", named_json(comparison, limit, false))
+                                      .member("capacity_ratios", capacity_json(comparison, limit))
                                       .member("cells", cells_json(comparison, limit)));
     Json depends = Json::list();
     for (const InputDependence& input : variant.depends)
@@ -169,6 +197,7 @@ std::string variant_text(const Comparison& comparison, const VariantComparison& 
         if (limit.cells.size() > 1)
             text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
     }
+    text += capacities_text(comparison, variant);
     for (const std::string& dependence : dependence_texts(comparison, variant))
         text += "  depends on " + dependence + "\n";
     return text;

@@ -81,17 +81,6 @@ void take(PlaceComparison& place, const PairedDifference& found)
     place.upper = found.upper;
 }
 
-double unpaired_of(const PlaceComparison& place, const PairedDifference& found, double base_effect,
-                   double variant_effect)
-{
-    // without a discordant pair the design effect of groups is not known
-    const bool unknown = found.design_effect > 1 && place.counts.discordant() == 0;
-    if (place.counts.pairs() == 0 || !std::isfinite(found.quantile) || unknown)
-        return std::nan("");
-    return unpaired_realizations(place.base.probability, place.variant.probability, found.half_width(), found.quantile,
-                                 base_effect, variant_effect);
-}
-
 PairedDifference at_a_look(const PairedCounts& counts, const RepeatedLooks& looks)
 {
     return score_interval(static_cast<double>(counts.pairs()), static_cast<double>(counts.base_only),
@@ -147,8 +136,8 @@ PlaceComparison compare_place(std::span<const PairedCounts> groups, const PairLa
                                        ? at_a_look(place.counts, *layout.looks)
                                        : paired_difference(place.counts, layout.level);
     take(place, found);
-    place.unpaired = unpaired_of(place, found, grouped ? share_effect(groups, &PairedCounts::base) : 1,
-                                 grouped ? share_effect(groups, &PairedCounts::variant) : 1);
+    place.unpaired =
+        static_cast<double>(place.counts.pairs()) * (grouped ? pairing_gain_of_groups(groups) : pairing_gain(groups));
     place.p = grouped ? sign_flip_p(groups) : layout.looks ? p_at_a_look(place, layout) : mcnemar_p(place.counts);
     place.p_adjusted = place.p;
     return place;
@@ -168,11 +157,10 @@ PlaceComparison compare_overall(std::span<const PairedCounts> counts, const Pair
     place.counts = sum_of(counts);
     place.base = mean_share(counts, &PairedCounts::base, layout);
     place.variant = mean_share(counts, &PairedCounts::variant, layout);
-    const PairedDifference found =
-        layout.looks ? stratified_at(counts, layout.looks->quantile()) : stratified_difference(counts, layout.level);
+    const PairedDifference found = layout.looks ? weighted_difference(counts, {}, layout.looks->quantile())
+                                                : stratified_difference(counts, layout.level);
     take(place, found);
-    place.unpaired = unpaired_of(place, found, strata_effect(counts, &PairedCounts::base),
-                                 strata_effect(counts, &PairedCounts::variant));
+    place.unpaired = static_cast<double>(place.counts.pairs()) * pairing_gain(counts);
     // in standard errors, from the interval
     place.p = layout.looks ? layout.looks->p_value(std::abs(found.value) / found.half_width() * found.quantile)
                            : mcnemar_p(place.counts);

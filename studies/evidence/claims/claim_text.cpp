@@ -144,7 +144,7 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
     case Criterion::Kind::paired:
         text =
             fmt::format("{} {} from the first level of {} to the last, by pairs of realizations with the same draws, "
-                        "over the cells in which 5 to 95 % of both levels do",
+                        "over the cells in which 5 to 95 % of the two levels together do",
                         measure_text(c.measure), way, axis_label(file, c.along));
         break;
     case Criterion::Kind::same:

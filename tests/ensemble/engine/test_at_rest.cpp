@@ -79,5 +79,27 @@ TEST(AtRest, TailsUntilRest)
     EXPECT_LT(usual.end_time_s, 0.5 + 12 / 1.889 + 0.1);
 }
 
+/// A pulse that just does not overturn it brings the block so near to its balance, and so slowly, that it hovers there
+/// for longer than 2 / p: it falls or it comes back, but it does not lie still half a width aside.
+TEST(AtRest, ABlockThatHoversNearItsBalanceIsNot)
+{
+    const auto at = [](double pga) {
+        return outcome_of("kind = \"half_sine\"\nfrequency_hz = 1\ntail_s = \"rest\"\npga_m_s2 = " +
+                              std::to_string(pga),
+                          "damping = \"ends\"\nnormal_damping_ratio = 0.3\n");
+    };
+    double stands = 3, falls = 12;
+    while (falls - stands > 1e-5) {
+        const double middle = 0.5 * (stands + falls);
+        const Outcome o = at(middle);
+        (o.state == State::collapsed ? falls : stands) = middle;
+        if (o.at_rest == 1) {
+            EXPECT_LT(std::fabs(o.residual_top_displacement_m), 0.1) << middle;
+        }
+    }
+    EXPECT_EQ(at(stands).at_rest, 1);
+    EXPECT_LT(std::fabs(at(stands).residual_top_displacement_m), 0.1);
+}
+
 } // namespace
 } // namespace stylobate

@@ -158,12 +158,7 @@ TEST(AdaptiveStatistics, IntervalsOfOwnTrialsHoldTheTruth)
     }
 }
 
-<<<<<<< HEAD
 // One repeat of 144 cells: a deviation of 0.018, and more where cells that borrow fail together.
-=======
-// 5 repeats of 144 cells: a coverage of 0.95 has a deviation of 0.008, more where cells that borrow fail together; the
-// limits are three of them below. Seeds are fixed.
->>>>>>> wip-s
 TEST(AdaptiveStatistics, IntervalsThatBorrowHoldTheTruthWithFewerRealizations)
 {
     for (const auto& [name, truth] : {std::pair{"smooth", smooth()}, {"rough", rough()}}) {

@@ -102,7 +102,7 @@ TEST(PairedAllocationStatistics, IntervalsHoldWhereverItStops)
                 false_zero += at.lower > 0 || at.upper < 0;
             }
         }
-        const PairedDifference all = stratified_at(counts, allocation.looks().quantile());
+        const PairedDifference all = weighted_difference(counts, {}, allocation.looks().quantile());
         held_mean += all.lower <= mean && mean <= all.upper;
     }
     const double cells = repeats * static_cast<double>(truths.size());

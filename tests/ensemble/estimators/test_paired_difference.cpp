@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace stylobate {
 namespace {
@@ -147,7 +148,7 @@ TEST(PairedDifference, StrataOfOnePairGainNothing)
     EXPECT_NEAR(found.value, plain.value, 1e-12);
     EXPECT_NEAR(found.lower, plain.lower, 1e-9);
     EXPECT_NEAR(found.upper, plain.upper, 1e-9);
-    EXPECT_EQ(strata_effect(strata, &PairedCounts::base), 1);
+    EXPECT_TRUE(std::isnan(pairing_gain(strata)));
 }
 
 /// Two cells of four pairs, each with d = 1/4: 2 and 1 discordant of one, 1 and 0 of the other. V = ((3/4 - 1/16) / 3 +
@@ -173,40 +174,76 @@ TEST(PairedDifference, GroupsByHand)
     EXPECT_NEAR(found.quantile, 3.182446, 1e-6);
     EXPECT_NEAR(found.lower, -0.38224694, 1e-7);
     EXPECT_NEAR(found.upper, 0.65749502, 1e-7);
-    // 4, 1, 2, 3 of 20 reached it in the variant: 4/3 (1.5^2 + 1.5^2 + 0.5^2 + 0.5^2) / (20 / 4)
-    EXPECT_NEAR(share_effect(groups, &PairedCounts::variant), 4.0 / 3, 1e-12);
-    // 1, 2, 1, 2 in the base: 4/3 / (20 x 0.3 x 0.7) = 0.32 is below the bound
-    EXPECT_EQ(share_effect(groups, &PairedCounts::base), 0.5);
 }
 
-/// Shares of 2 of 4 and 2 of 8: the variance of their mean is (1/4 / 3 + 3/16 / 7) / 4, that of 12 trials 3/8 x 5/8
-/// / 12.
-TEST(PairedDifference, EffectOfStrataByHand)
+/// Two cells, of 4 and 8 pairs: shares 1/2 and 1/2 with 2 discordant of 4 and d = 0; 1/4 and 3/8 with 3 of 8 and 1/8.
+TEST(PairingGain, OfStrataByHand)
 {
-    EXPECT_NEAR(strata_effect(std::vector<PairedCounts>{{1, 1, 1, 1}, {0, 2, 1, 5}}, &PairedCounts::base),
-                (1.0 / 12 + 3.0 / 112) / 4 / (15.0 / 64 / 12), 1e-12);
+    const double alone = (0.25 + 0.25) / 3 + (3.0 / 16 + 15.0 / 64) / 7, paired = 0.5 / 3 + (3.0 / 8 - 1.0 / 64) / 7;
+    EXPECT_NEAR(pairing_gain(std::vector<PairedCounts>{{1, 1, 1, 1}, {1, 1, 2, 4}}), alone / paired, 1e-12);
+    // a large sample: n p1 (1 - p1) + n p2 (1 - p2) over n (q - d2), without any bound
+    EXPECT_NEAR(pairing_gain(std::vector<PairedCounts>{{40000, 6000, 4000, 50000}}),
+                (0.46 * 0.54 + 0.44 * 0.56) / (0.1 - 0.0004), 1e-9);
+    EXPECT_NEAR(pairing_gain(std::vector<PairedCounts>{{4999, 1, 1, 4999}}), 0.5 / 2e-4, 1e-9);
+    // a cell that changes as a whole has no variance in either
+    EXPECT_NEAR(pairing_gain(std::vector<PairedCounts>{{0, 8, 0, 0}, {1, 1, 1, 1}}), 1, 1e-12);
+    EXPECT_NEAR(pairing_gain(std::vector<PairedCounts>{{0, 2, 2, 0}}), 0.5, 1e-12); // each pair differs
 }
 
-/// Newcombe (1998), table II, method 10: of 56/70 and 48/80 the interval 0.0524 to 0.3339, of 9/10 and 3/10 0.1705 to
-/// 0.8090. The number of realizations is the one that has its half width; 80 with an effect of 80/70 are 70.
-TEST(PairedDifference, UnpairedNumberIsThatOfNewcombesIntervals)
+/// The groups of `GroupsByHand`: 1, 2, 1, 2 of five in the base, less 3/2, and 4, 1, 2, 3 in the variant, less 5/2.
+TEST(PairingGain, OfGroupsByHand)
 {
-    const double z = two_sided_normal(0.95);
-    EXPECT_NEAR(unpaired_realizations(0.9, 0.3, (0.8090 - 0.1705) / 2, z), 10, 0.01);
-    EXPECT_NEAR(unpaired_realizations(0.8, 0.6, (0.3339 - 0.0524) / 2, z, 80.0 / 70, 1), 80, 0.1);
+    const std::vector<PairedCounts> groups = {{1, 0, 3, 1}, {1, 1, 0, 3}, {0, 1, 2, 2}, {2, 0, 1, 2}};
+    EXPECT_NEAR(pairing_gain_of_groups(groups), (4 * 0.25 + 2.25 + 2.25 + 0.25 + 0.25) / (4 + 4), 1e-12);
+    std::vector<PairedCounts> single;
+    const PairedCounts all{3, 2, 1, 6};
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        PairedCounts one;
+        one.add(i < 5, i < 3 || i == 5);
+        single.push_back(one);
+    }
+    EXPECT_NEAR(pairing_gain_of_groups(single), pairing_gain(std::span(&all, 1)), 1e-12);
 }
 
-TEST(PairedDifference, UnpairedNumberIsThatOfTheVariances)
+TEST(PairingGain, IsNotKnownWithoutADiscordantPair)
 {
-    // a large sample: n' = n (p1 q1 + p2 q2) / (q - d2)
-    const PairedCounts c{40000, 6000, 4000, 50000};
-    const PairedDifference found = paired_difference(c, 0.95);
-    const double p1 = 0.46, p2 = 0.44, q = 0.1, d = -0.02;
-    const double want = 1e5 * (p1 * (1 - p1) + p2 * (1 - p2)) / (q - d * d);
-    EXPECT_NEAR(unpaired_realizations(p1, p2, found.half_width(), found.quantile), want, 0.01 * want);
-    // without a discordant pair nothing is saved beyond the pairs
-    const PairedDifference none = paired_difference(counts(200, 0, 0), 0.95);
-    EXPECT_NEAR(unpaired_realizations(0, 0, none.half_width(), none.quantile), 200, 1);
+    EXPECT_TRUE(std::isnan(pairing_gain(std::vector<PairedCounts>{{3, 0, 0, 1}})));
+    EXPECT_TRUE(std::isnan(pairing_gain(std::vector<PairedCounts>{})));
+    EXPECT_TRUE(std::isnan(pairing_gain_of_groups(std::vector<PairedCounts>{{1, 0, 0, 1}, {2, 0, 0, 0}})));
+}
+
+/// The gain is the ratio of the variances of two estimates, over 4000 simulated comparisons of six cells, some of which
+/// are nearly all or nothing.
+TEST(PairingGainStatistics, IsTheRatioOfTheVariances)
+{
+    std::mt19937_64 engine(7);
+    std::uniform_real_distribution<double> uniform;
+    constexpr int n = 40, repeats = 4000;
+    const double at[] = {0.02, 0.1, 0.3, 0.5, 0.8, 0.97};
+    double paired_sum = 0, paired_squares = 0, alone_sum = 0, alone_squares = 0, gains = 0;
+    for (int r = 0; r < repeats; ++r) {
+        double paired = 0, alone = 0;
+        std::vector<PairedCounts> cells;
+        for (const double p : at) {
+            PairedCounts cell;
+            int other = 0;
+            for (int i = 0; i < n; ++i) {
+                const double u = uniform(engine);
+                const bool common = uniform(engine) < 0.8;
+                const double v = common ? u : uniform(engine);
+                cell.add(u < p, v < 0.9 * p);
+                other += uniform(engine) < 0.9 * p;
+            }
+            paired += static_cast<double>(cell.variant()) - static_cast<double>(cell.base());
+            alone += other - static_cast<double>(cell.base());
+            cells.push_back(cell);
+        }
+        gains += pairing_gain(cells) / repeats;
+        paired_sum += paired / repeats, paired_squares += paired * paired / repeats;
+        alone_sum += alone / repeats, alone_squares += alone * alone / repeats;
+    }
+    const double ratio = (alone_squares - alone_sum * alone_sum) / (paired_squares - paired_sum * paired_sum);
+    EXPECT_NEAR(gains / ratio, 1, 0.09); // 4 standard errors of a ratio of two variances of 4000 are 0.09
 }
 
 /// By summation over all counts of discordant pairs, also of interventions that act in one direction alone.

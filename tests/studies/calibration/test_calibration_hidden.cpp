@@ -80,8 +80,8 @@ void expect_the_same(const Campaign& campaign, const FittedParameter& friction)
 
 TEST(CalibrationHiddenStatistics, WhereLittleSlidesTheFrictionIsNotDetermined)
 {
-    // the friction that windows of this campaign like best is 0.41, with an interval of 4 % to either side; of its first
-    // three runs alone, for time
+    // the friction that windows of this campaign like best is 0.41, with an interval of 4 % to either side; of its
+    // first three runs alone, for time
     hidden::VirtualCampaign made = hidden::make_campaign(4);
     made.campaign.runs.resize(3);
     const Calibration found = calibrated(made.campaign, false);

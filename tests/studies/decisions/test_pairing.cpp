@@ -146,17 +146,18 @@ TEST(Pairing, AFragilityStudyIsGroupedByItsMotions)
     EXPECT_EQ(collapse.overall.counts, (PairedCounts{0, 12, 0, 60}));
 }
 
-/// Two motions of two pairs each that end alike: by how much pairs of one motion depend on each other is not known.
-TEST(Pairing, WithoutADiscordantPairOfGroupsTheUnpairedNumberIsNotKnown)
+/// Two motions of two pairs each that end alike: nothing is known of the variance.
+TEST(Pairing, WithoutADiscordantPairTheUnpairedNumberIsNotKnown)
 {
     const std::vector<PairedCounts> motions = {{1, 0, 0, 1}, {2, 0, 0, 0}};
     const PlaceComparison grouped = compare_place(motions, {.groups = 2, .level = 0.95});
     EXPECT_EQ(grouped.difference, 0);
     EXPECT_TRUE(std::isnan(grouped.unpaired));
-    // one discordant pair, or pairs that are independent: known
-    EXPECT_GT(
-        compare_place(std::vector<PairedCounts>{{1, 1, 0, 0}, {2, 0, 0, 0}}, {.groups = 2, .level = 0.95}).unpaired, 0);
-    EXPECT_GT(compare_place(std::vector<PairedCounts>{{3, 0, 0, 1}}, {.level = 0.95}).unpaired, 0);
+    EXPECT_TRUE(std::isnan(compare_place(std::vector<PairedCounts>{{3, 0, 0, 1}}, {.level = 0.95}).unpaired));
+    // one discordant pair of two motions: excesses -+1/2 in each, of the base 0, and their difference -+1/2
+    EXPECT_NEAR(
+        compare_place(std::vector<PairedCounts>{{1, 1, 0, 0}, {2, 0, 0, 0}}, {.groups = 2, .level = 0.95}).unpaired, 4,
+        1e-12);
 }
 
 /// Cells of 10 and 90 pairs have equal weights: the mean of two shares has the variance of 2^2 / (1/10 + 1/90) = 36
@@ -207,17 +208,6 @@ void expect_jeffreys(const Share& share, double k, double n)
     EXPECT_NEAR(share.upper, upper, 1e-9);
 }
 
-/// Half the width of Newcombe's interval (1998, method 10) of two independent shares of n trials.
-double newcombe_half(double p, double q, double n)
-{
-    constexpr double z = 1.959964;
-    const auto wilson = [&](double share, double sign) {
-        return (share + z * z / (2 * n) + sign * z * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n))) /
-               (1 + z * z / n);
-    };
-    return (std::hypot(q - wilson(q, -1), wilson(p, 1) - p) + std::hypot(wilson(q, 1) - q, p - wilson(p, -1))) / 2;
-}
-
 /// Cells of 10 and of 40 pairs have equal weights: their mean share has the variance of 4 / (1/10 + 1/40) = 32 trials
 /// of one cell.
 TEST(Pairing, OverallEachCellHasTheSameWeight)
@@ -235,8 +225,9 @@ TEST(Pairing, OverallEachCellHasTheSameWeight)
     expect_jeffreys(one.base, 5, 10);
     expect_jeffreys(one.variant, 3, 10);
     EXPECT_NEAR(one.p, 2 * 5 / 16.0, 1e-14) << "McNemar's: at most 1 of 4";
-    // so many realizations of each of two independent studies would have as wide an interval
-    EXPECT_NEAR(newcombe_half(0.5, 0.3, one.unpaired), (one.upper - one.lower) / 2, 1e-6);
+    // 10 pairs x (1/4 + 0.21) / (4/10 - 1/25)
+    EXPECT_NEAR(one.unpaired, 10 * 0.46 / 0.36, 1e-12);
+    EXPECT_NEAR(all.unpaired, 50 * (0.46 / 9 + (0.16 + 0.24) / 39) / (0.36 / 9 + (0.3 - 0.04) / 39), 1e-12);
 }
 
 /// With a single look the interval is that of a fixed number of pairs, and p that of a normal z.
