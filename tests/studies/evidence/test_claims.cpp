@@ -549,7 +549,7 @@ TEST(ClaimVerdict, RanksTheAxesByThePairsThatDifferInThemAlone)
     Verdict v = verdict(file, four(0.9, 0.9, 0.1, 0.1));
     EXPECT_EQ(v.judgement, Judgement::depends);
     EXPECT_EQ(v.split, "holds for stiffness soft; it fails for stiffness stiff");
-    EXPECT_EQ(verdict(file, four(0.9, 0.5, 0.5, 0.5)).split, "holds in 1 cases and fails in 0");
+    EXPECT_EQ(verdict(file, four(0.9, 0.5, 0.5, 0.5)).split, "holds in 1 case and fails in 0");
     EXPECT_EQ(by(four(0.9, 0.9, 0.1, 0.1)), "stiffness 2/2 ");
     EXPECT_EQ(by(four(0.1, 0.9, 0.1, 0.9)), "start 2/2 ");
     EXPECT_EQ(by(four(0.1, 0.9, 0.9, 0.9)), "stiffness 1/2 start 1/2 ");
