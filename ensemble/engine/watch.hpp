@@ -23,6 +23,11 @@ constexpr int check_steps(const Topology& topology)
 /// Chunks between two audits: they cost as much as several steps.
 inline constexpr std::uint64_t audit_chunks = 16;
 
+/// What lies higher than at the start by this part of the barrier may hover, and rests only after so many times as
+/// long.
+inline constexpr double raised_energy = 0.1;
+inline constexpr std::uint64_t raised_times = 8;
+
 /// Plain numbers of eight bytes each: a column of a device's memory holds them as they are.
 struct Watch {
     // fixed at the start
@@ -41,8 +46,9 @@ struct Watch {
     std::uint64_t quiet = 0;       ///< 1: at the last check it seemed at rest,
     std::uint64_t quiet_since = 0; ///< and has since this step
     std::uint64_t quiet_checks = 0;
-    double quiet_top_m = 0; ///< sum over the checks since then
-    double slip_m = 0;      ///< at the last check
+    std::uint64_t raised = 0; ///< 1: at the last check its potential energy was above that of the start
+    double quiet_top_m = 0;   ///< sum over the checks since then
+    double slip_m = 0;        ///< at the last check
     // what a device has to know of the limit states
     std::uint64_t undecided = 0; ///< 1: a block has turned too far, and may come back
     std::uint64_t seated = 0;    ///< 1: epistyles are watched, and none has lost a seat yet
@@ -186,16 +192,15 @@ STYLOBATE_INLINE bool leaves_beds(const Topology& topology, const Bundle& b, int
 }
 
 /// The criterion of rest, for the end of a realization and for `Outcome::at_rest`: after the shaking, at every check of
-/// the last `rest_steps`, the kinetic energy relative to the base was below `rest_energy_j`, the potential energy was
-/// not above that of the start by more than `rest_potential` of the barrier, no more than `rest_slip_m` had slipped
-/// since the check before, and no block was about to fall. A block that hovers near its balance for some time has
-/// little kinetic energy, too; its potential energy tells it from one that lies.
+/// the last `rest_steps`, the kinetic energy relative to the base was below `rest_energy_j`, no more than `rest_slip_m`
+/// had slipped since the check before, and no block was about to fall. A block that hovers near its balance has little
+/// kinetic energy, too, but its potential energy is above that of the start. Clamps may hold a block there for good; so
+/// what lies so high has to lie still for `raised_times` as long, in which the distance from a balance that nothing
+/// holds grows by exp(16).
 STYLOBATE_INLINE bool at_rest(const Watch& w)
 {
-    return w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps;
+    return w.quiet != 0 && w.steps - w.quiet_since >= w.rest_steps * (w.raised != 0 ? raised_times : 1);
 }
-
-inline constexpr double rest_potential = 0.1;
 
 /// Sees whether the realization lies still.
 /// @return whether it has for so long, or is out of time, that it is over
@@ -207,8 +212,8 @@ STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int 
     const double slip = b.at(OfRealization::slip, lane) - w.slip_m;
     w.slip_m += slip;
     const bool slips = slip > w.rest_slip_m;
-    const bool hovers = potential > rest_potential * w.barrier_j;
-    if (time >= w.shaking_end_s && !undecided && !slips && !hovers && abs_of(kinetic) < w.rest_energy_j) {
+    w.raised = potential > raised_energy * w.barrier_j ? 1 : 0;
+    if (time >= w.shaking_end_s && !undecided && !slips && abs_of(kinetic) < w.rest_energy_j) {
         if (w.quiet == 0) {
             w.quiet_since = w.steps;
             w.quiet_top_m = 0;
