@@ -6,6 +6,7 @@
 /// `tests/ensemble/estimators/sensitivity_functions.hpp`); no mechanics. `scripts/sampling_coverage.sh` writes the
 /// tables into docs/sensitivity.md.
 
+#include "bench/mean.hpp"
 #include "io/tables/markdown.hpp"
 #include "tests/ensemble/estimators/rare_truth.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
@@ -35,22 +36,10 @@ struct Held {
     }
 };
 
-/// A mean in parts of the truth, with its standard error.
-struct Mean {
-    double sum = 0, squares = 0, count = 0;
-
-    void add(double x)
-    {
-        sum += x;
-        squares += x * x;
-        ++count;
-    }
-    std::string text() const
-    {
-        const double mean = sum / count;
-        return fmt::format("{:.4f} ± {:.4f}", mean, std::sqrt((squares / count - mean * mean) / count));
-    }
-};
+std::string text_of(const Mean& parts_of_truth)
+{
+    return fmt::format("{:.4f} ± {:.4f}", parts_of_truth.value(), parts_of_truth.error());
+}
 
 /// Studies of rare events, each with its pilot.
 struct RareStudies {
@@ -109,7 +98,7 @@ void rare_coverage(std::size_t repeats)
             fmt::print(" {:.1f} ({:.1f}, {:.1f}) |", held.percent(held.held), held.percent(held.above),
                        held.percent(held.below));
         }
-        fmt::print(" {} |\n", studies.counted.text());
+        fmt::print(" {} |\n", text_of(studies.counted));
         std::fflush(stdout);
     }
 }
@@ -129,8 +118,9 @@ void rare_bias(std::size_t repeats)
     for (const std::size_t samples : {100U, 200U, 500U, 1000U}) {
         const RareStudies studies(rare_plane(1e-5), samples, 10 * repeats * 500 / samples, 5);
         const Held held = studies.held(5);
-        fmt::print("| {} | {} | {} | {:.2f} | {:.1f} | {:.1f} |\n", samples, studies.pilots.text(),
-                   studies.counted.text(), studies.percent_of_none(), held.percent(held.held), held.percent(held.none));
+        fmt::print("| {} | {} | {} | {:.2f} | {:.1f} | {:.1f} |\n", samples, text_of(studies.pilots),
+                   text_of(studies.counted), studies.percent_of_none(), held.percent(held.held),
+                   held.percent(held.none));
         std::fflush(stdout);
     }
 }
