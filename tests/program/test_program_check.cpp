@@ -95,7 +95,7 @@ TEST_F(Check, TellsWhatWillBeRun)
 TEST_F(Check, OfStudiesThatGoInRounds)
 {
     for (const auto& [name, most] : {std::pair{"small_scale_column_adaptive", 40000.0},
-                                     {"rare_collapse", 110000.0},
+                                     {"rare_collapse", 121000.0},
                                      {"sensitivity_column", 80000.0}}) {
         const JsonValue json = json_of(look(name));
         EXPECT_EQ(json["realizations"].number, most) << name;
