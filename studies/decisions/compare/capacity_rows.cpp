@@ -1,5 +1,7 @@
 #include "studies/decisions/compare/capacity_rows.hpp"
 
+#include "studies/kinds/fragility/fragility.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,7 +32,7 @@ std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const Limit
 
 std::string capacity_measure(const Comparison& comparison)
 {
-    return comparison.measure.empty() ? "PGA" : comparison.measure;
+    return comparison.measure.empty() ? "PGA" : short_measure(comparison.measure);
 }
 
 std::string capacity_text(const CapacityRatio& ratio)

@@ -57,7 +57,7 @@ TEST(CapacityRows, OfAFragilityStudyAreOverItsStripesByTheMotions)
     const CapacityRatio direct = capacity_ratio(c.intensity, limit.by_motion, 20, c.level);
     EXPECT_EQ(rows[0].ratio.value, direct.value);
     EXPECT_EQ(rows[0].ratio.upper, direct.upper);
-    EXPECT_EQ(capacity_measure(c), "pgv_m_s");
+    EXPECT_EQ(capacity_measure(c), "PGV");
 }
 
 TEST(CapacityRows, NoneWithoutARangeAndNoneOfWhatStopsByItsOutcomes)
