@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace stylobate {
 
@@ -84,6 +85,32 @@ std::string Comparison::place(std::size_t cell) const
     return intensity.empty()
                ? "all"
                : fmt::format("{} {:.3g} {}", short_measure(measure), intensity[cell], measure_unit(measure));
+}
+
+std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const LimitComparison& limit)
+{
+    if (!limit.damage || comparison.adaptive_budget > 0)
+        return {};
+    std::vector<CapacityRow> rows;
+    if (comparison.intensity.size() > 1 && !limit.by_motion.empty())
+        rows.push_back({"all stripes",
+                        capacity_ratio(comparison.intensity, limit.by_motion, comparison.motions, comparison.level)});
+    const std::size_t n = comparison.pga_m_s2.size();
+    if (n < 2)
+        return rows;
+    for (std::size_t f = 0; f < comparison.frequency_hz.size(); ++f) {
+        std::vector<PairedCounts> counts;
+        for (const PlaceComparison& place : std::span(limit.cells).subspan(f * n, n))
+            counts.push_back(place.counts);
+        rows.push_back({fmt::format("{:.3g} Hz", comparison.frequency_hz[f]),
+                        capacity_ratio(comparison.pga_m_s2, counts, 0, comparison.level)});
+    }
+    return rows;
+}
+
+std::string capacity_measure(const Comparison& comparison)
+{
+    return comparison.measure.empty() ? "PGA" : short_measure(comparison.measure);
 }
 
 } // namespace stylobate

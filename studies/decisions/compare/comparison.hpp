@@ -1,6 +1,7 @@
 #pragma once
 /// What an intervention changes, by limit state and place, as plain data.
 
+#include "ensemble/estimators/paired/capacity_ratio.hpp"
 #include "ensemble/estimators/paired/dependence.hpp"
 #include "ensemble/estimators/paired/paired_counts.hpp"
 #include "studies/experiment/limit_state.hpp"
@@ -116,5 +117,18 @@ struct Comparison {
     /// "2.5 Hz, 4 m/s2", "PGA 3 m/s2", "all".
     std::string place(std::size_t cell) const;
 };
+
+/// A frequency of a surface, or all stripes of a fragility study.
+struct CapacityRow {
+    std::string place; ///< "0.5 Hz", "all stripes"
+    CapacityRatio ratio;
+};
+
+/// Of a limit state that is damage. None where the study has less than two intensities, and none of an adaptive
+/// comparison: it stops a cell by its outcomes.
+std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const LimitComparison& limit);
+
+/// The measure in which the capacity is: "PGA".
+std::string capacity_measure(const Comparison& comparison);
 
 } // namespace stylobate

@@ -4,7 +4,6 @@
 #include "io/drawing/plot_structure.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/capacity_rows.hpp"
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"

@@ -1,5 +1,4 @@
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/compare/capacity_rows.hpp"
 
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/experiment/conventions.hpp"
@@ -222,6 +221,18 @@ std::string points_text(const PlaceComparison& place)
 std::string difference_text(const PlaceComparison& place)
 {
     return fmt::format("{:+.4f} ({:+.4f} to {:+.4f})", place.difference, place.lower, place.upper);
+}
+
+std::string capacity_text(const CapacityRatio& ratio)
+{
+    if (std::isnan(ratio.value))
+        return "not in this range";
+    const char* bound = ratio.at_least && ratio.at_most ? "not bounded by this range, in it "
+                        : ratio.at_least                ? "at least "
+                        : ratio.at_most                 ? "at most "
+                                                        : "";
+    return fmt::format("{}{:.2f} ({:.2f} to {:.2f}; steps x {:.2f})", bound, ratio.value, ratio.lower, ratio.upper,
+                       ratio.grid);
 }
 
 std::string saving_text(const PlaceComparison& place)

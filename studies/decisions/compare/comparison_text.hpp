@@ -20,6 +20,10 @@ std::string verdict_text(const LimitComparison& limit, const PlaceComparison& pl
 std::string points_text(const PlaceComparison& place);
 /// "-0.043 [-0.060, -0.027]"
 std::string difference_text(const PlaceComparison& place);
+/// "1.20 (1.12 to 1.29; steps x 1.1)", "at least 3.1 (2.9 to 3.3; steps x 1.1)", "not in this range" where no intensity
+/// separates the two.
+std::string capacity_text(const CapacityRatio& ratio);
+
 /// How many times as many realizations an unpaired comparison would need: "pairing saved a factor of 20".
 std::string saving_text(const PlaceComparison& place);
 /// "friction: same numbers; drum_offset: same quantiles".

@@ -87,15 +87,15 @@ const std::string harmonic = "kind = \"harmonic\"\nfrequency_hz = 1.7\npga_m_s2 
 std::vector<std::string> samples()
 {
     const std::string motion = "\"\nfrequency_hz = 1.7\npga_m_s2 = 3.3\n";
-    const std::string axes =
-        "[surface]\nfrequency_hz = { from = 1, to = 2, count = 2 }\npga_m_s2 = { from = 1, to = 2, "
-        "count = 2 }\n";
+    const std::string range = " = { from = 1, to = 2, count = 2 }\n";
+    const std::string axes = "[surface]\nfrequency_hz" + range + "pga_m_s2" + range;
     const std::string surface = "[study]\nkind = \"surface\"\nrealizations = 40\n" + drums + contact;
     const std::string fragility = "[study]\nkind = \"fragility\"\nrealizations = 4\n" + drums + contact;
+    const std::string pulses =
+        fragility + "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\n";
     std::string records = "records = [";
     for (int i = 0; i < 8; ++i)
         records += "{ file = \"a" + std::to_string(i) + "\" }, ";
-    records += "]\n";
     std::vector<std::string> all = {
         single("kind = \"none\"\nduration_s = 1\n"),
         single(harmonic),
@@ -115,13 +115,9 @@ std::vector<std::string> samples()
         single(harmonic, bays) + every_mechanism(),
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "adaptive = { budget = 100 }\n",
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "[twins]\n",
-        fragility +
-            "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\nintensity = { measure = "
-            "\"sa\", period_s = 1, from = 1, to = 2, count = 2 }\n",
-        fragility +
-            "[excitation]\nkind = \"pulse\"\nfrequency_hz = 1\n[fragility]\nmotions = 9\nintensity = { from = 1, "
-            "to = 2, count = 2 }\n",
-        fragility + "[excitation]\nkind = \"record\"\n[fragility]\nmethod = \"cloud\"\n" + records,
+        pulses + "intensity = { measure = \"sa\", period_s = 1, from = 1, to = 2, count = 2 }\n",
+        pulses + "intensity = { from = 1, to = 2, count = 2 }\n",
+        fragility + "[excitation]\nkind = \"record\"\n[fragility]\nmethod = \"cloud\"\n" + records + "]\n",
         fragility + "[excitation]\nkind = \"record\"\n[fragility]\nfolder = \"" STYLOBATE_SOURCE_DIR
                     "/studies/inputs\"\n"
                     "intensity = { from = 1, to = 2, count = 2 }\n",
@@ -212,11 +208,10 @@ std::pair<std::string, std::string> of_another_type(const TomlKey& key)
         return {"\"\"", "is empty"};
     case KeyType::numbers:
     case KeyType::wholes:
+    case KeyType::texts:
         return {"true", "not a list"};
     case KeyType::interval:
         return {"true", "is not two numbers in brackets"};
-    case KeyType::texts:
-        return {"true", "not a list"};
     case KeyType::table:
     case KeyType::named:
     case KeyType::table_or_list:

@@ -1,6 +1,5 @@
 /// Ratios of capacities in a comparison: which counts make them, and what is said of them.
 
-#include "studies/decisions/compare/capacity_rows.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
 
