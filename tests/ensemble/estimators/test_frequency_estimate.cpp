@@ -7,6 +7,7 @@
 #include "ensemble/numerics/quantiles.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
