@@ -292,9 +292,10 @@ TEST(RecordBootstrap, LimitsByHand)
     // Efron's BCa: z0 of the share below, a = sum d^3 / (6 (sum d^2)^(3/2)), the point Phi(z0 + z / (1 - a z))
     const double z0 = normal_quantile((below + 0.5) / 40), a = cube / (6 * std::pow(square, 1.5));
     const auto corrected = [&](double z) {
-        const double place = 40 * std::erfc(-(z0 + (z0 + z) / (1 - a * (z0 + z))) / std::numbers::sqrt2) / 2 - 1;
-        const auto at = static_cast<std::size_t>(place);
-        return std::lerp(values[at], values[at + 1], place - std::floor(place));
+        const double of_39 = 40 * std::erfc(-(z0 + (z0 + z) / (1 - a * (z0 + z))) / std::numbers::sqrt2) / 2 - 1;
+        const double place = std::clamp(of_39, 0.0, 38.0); // beyond the largest there is none
+        const auto at = std::min<std::size_t>(static_cast<std::size_t>(place), 37);
+        return std::lerp(values[at], values[at + 1], place - static_cast<double>(at));
     };
     EXPECT_NEAR(found.accelerated.lower, corrected(-1.6448536), 1e-6);
     EXPECT_NEAR(found.accelerated.upper, corrected(1.6448536), 1e-6);
