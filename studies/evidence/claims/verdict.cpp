@@ -1,5 +1,7 @@
 #include "studies/evidence/claims/verdict.hpp"
 
+#include "io/files/suggest.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -92,8 +94,7 @@ std::string split_text(const ClaimFile& file, const Test& test, const std::vecto
         if ((best == 0 || std::popcount(axes) < std::popcount(best)) && !split_by(cases, axes).empty())
             best = axes;
     if (best == 0 || std::popcount(best) > most_axes || counts.holds == 0 || counts.fails == 0)
-        return fmt::format("holds in {} {} and fails in {}", counts.holds, counts.holds == 1 ? "case" : "cases",
-                           counts.fails);
+        return fmt::format("holds in {} and fails in {}", counted(counts.holds, "case"), counts.fails);
     const Split split = split_by(cases, best);
     // the longer list says nothing that the shorter one leaves open
     constexpr std::size_t most_named = 4;

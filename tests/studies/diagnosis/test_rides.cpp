@@ -100,8 +100,7 @@ TEST(FitPitch, OfAColumnHasTheJackknifesDeviationToo)
     EXPECT_NEAR(fit.gain / (std::pow(2 / fit.sd, 2) / 2), 1, 1e-9);
 }
 
-/// A table that the cameras see moves up and down with 9 Hz, by other amplitudes in each of four motions.
-TEST(VerticalMotion, TheDeviationOfALineIsThatOfTheMeanOfTheRuns)
+Campaign of_one_block()
 {
     Campaign campaign;
     Specimen& s = campaign.specimen;
@@ -111,6 +110,13 @@ TEST(VerticalMotion, TheDeviationOfALineIsThatOfTheMeanOfTheRuns)
     s.rest_x_m = {0};
     s.rest_y_m = {0.2};
     s.joints = {{-1, 0}};
+    return campaign;
+}
+
+/// A table that the cameras see moves up and down with 9 Hz, by other amplitudes in each of four motions.
+TEST(VerticalMotion, TheDeviationOfALineIsThatOfTheMeanOfTheRuns)
+{
+    Campaign campaign = of_one_block();
     const double omega = 2 * std::numbers::pi * 9;
     const std::vector<double> amplitude_m_s2 = {1, 1.4, 0.6, 1};
     for (std::size_t r = 0; r < 4; ++r) {
@@ -161,14 +167,7 @@ TEST(TrackScales, TheNoiseOfSamplesIsThatOfTheirFourthDifferences)
 {
     // white noise of 1 mm and 3 mrad upon a slow motion; the median of 1.2e4 squares is known to 1.2 % (1 sigma), as
     // neighbouring differences are correlated perhaps to twice that
-    Campaign campaign;
-    Specimen& s = campaign.specimen;
-    s.half_width_m = {0.1};
-    s.half_height_m = {0.2};
-    s.mass_kg = {1};
-    s.rest_x_m = {0};
-    s.rest_y_m = {0.2};
-    s.joints = {{-1, 0}};
+    Campaign campaign = of_one_block();
     std::mt19937_64 random(11);
     std::normal_distribution<double> normal;
     MeasuredRun run;
