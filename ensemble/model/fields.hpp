@@ -1,0 +1,55 @@
+#pragma once
+/// The fields of a structure, listed once. Files, tables, JSON, texts and documentation are made from the list.
+///
+/// A structure S has its list beside it, in the order of files:
+///
+///     template <class F>
+///     void visit_fields(std::type_identity<S>, F&& f)
+///     {
+///         f("from_s", &S::from_s, {.says = "begin of the window"});
+///         f("lower", [](auto& s) -> auto& { return s.limits.lower; });
+///     }
+///
+/// A reader or writer calls it with f(name, field, facts = {}), and reaches the field by `std::invoke(field, s)`.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace stylobate {
+
+struct FieldFacts {
+    const char* says = "";   ///< its meaning, in the words of files and of the documentation
+    const char* unit = "";   ///< where the end of its name is not its unit
+    const char* none = "";   ///< what stands for "none", and its meaning
+    std::uint64_t since = 0; ///< the first version of the file that has it
+};
+
+/// The unit at the end of a name, as files and tables have it: "m/s2" of "pga_m_s2". Empty: none.
+constexpr std::string_view unit_of(std::string_view name)
+{
+    // longest endings first
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 15> endings = {{{"_kg_m3", "kg/m3"},
+                                                                                        {"_rad_s2", "rad/s2"},
+                                                                                        {"_rad_s", "rad/s"},
+                                                                                        {"_n_s_m", "N s/m"},
+                                                                                        {"_per_s", "1/s"},
+                                                                                        {"_n_m2", "N/m2"},
+                                                                                        {"_m_s2", "m/s2"},
+                                                                                        {"_m_s", "m/s"},
+                                                                                        {"_n_m", "N/m"},
+                                                                                        {"_rad", "rad"},
+                                                                                        {"_hz", "Hz"},
+                                                                                        {"_kg", "kg"},
+                                                                                        {"_j", "J"},
+                                                                                        {"_m", "m"},
+                                                                                        {"_s", "s"}}};
+    for (const auto& [ending, unit] : endings)
+        if (name.ends_with(ending))
+            return unit;
+    return {};
+}
+
+} // namespace stylobate
