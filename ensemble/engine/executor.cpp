@@ -1,18 +1,13 @@
 #include "ensemble/engine/executor.hpp"
 
 #include "ensemble/engine/compliant_set.hpp"
+#include "ensemble/engine/drive.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/engine/slots.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/interval.hpp"
-
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -21,8 +16,6 @@
 namespace stylobate {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t most_slots = 1 << 24;
 /// Realizations that a device leaves to the processor are stepped there one by one, not in registers; slower by about:
@@ -34,7 +27,7 @@ public:
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
           kernels_(kernels(options.isa)), threads_(options.threads), few_(options.few * options.threads), plan_(plan),
-          observer_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
+          crew_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
           places_(order_.places(plan.shard)), next_(places_.begin), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
@@ -45,79 +38,67 @@ public:
     }
 
     /// One worker of the processor: a bundle that is refilled until nothing is left.
-    void work() noexcept
+    void work()
     {
-        guarded([this] {
-            LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
-            std::optional<CompliantSet> compliant = compliant_set();
-            for (int lane = 0; lane < lanes.lanes(); ++lane)
-                refill(lanes, lane);
-            while (lanes.active() > 0 && !stopped_) {
-                count_chunks(lanes.lanes(), lanes.active());
-                lanes.advance();
-                for (int lane = 0; lane < lanes.lanes(); ++lane)
-                    if (finish(lanes, lane, compliant))
-                        refill(lanes, lane);
-                step(compliant, lanes.active() == 0);
-                report(false, &lanes);
-            }
+        LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
+        run(lanes, [&](int stepped, bool) {
+            count_chunks(lanes.lanes(), stepped);
+            report(false, &lanes);
         });
     }
 
-    /// One worker for a device: many slots, the same. Its thread waits for the device; what a realization takes at its
-    /// beginning is done on several.
-    void work(Device& device, int slots, int share) noexcept
+    /// One worker for a device: many slots. Its thread waits for the device; what a realization takes at its beginning
+    /// is done on several.
+    void work(Device& device, int slots, int share)
     {
-        guarded([&] {
-            // no more slots than this device's share of what is to do
-            const auto most =
-                static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
-            SlotSet set(study_, record_, pattern_, device, slots, most);
-            std::optional<CompliantSet> compliant = compliant_set();
-            std::atomic<bool> more = true;
-            const auto fill = [&](int slot) {
-                if (!refill(set, slot))
-                    more = false;
-            };
-            in_parallel(0, set.slots(), fill);
-            for (int active = set.active(); active > 0 && !stopped_; active = set.active()) {
-                if (!more && active <= few_ / slower_alone / share)
-                    set.leave_device();
-                set.advance();
-                count_chunks(set.used(), active);
-                for (const int slot : set.ended())
-                    finish(set, slot, compliant);
-                in_parallel(std::size_t{0}, set.ended().size(), [&](std::size_t i) { fill(set.ended()[i]); });
-                step(compliant, set.active() == 0);
-                report(false);
-            }
+        // no more slots than this device's share of what is to do
+        const auto most =
+            static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
+        SlotSet set(study_, record_, pattern_, device, slots, most);
+        run(set, [&](int stepped, bool more) {
+            count_chunks(set.used(), stepped);
+            report(false);
+            if (!more && set.active() <= few_ / slower_alone / share)
+                set.leave_device();
         });
     }
 
+    Crew& crew() { return crew_; }
     /// Whether the processor ends this sooner than devices would.
     bool few() const { return left() <= static_cast<std::uint64_t>(few_); }
 
     Progress finish()
     {
-        if (error_)
-            std::rethrow_exception(error_);
+        crew_.rethrow();
         report(true);
         return progress_;
     }
 
 private:
-    /// What a thread does; an error stops all of them.
-    template <class F>
-    void guarded(const F& f) noexcept
+    /// Steps what there is to run in these lanes, and in others what rigid contacts hand over.
+    /// @param turn as of `drive`
+    template <class Set, class Turn>
+    void run(Set& set, const Turn& turn)
     {
-        try {
-            f();
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
-        }
+        std::optional<CompliantSet> compliant = compliant_set();
+        const auto source = [&](int lane) {
+            const std::optional<std::uint64_t> index = next();
+            if (index)
+                set.load(lane, realize(*index));
+            return index.has_value();
+        };
+        const auto sink = [&](int lane) {
+            if (set.outcome(lane))
+                deliver(set.realization(lane), *set.outcome(lane));
+            else
+                compliant->take(*set.handed(lane));
+            set.clear(lane);
+        };
+        drive(set, source, sink, [&](int stepped, bool more) {
+            step(compliant, set.active() == 0);
+            turn(stepped, more);
+            return !crew_.stopped();
+        });
     }
 
     /// What takes over what rigid contacts hand over.
@@ -129,42 +110,16 @@ private:
         return set;
     }
 
-    /// Delivers what has ended, and passes on what is handed over.
-    /// @return whether the lane has done with its realization
-    template <class Lanes>
-    bool finish(const Lanes& lanes, int lane, std::optional<CompliantSet>& compliant)
-    {
-        if (lanes.outcome(lane))
-            deliver(lanes.realization(lane), *lanes.outcome(lane));
-        else if (lanes.handed(lane))
-            compliant->take(*lanes.handed(lane));
-        else
-            return false;
-        return true;
-    }
-
     /// Steps what was handed over while there is a register of it.
     /// @param all to the end of the last one
     void step(std::optional<CompliantSet>& compliant, bool all)
     {
-        while (compliant && !compliant->empty() && (all || compliant->full()) && !stopped_) {
+        while (compliant && !compliant->empty() && (all || compliant->full()) && !crew_.stopped()) {
             compliant->advance(
                 [this](const Realization& realization, const Outcome& outcome) { deliver(realization, outcome); });
             count_chunks(compliant->lanes(), compliant->active());
             report(false);
         }
-    }
-
-    /// @return whether there was something left
-    template <class Lanes>
-    bool refill(Lanes& lanes, int lane)
-    {
-        const std::optional<std::uint64_t> index = next();
-        if (index)
-            lanes.load(lane, realize(*index));
-        else
-            lanes.clear(lane);
-        return index.has_value();
     }
 
     void count_chunks(int lanes, int active)
@@ -188,9 +143,9 @@ private:
     std::optional<std::uint64_t> next()
     {
         const std::optional<std::uint64_t> place = next_place_(); // it may wait: without the lock
-        if (!place || stopped_)
+        if (!place || crew_.stopped())
             return std::nullopt;
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(crew_.mutex());
         const std::uint64_t index = plan_.index(order_.index(*place));
         running_.emplace(index, *place);
         return index;
@@ -198,7 +153,7 @@ private:
 
     void deliver(const Realization& realization, const Outcome& outcome)
     {
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(crew_.mutex());
         plan_.sink(realization, outcome);
         const auto place = running_.find(realization.index);
         done_.add(place->second, outcome.state == State::collapsed, outcome.state == State::invalid);
@@ -210,29 +165,21 @@ private:
         ++delivered_;
     }
 
-    /// Reports to the observer, at most ten times a second except for the last time, and polls whether to go on.
     /// @param lanes of the thread that reports; null: not known
     void report(bool last, const LaneSet* lanes = nullptr)
     {
-        const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-        if (!last && seconds < next_report_)
-            return;
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (!lock.owns_lock())
-            return;
-        next_report_ = seconds + 0.1;
-        progress_.seconds = seconds;
-        progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
-        const std::uint64_t chunks = lane_chunks_;
-        progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
-        const DoneSet::Part sample = done_.sample(places_.begin);
-        if (sample.end > 0)
-            estimate_share(progress_, sample.done(places_.begin) - sample.invalid, sample.collapsed);
-        if (lanes != nullptr)
-            progress_.furthest = lanes->furthest();
-        observer_.progress(progress_);
-        if (observer_.stop_requested())
-            stopped_ = true;
+        crew_.tell(last, [&](double seconds) -> const Progress& {
+            progress_.seconds = seconds;
+            progress_.rate = seconds > 0 ? static_cast<double>(delivered_) / seconds : 0;
+            const std::uint64_t chunks = lane_chunks_;
+            progress_.occupancy = chunks > 0 ? static_cast<double>(active_chunks_) / static_cast<double>(chunks) : 0;
+            const DoneSet::Part sample = done_.sample(places_.begin);
+            if (sample.end > 0)
+                estimate_share(progress_, sample.done(places_.begin) - sample.invalid, sample.collapsed);
+            if (lanes != nullptr)
+                progress_.furthest = lanes->furthest();
+            return progress_;
+        });
     }
 
     const Study& study_;
@@ -244,12 +191,10 @@ private:
     const RunPlan& plan_;
     /// The plan's, or the places that are to be done, in their order.
     const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(crew_.mutex());
         return plan_.next_undone(next_, places_.end);
     };
-    Observer& observer_;
-    const Clock::time_point start_ = Clock::now();
-    std::mutex mutex_; ///< guards the sink, the observer and what follows
+    Crew crew_; ///< its mutex guards the sink and what follows
     Progress progress_;
     const RunOrder order_;
     DoneSet done_;                                             ///< places
@@ -258,9 +203,6 @@ private:
     std::uint64_t before_ = 0;                                 ///< how many had been done
     std::unordered_map<std::uint64_t, std::uint64_t> running_; ///< places of what is being stepped, by index
     std::uint64_t delivered_ = 0;
-    std::exception_ptr error_;
-    std::atomic<double> next_report_ = 0;
-    std::atomic<bool> stopped_ = false;
     std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
     const Realization pattern_; ///< the topology that all realizations share
 };
@@ -280,24 +222,19 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
 {
     Run run(experiment, options, plan, observer);
-    // TBB would otherwise not start more threads than there are cores
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    if (!options.devices.empty() && !run.few()) {
-        std::vector<std::thread> workers;
-        for (const std::shared_ptr<Device>& device : options.devices)
-            workers.emplace_back([&run, &options, &device] {
-                run.work(*device, options.slots, static_cast<int>(options.devices.size()));
-            });
-        for (std::thread& worker : workers)
-            worker.join();
+    if (options.devices.empty() || run.few()) {
+        run.crew().run(options.threads, [&run] { run.work(); });
         return run.finish();
     }
-    tbb::task_arena arena(options.threads);
-    arena.execute([&] {
-        in_parallel(
-            0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
-    });
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(options.threads));
+    std::vector<std::thread> workers;
+    for (const std::shared_ptr<Device>& device : options.devices)
+        workers.emplace_back([&run, &options, &device] {
+            run.crew().guarded([&] { run.work(*device, options.slots, static_cast<int>(options.devices.size())); });
+        });
+    for (std::thread& worker : workers)
+        worker.join();
     return run.finish();
 }
 

@@ -1,7 +1,5 @@
 #include "ensemble/engine/slots.hpp"
 
-#include "ensemble/numerics/in_parallel.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -147,7 +145,6 @@ void SlotSet::clear(int slot)
 
 void SlotSet::advance()
 {
-    ended_.clear();
     if (on_host_)
         return advance_on_host();
     close_gaps();
@@ -343,9 +340,6 @@ void SlotSet::advance_on_host()
         for (int chunk = 0; chunk < chunks_on_host && !one.done(0); ++chunk)
             one.advance();
     });
-    for (const int slot : busy)
-        if (lane(slot).done(0))
-            ended_.push_back(slot);
 }
 
 void SlotSet::check_stopped_slots()
@@ -367,9 +361,6 @@ void SlotSet::check_stopped_slots()
         s.steps = s.lane->steps(0);
         s.changed = !s.lane->done(0); // it goes on: the device needs the result of the check
     });
-    for (const int slot : stopped)
-        if (lane(slot).done(0))
-            ended_.push_back(slot);
 }
 
 } // namespace stylobate

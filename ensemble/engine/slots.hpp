@@ -9,6 +9,7 @@
 #include "ensemble/engine/device.hpp"
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/engine/slot_tasks.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -53,10 +54,13 @@ public:
     SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots, int most);
     ~SlotSet();
 
-    int slots() const { return memory_.slots; }
+    int lanes() const { return memory_.slots; }
     /// Slots below this number are the ones that the device goes through: those above have been emptied for good.
     int used() const { return used_; }
     int active() const;
+    bool free(int slot) const { return !slots_[static_cast<std::size_t>(slot)].busy; }
+    /// Whether its realization has ended or was handed over.
+    bool done(int slot) const { return lane(slot).done(0); }
     const Realization& realization(int slot) const { return lane(slot).realization(0); }
 
     /// Puts a realization into a slot that is free or has ended. Different slots may be loaded at the same time.
@@ -69,8 +73,6 @@ public:
     /// From now on the host's lanes step what is busy, `chunks_on_host` chunks in a call of `advance`. What is stepped
     /// in single precision stays on the device.
     void leave_device();
-    /// Slots whose realizations have ended or were handed over in the last `advance`, in order.
-    const std::vector<int>& ended() const { return ended_; }
     const std::optional<Outcome>& outcome(int slot) const { return lane(slot).outcome(0); }
     const std::optional<HandOver>& handed(int slot) const { return lane(slot).handed(0); }
 
@@ -114,11 +116,21 @@ private:
     int tables_ = 0;      ///< numbers of the tables of one chunk
     bool tables_given_ = false;
     bool on_host_ = false;
-    std::vector<int> ended_;
     SlotMemory memory_;
 
     struct Memory; ///< what `memory_` points to, and the host's copies
     std::unique_ptr<Memory> own_;
 };
+
+/// Calls f(slot) for each slot that `when` picks, on several threads.
+template <class When, class F>
+void each_lane(SlotSet& set, const When& when, const F& f)
+{
+    std::vector<int> picked;
+    for (int slot = 0; slot < set.lanes(); ++slot)
+        if (when(slot))
+            picked.push_back(slot);
+    in_parallel(std::size_t{0}, picked.size(), [&](std::size_t i) { f(picked[i]); });
+}
 
 } // namespace stylobate

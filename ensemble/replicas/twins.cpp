@@ -1,20 +1,17 @@
 #include "ensemble/replicas/twins.hpp"
 
+#include "ensemble/engine/drive.hpp"
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/statics/scales.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 namespace stylobate {
 
@@ -94,7 +91,7 @@ public:
         return kind_ < 0 ? check_original(lanes, lane) : check_replica(lanes, lane);
     }
 
-    const std::vector<FollowedTwin>& pairs() const { return pairs_; }
+    std::vector<FollowedTwin> pairs() && { return std::move(pairs_); }
 
 private:
     double time(std::size_t check) const { return static_cast<double>(check * chunk_steps) * step_s_; }
@@ -164,6 +161,54 @@ private:
     std::vector<FollowedTwin> pairs_;
 };
 
+/// Groups in the lanes of a bundle, as `drive` steps them.
+class GroupSet {
+public:
+    GroupSet(const Experiment& experiment, Isa isa, const Realization& pattern, std::uint64_t waiting)
+        : lanes_(experiment.study(), experiment.record(), kernels(isa), pattern, waiting),
+          places_(static_cast<std::size_t>(lanes_.lanes()))
+    {
+    }
+
+    int lanes() const { return lanes_.lanes(); }
+    int active() const { return lanes_.active(); }
+    bool free(int lane) const { return lanes_.free(lane); }
+    bool done(int lane) const { return places_[static_cast<std::size_t>(lane)].done; }
+
+    void load(int lane, std::uint64_t number, Group group)
+    {
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        place.number = number;
+        place.done = false;
+        place.group.emplace(std::move(group)).begin(lanes_, lane);
+    }
+    void advance()
+    {
+        lanes_.advance();
+        for (int lane = 0; lane < lanes(); ++lane)
+            if (!free(lane)) {
+                Place& place = places_[static_cast<std::size_t>(lane)];
+                place.done = !place.group->check(lanes_, lane);
+            }
+    }
+    /// Frees the lane of a group that is done. @return its number, and its pairs
+    std::pair<std::uint64_t, std::vector<FollowedTwin>> take(int lane)
+    {
+        Place& place = places_[static_cast<std::size_t>(lane)];
+        lanes_.clear(lane);
+        return {place.number, std::move(*place.group).pairs()};
+    }
+
+private:
+    struct Place {
+        std::uint64_t number = 0;
+        bool done = false;
+        std::optional<Group> group;
+    };
+    LaneSet lanes_;
+    std::vector<Place> places_;
+};
+
 } // namespace
 
 Study stepped_as(const Study& study, std::uint64_t index)
@@ -205,61 +250,35 @@ std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOp
         return {};
     const Realization pattern = sampler.realization(0);
     std::atomic<std::uint64_t> next = 0;
-    std::atomic<bool> stopped = false;
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    std::mutex mutex; ///< of what follows
     Progress progress;
     progress.total = all;
-    double next_report_s = 0;
+    Crew crew(observer);
     const auto report = [&](bool last) {
-        progress.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        if (!last && progress.seconds < next_report_s)
-            return;
-        next_report_s = progress.seconds + 0.1;
-        progress.rate = static_cast<double>(progress.done) / progress.seconds;
-        observer.progress(progress);
-        if (observer.stop_requested())
-            stopped = true;
+        crew.tell(last, [&](double seconds) -> const Progress& {
+            progress.seconds = seconds;
+            progress.rate = static_cast<double>(progress.done) / seconds;
+            return progress;
+        });
     };
-
-    const auto work = [&](int) {
-        LaneSet lanes(study, experiment.record(), kernels(options.isa), pattern,
-                      all / static_cast<std::uint64_t>(options.threads));
-        std::vector<std::unique_ptr<Group>> groups(static_cast<std::size_t>(lanes.lanes()));
-        std::vector<std::uint64_t> task(groups.size());
-        const auto refill = [&](int lane) {
-            const auto i = static_cast<std::size_t>(lane);
-            groups[i].reset();
-            lanes.clear(lane);
-            task[i] = next++;
-            if (task[i] >= all)
-                return;
-            const std::uint64_t original = task[i] / of_cell * study.realizations + task[i] % of_cell;
-            groups[i] = std::make_unique<Group>(study, sampler, original);
-            groups[i]->begin(lanes, lane);
+    crew.run(options.threads, [&] {
+        GroupSet set(experiment, options.isa, pattern, all / static_cast<std::uint64_t>(options.threads));
+        const auto source = [&](int lane) {
+            const std::uint64_t number = next++;
+            if (number < all)
+                set.load(lane, number, Group(study, sampler, number / of_cell * study.realizations + number % of_cell));
+            return number < all;
         };
-        for (int lane = 0; lane < lanes.lanes(); ++lane)
-            refill(lane);
-        while (lanes.active() > 0 && !stopped) {
-            lanes.advance();
-            for (int lane = 0; lane < lanes.lanes(); ++lane) {
-                const auto i = static_cast<std::size_t>(lane);
-                if (groups[i] == nullptr || groups[i]->check(lanes, lane))
-                    continue;
-                pairs[task[i]] = groups[i]->pairs();
-                refill(lane);
-                const std::lock_guard lock(mutex);
-                ++progress.done;
-            }
-            if (const std::unique_lock lock(mutex, std::try_to_lock); lock.owns_lock())
-                report(false);
-        }
-    };
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    tbb::task_arena arena(options.threads);
-    arena.execute([&] { in_parallel(0, options.threads, work, tbb::simple_partitioner()); });
+        const auto sink = [&](int lane) {
+            auto [number, found] = set.take(lane);
+            pairs[number] = std::move(found);
+            const std::lock_guard lock(crew.mutex());
+            ++progress.done;
+        };
+        drive(set, source, sink, [&](int, bool) {
+            report(false);
+            return !crew.stopped();
+        });
+    });
     report(true);
 
     std::vector<FollowedTwin> joined;

@@ -1,19 +1,14 @@
 #include "ensemble/tracking/following.hpp"
 
+#include "ensemble/engine/drive.hpp"
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
-
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -21,8 +16,6 @@
 namespace stylobate {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double damping = 1.4;      // 2 x 0.7: the nudging settles without ringing
 constexpr double largest_turn = 0.1; // w x the time between two settings of the nudging
@@ -92,9 +85,8 @@ Realization followed(Realization realization)
 /// Queue of the legs of jobs that share a structure, and their results.
 class Course {
 public:
-    Course(const std::vector<FollowJob>& jobs, std::vector<std::size_t> mine, FollowReport& report,
-           std::atomic<bool>& stopped)
-        : jobs_(jobs), mine_(std::move(mine)), left_(jobs.size(), 0), report_(report), stopped_(stopped)
+    Course(const std::vector<FollowJob>& jobs, std::vector<std::size_t> mine, FollowReport& report, const Crew& crew)
+        : jobs_(jobs), mine_(std::move(mine)), left_(jobs.size(), 0), report_(report), crew_(crew)
     {
         for (const std::size_t job : mine_) {
             FollowResult& result = report_.results[job];
@@ -112,7 +104,7 @@ public:
     {
         std::unique_lock lock(mutex_);
         for (;;) {
-            if (stopped_)
+            if (crew_.stopped())
                 return std::nullopt;
             if (next_ < mine_.size() && waiting_.size() < most_waiting) {
                 ++observers_;
@@ -176,35 +168,31 @@ private:
     std::vector<std::size_t> left_; ///< (jobs) legs that are still to end
     std::size_t jobs_done_ = 0;
     FollowReport& report_;
-    std::atomic<bool>& stopped_;
+    const Crew& crew_;
     std::mutex mutex_;
     std::condition_variable more_;
 };
 
-/// One worker: a bundle whose lanes are refilled until nothing is left.
-class Runner {
+/// Legs in the lanes of a bundle, as `drive` steps them. What has ended has freed its lane.
+class LegSet {
 public:
-    Runner(const Study& study, const KernelTable& kernels, Course& course, std::uint64_t& lane_steps,
-           std::uint64_t& active_steps)
+    LegSet(const Study& study, const KernelTable& kernels, Course& course)
         : course_(course), lanes_(study, nullptr, kernels, course.pattern()),
-          work_(static_cast<std::size_t>(lanes_.lanes())), steps_(work_.size(), 0), lane_steps_(lane_steps),
-          active_steps_(active_steps)
+          work_(static_cast<std::size_t>(lanes_.lanes())), steps_(work_.size(), 0)
     {
     }
 
-    template <class Report>
-    void run(const std::atomic<bool>& stopped, Report report)
+    int lanes() const { return lanes_.lanes(); }
+    int active() const { return lanes_.active(); }
+    bool free(int lane) const { return lanes_.free(lane); }
+    static bool done(int) { return false; }
+
+    void load(int lane, Leg leg) { begin(static_cast<std::size_t>(lane), std::move(leg)); }
+
+    /// To the next beat at which a lane may be filled, or over some of them.
+    void advance()
     {
-        while (!stopped) {
-            if (phase_ == chunk_steps) {
-                phase_ = 0;
-                report();
-            }
-            if (phase_ % follow_beat == 0) {
-                refill();
-                if (lanes_.active() == 0)
-                    return;
-            }
+        do {
             // up to the next time at which any lane is changed; where that is makes no difference to the others
             std::uint64_t until = static_cast<std::uint64_t>(most_at_once - phase_ % most_at_once);
             for (std::size_t lane = 0; lane < work_.size(); ++lane)
@@ -220,23 +208,15 @@ public:
                     steps_[lane] += until;
                     events(lane);
                 }
-        }
+        } while (phase_ % follow_beat != 0);
+        phase_ %= chunk_steps;
     }
+
+    std::uint64_t lane_steps() const { return lane_steps_; }
+    std::uint64_t active_steps() const { return active_steps_; }
 
 private:
     const FollowJob& job(const Work& work) const { return course_.jobs()[work.leg.job]; }
-
-    void refill()
-    {
-        for (std::size_t lane = 0; lane < work_.size(); ++lane) {
-            if (work_[lane].busy)
-                continue;
-            std::optional<Leg> leg = course_.next(lanes_.active() == 0);
-            if (!leg)
-                return;
-            begin(lane, std::move(*leg));
-        }
-    }
 
     void begin(std::size_t lane, Leg leg)
     {
@@ -397,8 +377,7 @@ private:
     int phase_ = 0;                    ///< steps of the chunk, which all lanes share, that have been done
     std::vector<Work> work_;           ///< (lanes)
     std::vector<std::uint64_t> steps_; ///< (lanes) done by the realization
-    std::uint64_t& lane_steps_;
-    std::uint64_t& active_steps_;
+    std::uint64_t lane_steps_ = 0, active_steps_ = 0;
 };
 
 /// Whether two jobs may share a bundle.
@@ -416,7 +395,6 @@ bool alike(const FollowJob& a, const FollowJob& b)
 
 FollowReport follow(const std::vector<FollowJob>& jobs, const RunOptions& options, Observer& observer)
 {
-    const Clock::time_point start = Clock::now();
     FollowReport report;
     report.results.resize(jobs.size());
     // jobs that can share bundles, in the order of their first ones
@@ -431,58 +409,49 @@ FollowReport follow(const std::vector<FollowJob>& jobs, const RunOptions& option
             group->push_back(i);
     }
 
-    std::atomic<bool> stopped = false;
-    std::atomic<std::uint64_t> lane_steps = 0, active_steps = 0;
-    std::mutex mutex; // guards the observer and the error
-    std::exception_ptr error;
+    Crew crew(observer);
+    std::uint64_t lane_steps = 0, active_steps = 0;
     Progress progress;
     progress.total = jobs.size();
     std::size_t before = 0;
-    double next_report = 0;
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    tbb::task_arena arena(options.threads);
     for (const std::vector<std::size_t>& group : groups) {
-        if (stopped)
+        if (crew.stopped())
             break;
         Study study; // of the way that lanes are driven: each along its own motion
         study.excitation.kind = ExcitationKind::noise;
-        Course course(jobs, group, report, stopped);
+        Course course(jobs, group, report, crew);
         const auto tell = [&](bool last) {
-            const std::unique_lock lock(mutex, std::try_to_lock);
-            const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-            if (!lock.owns_lock() || (!last && seconds < next_report))
-                return;
-            next_report = seconds + 0.1;
-            progress.done = before + course.jobs_done();
-            progress.seconds = seconds;
-            progress.rate = static_cast<double>(progress.done) / std::max(seconds, 1e-9);
-            observer.progress(progress);
-            if (observer.stop_requested())
-                stopped = true;
+            crew.tell(last, [&](double seconds) -> const Progress& {
+                progress.done = before + course.jobs_done();
+                progress.seconds = seconds;
+                progress.rate = static_cast<double>(progress.done) / std::max(seconds, 1e-9);
+                return progress;
+            });
         };
-        const auto work = [&](int) noexcept {
-            try {
-                std::uint64_t lane = 0, active = 0;
-                Runner(study, kernels(options.isa), course, lane, active).run(stopped, [&] { tell(false); });
-                lane_steps += lane;
-                active_steps += active;
-            } catch (...) {
-                const std::lock_guard lock(mutex);
-                if (!error)
-                    error = std::current_exception();
-                stopped = true;
-            }
-        };
-        arena.execute([&] { in_parallel(0, options.threads, work, tbb::simple_partitioner()); });
+        crew.run(options.threads, [&] {
+            LegSet set(study, kernels(options.isa), course);
+            const auto source = [&](int lane) {
+                std::optional<Leg> leg = course.next(set.active() == 0);
+                if (leg)
+                    set.load(lane, std::move(*leg));
+                return true; // windows may still come
+            };
+            drive(
+                set, source, [](int) {},
+                [&](int, bool) {
+                    tell(false);
+                    return !crew.stopped();
+                });
+            const std::lock_guard lock(crew.mutex());
+            lane_steps += set.lane_steps();
+            active_steps += set.active_steps();
+        });
         tell(true);
         before += course.jobs_done();
     }
-    if (error)
-        std::rethrow_exception(error);
     report.complete = before == jobs.size();
-    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    report.occupancy = lane_steps > 0 ? static_cast<double>(active_steps) / static_cast<double>(lane_steps.load()) : 0;
+    report.seconds = crew.seconds();
+    report.occupancy = lane_steps > 0 ? static_cast<double>(active_steps) / static_cast<double>(lane_steps) : 0;
     return report;
 }
 

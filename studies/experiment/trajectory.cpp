@@ -1,17 +1,13 @@
 #include "studies/experiment/trajectory.hpp"
 
+#include "ensemble/engine/drive.hpp"
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -109,7 +105,8 @@ public:
             place.steps += chunk_steps;
     }
 
-    bool ended(int lane) const { return !lanes_.free(lane) && lanes_.done(lane); }
+    bool free(int lane) const { return lanes_.free(lane); }
+    bool done(int lane) const { return lanes_.done(lane); }
     /// Frees the lane of one that has ended. One that is handed over is followed to its end before.
     /// @param go_on asked meanwhile; false: stop
     /// @return nothing if it was stopped
@@ -138,7 +135,7 @@ public:
     std::optional<FollowedRealization> to_end(const std::function<bool()>& go_on)
     {
         constexpr int chunks_between_questions = 1024 / chunk_steps;
-        for (int chunk = 0; !ended(0); ++chunk) {
+        for (int chunk = 0; !done(0); ++chunk) {
             if (chunk % chunks_between_questions == 0 && !go_on())
                 return std::nullopt;
             advance();
@@ -204,94 +201,6 @@ private:
     std::vector<Place> places_;
 };
 
-/// What the threads of `follow_all` share.
-class FollowRun {
-public:
-    FollowRun(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan)
-        : experiment_(experiment), options_(options), plan_(plan)
-    {
-    }
-
-    void work() noexcept
-    {
-        try {
-            const Sampler& sampler = experiment_.sampler();
-            const std::uint64_t count = plan_.indices.size();
-            Follower lanes(experiment_, experiment_.study(), options_.isa, sampler.realization(plan_.indices[0]),
-                           count / static_cast<std::uint64_t>(options_.threads));
-            std::vector<std::size_t> number(static_cast<std::size_t>(lanes.lanes()));
-            const auto refill = [&](int lane) {
-                const std::size_t next = next_++;
-                if (next >= count)
-                    return;
-                const std::uint64_t index = plan_.indices[next];
-                number[static_cast<std::size_t>(lane)] = next;
-                lanes.load(lane, sampler.realization(index), index < plan_.recorded);
-            };
-            for (int lane = 0; lane < lanes.lanes(); ++lane)
-                refill(lane);
-            while (lanes.active() > 0 && !stopped_) {
-                lanes.advance();
-                for (int lane = 0; lane < lanes.lanes(); ++lane)
-                    if (lanes.ended(lane)) {
-                        auto followed = lanes.take(lane, [&] { return go_on(lanes); });
-                        if (!followed)
-                            return;
-                        deliver(number[static_cast<std::size_t>(lane)], std::move(*followed));
-                        refill(lane);
-                    }
-                go_on(lanes);
-            }
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_)
-                error_ = std::current_exception();
-            stopped_ = true;
-        }
-    }
-
-    /// @returns false if it was stopped
-    bool finish()
-    {
-        if (error_)
-            std::rethrow_exception(error_);
-        for (auto& [number, followed] : ended_) // those that wait for one that was stopped
-            plan_.sink(std::move(followed));
-        return delivered_ + ended_.size() == plan_.indices.size();
-    }
-
-private:
-    void deliver(std::size_t number, FollowedRealization followed)
-    {
-        const std::lock_guard lock(mutex_);
-        ended_.emplace(number, std::move(followed));
-        while (!ended_.empty() && ended_.begin()->first == delivered_) {
-            plan_.sink(std::move(ended_.begin()->second));
-            ended_.erase(ended_.begin());
-            ++delivered_;
-        }
-    }
-
-    bool go_on(const Follower& lanes)
-    {
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock.owns_lock() && plan_.stop &&
-            plan_.stop(static_cast<double>(lanes.active()) / lanes.lanes(), lanes.furthest()))
-            stopped_ = true;
-        return !stopped_;
-    }
-
-    const Experiment& experiment_;
-    const RunOptions& options_;
-    const FollowPlan& plan_;
-    std::atomic<std::size_t> next_ = 0;
-    std::atomic<bool> stopped_ = false;
-    std::mutex mutex_; ///< guards the plan's functions and what follows
-    std::map<std::size_t, FollowedRealization> ended_;
-    std::size_t delivered_ = 0;
-    std::exception_ptr error_;
-};
-
 } // namespace
 
 FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa,
@@ -311,15 +220,49 @@ bool follow_all(const Experiment& experiment, const RunOptions& options, const F
 {
     if (plan.indices.empty())
         return true;
-    FollowRun run(experiment, options, plan);
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    tbb::task_arena arena(options.threads);
-    arena.execute([&] {
-        in_parallel(
-            0, options.threads, [&](int) { run.work(); }, tbb::simple_partitioner());
+    const Sampler& sampler = experiment.sampler();
+    const std::uint64_t count = plan.indices.size();
+    const Realization pattern = sampler.realization(plan.indices[0]);
+    Observer nobody;
+    Crew crew(nobody); // its mutex guards the plan's functions and what follows
+    std::atomic<std::size_t> next = 0;
+    std::map<std::size_t, FollowedRealization> ended;
+    std::size_t delivered = 0;
+    crew.run(options.threads, [&] {
+        Follower lanes(experiment, experiment.study(), options.isa, pattern,
+                       count / static_cast<std::uint64_t>(options.threads));
+        std::vector<std::size_t> number(static_cast<std::size_t>(lanes.lanes()));
+        const auto go_on = [&] {
+            const std::unique_lock lock(crew.mutex(), std::try_to_lock);
+            if (lock.owns_lock() && plan.stop &&
+                plan.stop(static_cast<double>(lanes.active()) / lanes.lanes(), lanes.furthest()))
+                crew.stop();
+            return !crew.stopped();
+        };
+        const auto source = [&](int lane) {
+            const std::size_t at = next++;
+            if (at >= count)
+                return false;
+            number[static_cast<std::size_t>(lane)] = at;
+            lanes.load(lane, sampler.realization(plan.indices[at]), plan.indices[at] < plan.recorded);
+            return true;
+        };
+        const auto sink = [&](int lane) {
+            auto followed = lanes.take(lane, go_on);
+            if (!followed)
+                return;
+            const std::lock_guard lock(crew.mutex());
+            ended.emplace(number[static_cast<std::size_t>(lane)], std::move(*followed));
+            for (; !ended.empty() && ended.begin()->first == delivered; ++delivered) {
+                plan.sink(std::move(ended.begin()->second));
+                ended.erase(ended.begin());
+            }
+        };
+        drive(lanes, source, sink, [&](int, bool) { return go_on(); });
     });
-    return run.finish();
+    for (auto& [at, followed] : ended) // those that wait for one that was stopped
+        plan.sink(std::move(followed));
+    return delivered + ended.size() == count;
 }
 
 ResultRow result_row(const Study& study, const Realization& realization, const Outcome& outcome)

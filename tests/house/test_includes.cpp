@@ -179,7 +179,6 @@ const std::set<std::string> folders = {"kernels", "ensemble", "io",       "studi
                                        "include", "bench",    "examples", "tests",   "python"};
 
 constexpr long most_lines = 600;
-constexpr int most_files = 25; // of a folder; records have a parser for each format
 
 // ---- and how a breach is found --------------------------------------------------------------------------------------
 
@@ -358,17 +357,6 @@ TEST(House, ThePictureOfTheRoomsHasThemAll)
     for (const auto& [name, includes] : rooms)
         known.insert(name);
     EXPECT_EQ(drawn, known) << "scripts/draw_rooms.py draws it anew";
-}
-
-TEST(House, RoomsAreNotTooFull)
-{
-    std::map<std::string, int> files;
-    for (const Text& file : texts())
-        if (floors_below.contains(first_part(file.name)))
-            ++files[fs::path(file.name).parent_path().generic_string()];
-    for (const auto& [folder, count] : files)
-        EXPECT_TRUE(count <= most_files || folder == "studies/inputs" || folder == "io/records")
-            << folder << " has " << count << " files: it needs rooms";
 }
 
 TEST(Includes, NameHeadersThatExist)

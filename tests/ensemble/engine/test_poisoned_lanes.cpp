@@ -221,7 +221,7 @@ TEST(PoisonedLanes, LeaveTheirNeighboursAloneInEverySlotOfADevice)
         for (const Poison& with : poisons(setting.study))
             for (int slot = 0; slot < slots; ++slot) {
                 SlotSet set(setting.study, nullptr, pattern, *device, slots, slots);
-                ASSERT_EQ(set.slots(), slots);
+                ASSERT_EQ(set.lanes(), slots);
                 poison(set, slots, slot, with, setting, sampler, want);
             }
     }

@@ -321,8 +321,9 @@ TEST(Slots, ABrokenRealizationIsSetAside)
     std::map<std::uint64_t, Outcome> ends;
     while (set.active() > 0) {
         set.advance();
-        const std::vector<int> ended = set.ended();
-        for (const int slot : ended) {
+        for (int slot = 0; slot < set.lanes(); ++slot) {
+            if (set.free(slot) || !set.done(slot))
+                continue;
             ends[set.realization(slot).index] = *set.outcome(slot);
             set.clear(slot);
         }
@@ -357,8 +358,9 @@ TEST(Slots, GapsAreClosed)
         EXPECT_LT(set.used(), std::max(2 * busy, 2)) << "fewer than half of the slots that are gone through work";
         moved += set.used() < least;
         least = std::min(least, set.used());
-        const std::vector<int> ended = set.ended();
-        for (const int slot : ended) {
+        for (int slot = 0; slot < set.lanes(); ++slot) {
+            if (set.free(slot) || !set.done(slot))
+                continue;
             got[set.realization(slot).index] = outcome_bits(*set.outcome(slot));
             set.clear(slot);
         }
