@@ -1,8 +1,6 @@
 #include "ensemble/engine/lanes.hpp"
 
-#include "ensemble/statics/extension.hpp"
-#include "ensemble/statics/reinforcement.hpp"
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/statics/mechanisms.hpp"
 #include "kernels/step.hpp"
 
 #include <algorithm>
@@ -161,7 +159,8 @@ void LaneSet::clear(int lane)
 
 void LaneSet::store_state(int lane, const Realization& r)
 {
-    const StaticState rest = static_state(r);
+    const Statics statics(r);
+    const StaticState& rest = statics.start;
     const double dt = r.step_s, dt2 = dt * dt;
     for (int k = 0; k < topology_.blocks; ++k) {
         const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
@@ -206,9 +205,9 @@ void LaneSet::store_state(int lane, const Realization& r)
         bundle_.at(OfJoint::shear_force, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
     }
     if (topology_.model.extended())
-        store_extension(r, order_, bundle_, lane);
+        store_extension(statics, order_, bundle_, lane);
     if (topology_.model.reinforced)
-        store_reinforcement(r, rest, order_, bundle_, lane);
+        store_reinforcement(statics, order_, bundle_, lane);
     if (topology_.model.rigid())
         store_rigid(lane, r);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);

@@ -52,8 +52,7 @@ std::vector<double> static_sinkage_m(const Study& study)
 
 double first_frequency_hz(const Study& study)
 {
-    const Realization r = still_realization(study);
-    return first_mode(r.blocks, r.joints, r.gravity_m_s2, r.watched).frequency_hz;
+    return first_mode_of_paper(still_realization(study)).frequency_hz;
 }
 
 std::optional<StaticLimit> static_limit(const Study& study)

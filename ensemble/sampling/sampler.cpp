@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
-#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/bed.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 #include "ensemble/statics/step_bound.hpp"
 

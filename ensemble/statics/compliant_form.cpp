@@ -1,7 +1,7 @@
 #include "ensemble/statics/compliant_form.hpp"
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/bed.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
 

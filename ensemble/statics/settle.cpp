@@ -1,6 +1,6 @@
 #include "ensemble/statics/settle.hpp"
 
-#include "ensemble/statics/reinforcement.hpp"
+#include "kernels/mechanisms/mortar.hpp"
 
 #include <Eigen/Dense>
 
@@ -46,10 +46,11 @@ Placement<double> placement(const Block& lower, const Pose& l, const Block& uppe
 }
 
 /// The part of a bonded bed that opens.
-JointForce bond_force(const Realization& r, const Joint& joint, const BedLaw& law, const Pose& l, const Pose& u)
+JointForce bond_force(const BedAtRest& bed, const Pose& l, const Pose& u)
 {
-    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
-    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+    const Joint& joint = bed.joint;
+    const Block &lower = bed.lower, &upper = bed.upper;
+    const BedLaw& law = bed.law;
     const Placement<double> place =
         onto_wedge(placement(lower, l, upper, u), law.faces.wedge_sine, law.faces.wedge_versine);
     const double left = std::max(-lower.half_width_m - place.x, -upper.half_width_m) + joint.extension.chip_left_m;
@@ -74,15 +75,16 @@ JointForce bond_force(const Realization& r, const Joint& joint, const BedLaw& la
     return f;
 }
 
-/// @param law of a bed of an extended model, else null
-JointForce joint_force(const Realization& r, int index, const BedLaw* law, const Pose& l, const Pose& u)
+/// @param is_bed    or a watched pair, which has no friction at rest
+/// @param mechanisms of a bed on which they act at rest, else null: the paper's contact
+JointForce joint_force(const Realization& r, const Joint& joint, bool is_bed, const BedAtRest* mechanisms,
+                       const Pose& l, const Pose& u)
 {
-    const Joint& joint = r.joints[static_cast<std::size_t>(index)];
-    const bool bed = index < r.beds();
-    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
-    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
+    const Block& lower = block_of(r, joint.lower);
+    const Block& upper = block_of(r, joint.upper);
+    const BedLaw* const law = mechanisms == nullptr ? nullptr : &mechanisms->law;
     JointForce f;
-    const Overlap<double> o = law == nullptr ? overlap_of(lower, l, upper, u) : bed_overlap_of(r, index, *law, l, u);
+    const Overlap<double> o = mechanisms == nullptr ? overlap_of(lower, l, upper, u) : overlap_of(*mechanisms, l, u);
     const double chord = std::hypot(o.normal_x, o.normal_y);
     if (o.area <= 0 || chord < least_chord)
         return f;
@@ -99,7 +101,7 @@ JointForce joint_force(const Realization& r, int index, const BedLaw* law, const
     const double turn = std::sin(u.theta - l.theta - (law == nullptr ? 0 : joint.extension.wedge_rad));
     const double spread = law != nullptr && law->form == ContactForm::two_corner ? 4 : 12; // k_theta = k_n L2 / spread
     const double aside =
-        bed ? std::clamp(turn * length * length * length / (spread * o.area), -length / 2, length / 2) : 0;
+        is_bed ? std::clamp(turn * length * length * length / (spread * o.area), -length / 2, length / 2) : 0;
     const Pose middle = into_base(cx + aside, cy);
 
     const double F_n = law == nullptr ? joint.normal_stiffness_n_m2 * o.area : law->force(o.area);
@@ -114,7 +116,7 @@ JointForce joint_force(const Realization& r, int index, const BedLaw* law, const
     f.stiffness += k_n * length * length / spread * turning * turning.transpose();
 
     double F_t = 0;
-    if (bed) { // sliding since the reference stack, for small displacements
+    if (is_bed) { // sliding since the reference stack, for small displacements
         const Row sliding = relative_motion(ny, -nx, centroid.x, centroid.y, l, u);
         Row moved;
         moved << l.x - lower.x_m, l.y - lower.y_m, l.theta, u.x - upper.x_m, u.y - upper.y_m, u.theta;
@@ -128,13 +130,12 @@ JointForce joint_force(const Realization& r, int index, const BedLaw* law, const
 }
 
 /// A full bed, which carries tension too: the first guess.
-JointForce full_bed(const Realization& r, const Joint& joint, const Pose& l, const Pose& u)
+JointForce full_bed(const BedAtRest& bed, const Pose& l, const Pose& u)
 {
-    const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
-    const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
-    const double left = std::max(lower.x_m - lower.half_width_m, upper.x_m - upper.half_width_m);
-    const double right = std::min(lower.x_m + lower.half_width_m, upper.x_m + upper.half_width_m);
-    const double length = std::max(right - left, 1e-6 * upper.half_width_m), middle = 0.5 * (left + right);
+    const Joint& joint = bed.joint;
+    const Block &lower = bed.lower, &upper = bed.upper;
+    const double length = std::max(bed.right_m - bed.left_m, 1e-6 * upper.half_width_m);
+    const double middle = 0.5 * (bed.left_m + bed.right_m);
     const double face = lower.y_m + lower.half_height_m;
     JointForce f;
     const Row opening = relative_motion(0, 1, middle, face, l, u);
@@ -152,8 +153,8 @@ JointForce full_bed(const Realization& r, const Joint& joint, const Pose& l, con
 /// The forces on the free blocks in some pose and their tangent: K d = residual is Newton's step.
 class Equilibrium {
 public:
-    Equilibrium(const Realization& r, std::vector<double>& spring_n)
-        : r_(r), spring_n_(spring_n), first_(r.blocks.size(), -1)
+    Equilibrium(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<double>& spring_n)
+        : r_(r), beds_(beds), spring_n_(spring_n), mechanisms_(rests_otherwise(r)), first_(r.blocks.size(), -1)
     {
         Eigen::Index size = 0;
         for (std::size_t b = 0; b < r.blocks.size(); ++b)
@@ -174,9 +175,6 @@ public:
         for (std::size_t b = 0; b < r.blocks.size(); ++b)
             if (first_[b] >= 0 && r.blocks[b].reinforcement.tendon_prestress_n > 0)
                 tendons_.push_back(static_cast<int>(b));
-        if (rests_otherwise(r))
-            for (int j = 0; j < r.beds(); ++j)
-                laws_.push_back(bed_law(r, j));
         K_.resize(size, size);
         residual_.resize(size);
     }
@@ -188,11 +186,9 @@ public:
         K_.setZero();
         residual_ = weight_;
         add_tendons(at);
-        for (int j = 0; j < r_.beds(); ++j) {
-            const Joint& joint = r_.joints[static_cast<std::size_t>(j)];
-            add(joint, full_bed(r_, joint, at[static_cast<std::size_t>(joint.lower)],
-                                at[static_cast<std::size_t>(joint.upper)]));
-        }
+        for (const BedAtRest& bed : beds_)
+            add(bed.joint, full_bed(bed, at[static_cast<std::size_t>(bed.joint.lower)],
+                                    at[static_cast<std::size_t>(bed.joint.upper)]));
         least_ = 1e-9 * K_.diagonal();
     }
 
@@ -212,12 +208,13 @@ public:
         for (std::size_t j = 0; j < r_.joints.size(); ++j) {
             const Joint& joint = r_.joints[j];
             const auto l = static_cast<std::size_t>(joint.lower), u = static_cast<std::size_t>(joint.upper);
-            const JointForce f =
-                joint_force(r_, static_cast<int>(j), j < laws_.size() ? &laws_[j] : nullptr, at[l], at[u]);
+            const bool is_bed = j < beds_.size();
+            const BedAtRest* const mechanisms = is_bed && mechanisms_ ? &beds_[j] : nullptr;
+            const JointForce f = joint_force(r_, joint, is_bed, mechanisms, at[l], at[u]);
             spring_n_[j] = f.spring;
             add(joint, f);
-            if (j < laws_.size() && laws_[j].bonded)
-                add(joint, bond_force(r_, joint, laws_[j], at[l], at[u]));
+            if (mechanisms != nullptr && mechanisms->law.bonded)
+                add(joint, bond_force(*mechanisms, at[l], at[u]));
         }
         return residual_.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
@@ -262,10 +259,11 @@ private:
     }
 
     const Realization& r_;
+    const std::vector<BedAtRest>& beds_;
     std::vector<double>& spring_n_;   ///< (joints) of the last poses [N]
+    bool mechanisms_;                 ///< whether one acts at rest
     std::vector<Eigen::Index> first_; ///< (blocks) of the three unknowns of a block; -1: fixed
     Eigen::VectorXd weight_, scale_;  ///< of the blocks in the base's frame; what an unbalanced force is measured by
-    std::vector<BedLaw> laws_;        ///< (beds) with extensions, else empty
     std::vector<int> tendons_;        ///< free blocks with a prestressed one
     Eigen::MatrixXd K_;
     Eigen::VectorXd residual_, least_;
@@ -273,17 +271,30 @@ private:
 
 } // namespace
 
+bool rests_otherwise(const Realization& r)
+{
+    return (r.form != ContactForm::area && r.form != ContactForm::rigid) ||
+           std::any_of(r.blocks.begin(), r.blocks.end(),
+                       [](const Block& block) {
+                           return block.extension.eccentricity_m != 0 || block.reinforcement.tendon_prestress_n > 0;
+                       }) ||
+           std::any_of(r.joints.begin(), r.joints.end(), [](const Joint& joint) {
+               const JointExtension& e = joint.extension;
+               return joint.reinforcement.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 ||
+                      e.chip_right_m != 0 || e.wedge_rad != 0;
+           });
+}
+
 Overlap<double> overlap_of(const Block& lower, const Pose& l, const Block& upper, const Pose& u)
 {
     return general_overlap<double>(placement(lower, l, upper, u),
                                    {lower.half_width_m, lower.half_height_m, upper.half_width_m, upper.half_height_m});
 }
 
-Overlap<double> bed_overlap_of(const Realization& r, int bed, const BedLaw& law, const Pose& l, const Pose& u)
+Overlap<double> overlap_of(const BedAtRest& bed, const Pose& l, const Pose& u)
 {
-    const Joint& joint = r.joints[static_cast<std::size_t>(bed)];
-    const Placement<double> place = placement(r.blocks[static_cast<std::size_t>(joint.lower)], l,
-                                              r.blocks[static_cast<std::size_t>(joint.upper)], u);
+    const Placement<double> place = placement(bed.lower, l, bed.upper, u);
+    const BedLaw& law = bed.law;
     const auto general = [](const Placement<double>& p, const PairSizes<double>& sizes, bool fits, Overlap<double>& o,
                             auto& points) { take_general(p, sizes, fits, o, points); };
     FormPoints<double, 0> none{};
@@ -301,15 +312,31 @@ Overlap<double> bed_overlap_of(const Realization& r, int bed, const BedLaw& law,
     return bed_overlap<ContactForm::area>(place, law.faces, false, none, general);
 }
 
-double bed_elastic_n(const Realization& r, int bed, const Pose& l, const Pose& u)
+TendonAnchors tendon_anchors(const Realization& r, int block, const Pose& pose)
 {
-    const BedLaw law = bed_law(r, bed);
-    return law.force(bed_overlap_of(r, bed, law, l, u).area);
+    const Block& b = block_of(r, block);
+    double ground_y_m = 0; // of the highest fixed drum of the column, or of the base
+    for (const Block& below : r.blocks)
+        if (below.fixed && below.role == BlockRole::drum && below.column == b.column)
+            ground_y_m = std::max(ground_y_m, below.y_m + below.half_height_m);
+    const double arm_x = -b.half_height_m * std::sin(pose.theta), arm_y = b.half_height_m * std::cos(pose.theta);
+    return {pose.x + arm_x - b.x_m, pose.y + arm_y - ground_y_m, arm_x, arm_y};
 }
 
-double settle(const Realization& r, std::vector<Pose>& poses, std::vector<double>& spring_n)
+TendonPull tendon_pull(const Realization& r, int block, const Pose& pose)
 {
-    Equilibrium balance(r, spring_n);
+    const double T = block_of(r, block).reinforcement.tendon_prestress_n;
+    if (!(T > 0))
+        return {0, 0, 0};
+    const TendonAnchors a = tendon_anchors(r, block, pose);
+    const double x = -T * a.x / a.length(), y = -T * a.y / a.length();
+    return {x, y, a.arm_x * y - a.arm_y * x};
+}
+
+double settle(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<Pose>& poses,
+              std::vector<double>& spring_n)
+{
+    Equilibrium balance(r, beds, spring_n);
     balance.assume_full_beds(poses);
     poses = balance.moved(poses, balance.step(), 1);
 

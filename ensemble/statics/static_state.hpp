@@ -1,8 +1,9 @@
 #pragma once
 /// Where a structure rests under its own weight, or leans, before the shaking.
 
-#include "ensemble/model/realization.hpp"
+#include "ensemble/statics/bed.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace stylobate {
@@ -15,6 +16,8 @@ struct StaticState {
     std::vector<double> spring_n;  ///< (joints) elastic part of F_T
 };
 
+/// A realization at rest, computed once for all that is asked of it; refers to the realization.
+///
 /// A single column is statically determinate: each bed presses by the weight above it, with the tilt that its
 /// eccentricity gives a bed without tension, and the friction carries the slope of a tilted base. A colonnade is
 /// not: there the equilibrium of the contact forces themselves is found (`settle`), friction counted from the reference
@@ -22,13 +25,27 @@ struct StaticState {
 ///
 /// The rigid form rests in the reference stack itself.
 ///
-/// With extensions a column's loads act at its blocks' centres of mass, in their tilted state of rest.
+/// With mechanisms that act at rest a column's loads act at its blocks' centres of mass, in their tilted state of rest.
 ///
 /// With `initial_tilt_rad` each column, from `initial_tilt_block` up, then turns as one rigid body about the lower
 /// corner of that block, which sinks in until the bed carries what is above. Epistyles are carried along, level, on the
 /// corners that have risen.
 ///
 /// @pre each free drum is the upper block of exactly one bed, and the beds of a column come from the bottom up
+struct Statics {
+    explicit Statics(const Realization& realization);
+    /// Computed at the first call: the paper's single column rests without.
+    const std::vector<BedAtRest>& beds() const;
+
+    const Realization& realization;
+    StaticState start;                      ///< in which the realization starts
+    std::optional<StaticState> before_tilt; ///< the rest that the initial tilt ended, where there is one
+
+private:
+    mutable std::vector<BedAtRest> beds_;
+};
+
+/// Where a realization starts, where nothing else is asked of its statics.
 StaticState static_state(const Realization& realization);
 
 } // namespace stylobate

@@ -1,8 +1,7 @@
 #include "ensemble/statics/step_bound.hpp"
 
-#include "ensemble/statics/extension.hpp"
-#include "ensemble/statics/full_contact.hpp"
-#include "ensemble/statics/reinforcement.hpp"
+#include "ensemble/statics/bed.hpp"
+#include "ensemble/statics/mechanisms.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -24,11 +23,11 @@ constexpr double least_load = 0.01;
 // none did with steps for 85 times (kernels/THEORY.md, section 6).
 constexpr double points_load = 100;
 
-double stiffest_load(const Realization& r, const Joint& bed)
+FullContact stiffest_contact(const BedAtRest& bed)
 {
-    if (bed.extension.force_exponent < 1) // it is stiffest where it is least pressed
-        return least_load;
-    return r.form == ContactForm::points ? points_load : bound_load;
+    if (bed.joint.extension.force_exponent < 1) // it is stiffest where it is least pressed
+        return full_contact(bed, least_load);
+    return full_contact(bed, bed.law.form == ContactForm::points ? points_load : bound_load);
 }
 
 /// How the faces move against each other at a point of the contact when one block moves by (x, y, theta).
@@ -55,11 +54,11 @@ double largest_rate(const Block& block, const Eigen::Matrix3d& stiffness)
 }
 
 /// The largest eigenvalue of G diag(C_N, C_T) for a contact at `x` [1/s].
-double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x, double C_n, double C_t)
+double edge_rate(const Realization& r, const Joint& joint, double x, double C_n, double C_t)
 {
     Eigen::Matrix2d compliance = Eigen::Matrix2d::Zero();
     for (const bool upper : {false, true}) {
-        const Block& block = blocks[static_cast<std::size_t>(upper ? joint.upper : joint.lower)];
+        const Block& block = block_of(r, upper ? joint.upper : joint.lower);
         if (block.fixed)
             continue;
         const FaceMotion face = face_motion(block, upper, x - block.x_m - block.extension.eccentricity_m);
@@ -77,7 +76,7 @@ double edge_rate(const std::vector<Block>& blocks, const Joint& joint, double x,
 Eigen::Matrix3d held_stiffness(const Realization& r, int block)
 {
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
-    const Block& b = r.blocks[static_cast<std::size_t>(block)];
+    const Block& b = block_of(r, block);
     const auto add = [&](double k, double arm_x, double arm_y) {
         const Eigen::Vector3d along(1, 0, -arm_y), up(0, 1, arm_x);
         stiffness += k * (along * along.transpose() + up * up.transpose());
@@ -112,14 +111,14 @@ struct CaughtPairs {
     int block = 0;   ///< that sets w2
 };
 
-CaughtPairs caught_pairs(const std::vector<Block>& blocks, const std::vector<Joint>& joints, std::size_t beds)
+CaughtPairs caught_pairs(const Realization& r)
 {
     CaughtPairs caught;
-    for (std::size_t j = beds; j < joints.size(); ++j) {
-        const Joint& joint = joints[j];
+    for (std::size_t j = static_cast<std::size_t>(r.beds()); j < r.joints.size(); ++j) {
+        const Joint& joint = r.joints[j];
         assert(joint.damping_chord_m > 0 && "the dashpots of a watched pair go with its length");
         const auto long_face = [&](int b) {
-            const Block& block = blocks[static_cast<std::size_t>(b)];
+            const Block& block = block_of(r, b);
             return 2 * std::max(block.half_width_m, block.half_height_m);
         };
         const double length = std::min(long_face(joint.lower), long_face(joint.upper)) / joint.damping_chord_m;
@@ -127,7 +126,7 @@ CaughtPairs caught_pairs(const std::vector<Block>& blocks, const std::vector<Joi
             std::max({caught.beta, joint.normal_damping_n_s_m / (joint.normal_stiffness_n_m2 * joint.damping_chord_m),
                       length * joint.tangential_damping_n_s_m / joint.tangential_stiffness_n_m});
         for (const int b : {joint.lower, joint.upper}) {
-            const Block& block = blocks[static_cast<std::size_t>(b)];
+            const Block& block = block_of(r, b);
             if (block.fixed)
                 continue;
             const double held = caught_between(block, joint);
@@ -138,6 +137,66 @@ CaughtPairs caught_pairs(const std::vector<Block>& blocks, const std::vector<Joi
         }
     }
     return caught;
+}
+
+/// Sets w2 and the block that sets it, from the stiffness of each block.
+void take_stiffest(const Realization& r, const std::vector<Eigen::Matrix3d>& stiffness, double& w2, int& block)
+{
+    for (std::size_t b = 0; b < r.blocks.size(); ++b) {
+        const double found = r.blocks[b].fixed ? 0 : 2 * largest_rate(r.blocks[b], stiffness[b]);
+        if (found > w2) {
+            w2 = found;
+            block = static_cast<int>(b);
+        }
+    }
+}
+
+/// @param bound with what full contacts give   @param rate the largest one at an edge [1/s]
+/// @param damped whether there is a dashpot at full contact
+StepBound with_edges(StepBound bound, double rate, bool damped)
+{
+    bound.edge_s = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+    bound.dt_s = std::min(bound.dashpot_s, bound.edge_s);
+    if (bound.edge_s < bound.dashpot_s)
+        bound.governed_by = StepLimit::edge_dashpot;
+    else if (damped)
+        bound.governed_by = StepLimit::dashpot;
+    return bound;
+}
+
+/// The bound of the paper's model.
+StepBound bound_of_paper(const Realization& r)
+{
+    assert(r.beds() > 0 && "a structure without a bed has no step bound");
+    std::vector<Eigen::Matrix3d> stiffness(r.blocks.size(), Eigen::Matrix3d::Zero());
+    double beta = 0, rate = 0;
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        const FullContact contact = full_contact(block_of(r, joint.lower), block_of(r, joint.upper), joint);
+        for (const bool upper : {false, true}) {
+            const auto b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
+            const FaceMotion face = face_motion(r.blocks[b], upper, contact.x - r.blocks[b].x_m);
+            stiffness[b] += contact.k_n * face.opening * face.opening.transpose() +
+                            contact.k_t * face.sliding * face.sliding.transpose();
+            stiffness[b](2, 2) += contact.k_theta;
+        }
+        beta = std::max({beta, joint.normal_damping_n_s_m / contact.k_n, joint.tangential_damping_n_s_m / contact.k_t});
+        if (joint.damping_chord_m == 0)
+            for (const double side : {-0.5, 0.5})
+                rate = std::max(rate, edge_rate(r, joint, contact.x + side * contact.chord, joint.normal_damping_n_s_m,
+                                                joint.tangential_damping_n_s_m));
+    }
+
+    StepBound bound;
+    const CaughtPairs caught = caught_pairs(r);
+    double w2 = caught.w2;
+    bound.block = caught.block;
+    beta = std::max(beta, caught.beta);
+    take_stiffest(r, stiffness, w2, bound.block);
+    const double w = std::sqrt(w2), z = beta * w / 2;
+    bound.stiffness_s = 2 / w;
+    bound.dashpot_s = 2 / (w * (std::sqrt(1 + z * z) + z)); // sqrt(1 + z2) - z without its cancellation
+    return with_edges(bound, rate, z > 0);
 }
 
 } // namespace
@@ -157,66 +216,15 @@ const char* to_string(StepLimit limit)
     return "?";
 }
 
-StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched)
-{
-    const std::size_t beds = joints.size() - static_cast<std::size_t>(watched);
-    assert(beds > 0 && "a structure without a bed has no step bound");
-    std::vector<Eigen::Matrix3d> stiffness(blocks.size(), Eigen::Matrix3d::Zero());
-    double beta = 0;
-    double rate = 0;
-    for (std::size_t j = 0; j < beds; ++j) {
-        const Joint& joint = joints[j];
-        const FullContact contact = full_contact(blocks, joint);
-        for (const bool upper : {false, true}) {
-            const std::size_t b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
-            const FaceMotion face = face_motion(blocks[b], upper, contact.x - blocks[b].x_m);
-            stiffness[b] += contact.k_n * face.opening * face.opening.transpose() +
-                            contact.k_t * face.sliding * face.sliding.transpose();
-            stiffness[b](2, 2) += contact.k_theta;
-        }
-        beta = std::max({beta, joint.normal_damping_n_s_m / contact.k_n, joint.tangential_damping_n_s_m / contact.k_t});
-        if (joint.damping_chord_m == 0)
-            for (const double side : {-0.5, 0.5})
-                rate = std::max(rate, edge_rate(blocks, joint, contact.x + side * contact.chord,
-                                                joint.normal_damping_n_s_m, joint.tangential_damping_n_s_m));
-    }
-
-    StepBound bound;
-    const CaughtPairs caught = caught_pairs(blocks, joints, beds);
-    double w2 = caught.w2;
-    bound.block = caught.block;
-    beta = std::max(beta, caught.beta);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        if (blocks[b].fixed)
-            continue;
-        const double found = 2 * largest_rate(blocks[b], stiffness[b]);
-        if (found > w2) {
-            w2 = found;
-            bound.block = static_cast<int>(b);
-        }
-    }
-    const double w = std::sqrt(w2);
-    const double z = beta * w / 2;
-    bound.stiffness_s = 2 / w;
-    bound.dashpot_s = 2 / (w * (std::sqrt(1 + z * z) + z)); // sqrt(1 + z2) - z without its cancellation
-    bound.edge_s = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
-    bound.dt_s = std::min(bound.dashpot_s, bound.edge_s);
-    if (bound.edge_s < bound.dashpot_s)
-        bound.governed_by = StepLimit::edge_dashpot;
-    else if (z > 0)
-        bound.governed_by = StepLimit::dashpot;
-    return bound;
-}
-
 StepBound step_bound(const Realization& r)
 {
-    if (!is_extended(r))
-        return step_bound(r.blocks, r.joints, r.watched);
+    if (!model_of(r).extended())
+        return bound_of_paper(r);
     std::vector<Eigen::Matrix3d> stiffness(r.blocks.size(), Eigen::Matrix3d::Zero()), damping = stiffness;
     double rate = 0;
-    for (int j = 0; j < r.beds(); ++j) {
-        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
-        const FullContact contact = extended_contact(r, j, stiffest_load(r, joint));
+    for (const BedAtRest& bed : beds_at_rest(r)) {
+        const Joint& joint = bed.joint;
+        const FullContact contact = stiffest_contact(bed);
         for (const bool upper : {false, true}) {
             const auto b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
             const Block& block = r.blocks[b];
@@ -231,12 +239,12 @@ StepBound step_bound(const Realization& r)
         // a dashpot that stays when only an edge is left
         const bool stays = joint.damping_chord_m == 0 || r.form != ContactForm::area;
         const double at_edge = r.form == ContactForm::area ? 1 - joint.extension.face_damping : 0.5;
-        const double C_n = (stays ? at_edge * joint.normal_damping_n_s_m : 0) +
-                           joint.extension.rate_s_m * bound_load * bed_force_n(r, j);
+        const double C_n =
+            (stays ? at_edge * joint.normal_damping_n_s_m : 0) + joint.extension.rate_s_m * bound_load * bed.force_n;
         const double C_t =
             (joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0) + joint.reinforcement.bearing_n_s_m;
         for (const double side : {-0.5, 0.5})
-            rate = std::max(rate, edge_rate(r.blocks, joint, contact.x + side * contact.chord, C_n, C_t));
+            rate = std::max(rate, edge_rate(r, joint, contact.x + side * contact.chord, C_n, C_t));
     }
 
     for (std::size_t b = 0; b < r.blocks.size(); ++b) { // a tie that drives away shortens no step
@@ -247,29 +255,17 @@ StepBound step_bound(const Realization& r)
     }
 
     StepBound bound;
-    const CaughtPairs caught = caught_pairs(r.blocks, r.joints, static_cast<std::size_t>(r.beds()));
+    const CaughtPairs caught = caught_pairs(r);
     double w2 = caught.w2, c = 0;
     bound.block = caught.block;
-    for (std::size_t b = 0; b < r.blocks.size(); ++b) {
-        if (r.blocks[b].fixed)
-            continue;
-        const double found = 2 * largest_rate(r.blocks[b], stiffness[b]);
-        if (found > w2) {
-            w2 = found;
-            bound.block = static_cast<int>(b);
-        }
-        c = std::max(c, 2 * largest_rate(r.blocks[b], damping[b]));
-    }
+    take_stiffest(r, stiffness, w2, bound.block);
+    for (std::size_t b = 0; b < r.blocks.size(); ++b)
+        if (!r.blocks[b].fixed)
+            c = std::max(c, 2 * largest_rate(r.blocks[b], damping[b]));
     c = std::max(c, caught.beta * w2);
     bound.stiffness_s = 2 / std::sqrt(w2);
     bound.dashpot_s = 4 / (std::sqrt(c * c + 4 * w2) + c); // root of 4 - 2 dt c - dt2 w2 without its cancellation
-    bound.edge_s = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
-    bound.dt_s = std::min(bound.dashpot_s, bound.edge_s);
-    if (bound.edge_s < bound.dashpot_s)
-        bound.governed_by = StepLimit::edge_dashpot;
-    else if (c > 0)
-        bound.governed_by = StepLimit::dashpot;
-    return bound;
+    return with_edges(bound, rate, c > 0);
 }
 
 StepBound step_bound_to_rest(const Realization& r)
@@ -281,7 +277,7 @@ StepBound step_bound_to_rest(const Realization& r)
     int block = 0;
     for (const Joint& joint : r.joints)
         for (const int b : {joint.lower, joint.upper}) {
-            const Block& meets = r.blocks[static_cast<std::size_t>(b)];
+            const Block& meets = block_of(r, b);
             const double once = meets.fixed ? 0 : caught_between(meets, joint) / 2;
             if (once > w2) {
                 w2 = once;
@@ -309,9 +305,9 @@ struct Vibration {
     Eigen::VectorXd root_mass; ///< square roots of the masses and inertias
 };
 
-Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
-                   const std::vector<FullContact>& contacts)
+Vibration assemble(const Realization& r, const std::vector<FullContact>& contacts)
 {
+    const std::vector<Block>& blocks = r.blocks;
     const std::size_t beds = contacts.size();
     Vibration v;
     v.first.assign(blocks.size(), -1);
@@ -325,7 +321,7 @@ Vibration assemble(const std::vector<Block>& blocks, const std::vector<Joint>& j
     v.K = v.C = Eigen::MatrixXd::Zero(size, size);
     v.opening = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(beds));
     for (std::size_t j = 0; j < beds; ++j) {
-        const Joint& joint = joints[j];
+        const Joint& joint = r.joints[j];
         const FullContact& contact = contacts[j];
         struct Side {
             Eigen::Index first;
@@ -388,43 +384,40 @@ void add_held(const std::vector<Block>& blocks, Vibration& v)
     }
 }
 
-/// M^-1/2 K M^-1/2 about the static equilibrium, and the same of C.
+/// M^-1/2 K M^-1/2 about the static equilibrium, and M^-1/2 C M^-1/2.
 struct Dynamics {
     Eigen::MatrixXd k, c;
 };
 
-Dynamics dynamics_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints,
-                     const std::vector<FullContact>& contacts, double gravity_m_s2)
+Dynamics dynamics_of(const Realization& r, const std::vector<FullContact>& contacts)
 {
-    const std::size_t beds = contacts.size();
-    Vibration v = assemble(blocks, joints, contacts);
+    const std::vector<Block>& blocks = r.blocks;
+    Vibration v = assemble(r, contacts);
     add_held(blocks, v);
     const std::vector<Eigen::Index>& first = v.first;
-    const Eigen::MatrixXd &C = v.C, &opening = v.opening;
-    const Eigen::VectorXd& root_mass = v.root_mass;
-    Eigen::MatrixXd K = v.K;
+    Eigen::MatrixXd& K = v.K;
     const Eigen::Index size = K.rows();
 
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(size);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         if (blocks[b].fixed)
             continue;
-        weight(first[b] + 1) = -blocks[b].mass_kg * gravity_m_s2;
+        weight(first[b] + 1) = -blocks[b].mass_kg * r.gravity_m_s2;
     }
 
     // what each joint carries at rest, and what that takes from the rotational stiffness of its blocks
     const Eigen::VectorXd settled = K.ldlt().solve(weight);
-    for (std::size_t j = 0; j < beds; ++j) {
-        const double carried = -contacts[j].k_n * opening.col(static_cast<Eigen::Index>(j)).dot(settled);
-        for (const int block : {joints[j].lower, joints[j].upper}) {
+    for (std::size_t j = 0; j < contacts.size(); ++j) {
+        const double carried = -contacts[j].k_n * v.opening.col(static_cast<Eigen::Index>(j)).dot(settled);
+        for (const int block : {r.joints[j].lower, r.joints[j].upper}) {
             const std::size_t b = static_cast<std::size_t>(block);
             if (!blocks[b].fixed)
                 K(first[b] + 2, first[b] + 2) -= carried * blocks[b].half_height_m;
         }
     }
 
-    const Eigen::VectorXd scale = root_mass.cwiseInverse();
-    return {scale.asDiagonal() * K * scale.asDiagonal(), scale.asDiagonal() * C * scale.asDiagonal()};
+    const Eigen::VectorXd scale = v.root_mass.cwiseInverse();
+    return {scale.asDiagonal() * K * scale.asDiagonal(), scale.asDiagonal() * v.C * scale.asDiagonal()};
 }
 
 LinearResponse response_of(const Dynamics& dynamics)
@@ -480,27 +473,32 @@ FirstMode first_mode_of(const Dynamics& dynamics)
     return {w / (2 * std::numbers::pi), v.col(0).dot(c * v.col(0)) / (2 * w)};
 }
 
-/// The beds of a realization at full contact, in its own model.
-std::vector<FullContact> contacts_of(const Realization& r)
+std::vector<FullContact> contacts_of_paper(const Realization& r)
 {
     std::vector<FullContact> contacts;
-    for (int j = 0; j < r.beds(); ++j)
-        contacts.push_back(extended_contact(r, j, 1));
+    for (int j = 0; j < r.beds(); ++j) {
+        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
+        contacts.push_back(full_contact(block_of(r, joint.lower), block_of(r, joint.upper), joint));
+    }
     return contacts;
 }
 
-std::vector<FullContact> contacts_of(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched)
+/// The beds of a realization at full contact, in its own model.
+/// @param contact of a bed that has mechanisms
+template <class Contact>
+std::vector<FullContact> contacts_of(const Realization& r, const Contact& contact)
 {
+    if (!model_of(r).extended())
+        return contacts_of_paper(r);
     std::vector<FullContact> contacts;
-    for (std::size_t j = 0; j + static_cast<std::size_t>(watched) < joints.size(); ++j)
-        contacts.push_back(full_contact(blocks, joints[j]));
+    for (const BedAtRest& bed : beds_at_rest(r))
+        contacts.push_back(contact(bed));
     return contacts;
 }
 
 Dynamics dynamics_of(const Realization& r)
 {
-    return dynamics_of(r.blocks, r.joints, is_extended(r) ? contacts_of(r) : contacts_of(r.blocks, r.joints, r.watched),
-                       r.gravity_m_s2);
+    return dynamics_of(r, contacts_of(r, [](const BedAtRest& bed) { return full_contact(bed, 1); }));
 }
 
 /// Whether all normal dashpots are at the ends of their contacts, so that none of a smaller contact has more of them.
@@ -516,7 +514,7 @@ bool damped_at_ends(const Realization& r)
 /// How long a step is stable where pairs catch a block between them.
 double caught_step(const Realization& r)
 {
-    const CaughtPairs caught = caught_pairs(r.blocks, r.joints, static_cast<std::size_t>(r.beds()));
+    const CaughtPairs caught = caught_pairs(r);
     const double w = std::sqrt(caught.w2), z = caught.beta * w / 2;
     return w > 0 ? 2 / (w * (std::sqrt(1 + z * z) + z)) : std::numeric_limits<double>::infinity();
 }
@@ -527,13 +525,7 @@ StepBound structure_step_bound(const Realization& r, StepBound bound)
 {
     if (!damped_at_ends(r))
         return bound;
-    std::vector<FullContact> contacts;
-    for (int j = 0; j < r.beds(); ++j) {
-        const Joint& joint = r.joints[static_cast<std::size_t>(j)];
-        contacts.push_back(is_extended(r) ? extended_contact(r, j, stiffest_load(r, joint))
-                                          : full_contact(r.blocks, joint));
-    }
-    Vibration v = assemble(r.blocks, r.joints, contacts);
+    Vibration v = assemble(r, contacts_of(r, stiffest_contact));
     for (std::size_t b = 0; b < r.blocks.size(); ++b) // they turn: each end in both directions; a clamp has two of them
         if (v.first[b] >= 0)
             v.K.block<3, 3>(v.first[b], v.first[b]) += 2 * held_stiffness(r, static_cast<int>(b));
@@ -565,26 +557,19 @@ StepBound structure_step_bound(const Realization& r, StepBound bound)
     return bound;
 }
 
-LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
-                               int watched)
-{
-    return response_of(dynamics_of(blocks, joints, contacts_of(blocks, joints, watched), gravity_m_s2));
-}
-
 LinearResponse linear_response(const Realization& r)
 {
     return response_of(dynamics_of(r));
 }
 
-FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
-                     int watched)
-{
-    return first_mode_of(dynamics_of(blocks, joints, contacts_of(blocks, joints, watched), gravity_m_s2));
-}
-
 FirstMode first_mode(const Realization& r)
 {
     return first_mode_of(dynamics_of(r));
+}
+
+FirstMode first_mode_of_paper(const Realization& r)
+{
+    return first_mode_of(dynamics_of(r, contacts_of_paper(r)));
 }
 
 } // namespace stylobate

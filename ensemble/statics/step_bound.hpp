@@ -59,17 +59,16 @@ struct StepBound {
 /// counts as held by full contacts of the pair's stiffness on both of them. Their dashpots are proportional to the
 /// length of the contact, at most the shorter of the two blocks' long faces.
 ///
-/// @pre at least one bed; stiffnesses, sizes and masses above 0; watched pairs have `damping_chord_m` > 0
-StepBound step_bound(const std::vector<Block>& blocks, const std::vector<Joint>& joints, int watched = 0);
-
-/// The same for a realization in its own model (`is_extended`). Each bed has the tangent stiffness of its form and
-/// exponent, two_corner thrice the rotational one, and the dashpots of its form; stiffness and damping that grow with
-/// the load are taken at 10 times the load at rest, the stiffness of `points` at 100 times (a softening bed, q < 1, at
-/// a hundredth of it). A stiffness may vanish while its dashpots stay, so these are bounded by themselves: with
+/// With mechanisms, or in another form than `area`, each bed has the tangent stiffness of its form and exponent,
+/// two_corner thrice the rotational one, and the dashpots of its form; stiffness and damping that grow with the load
+/// are taken at 10 times the load at rest, the stiffness of `points` at 100 times (a softening bed, q < 1, at a
+/// hundredth of it). A stiffness may vanish while its dashpots stay, so these are bounded by themselves: with
 /// c = 2 max over the blocks of eig(M^-1 sum C_bb), 4 - 2 dt c - dt2 w2 > 0.
+///
+/// @pre at least one bed; stiffnesses, sizes and masses above 0; watched pairs have `damping_chord_m` > 0
 StepBound step_bound(const Realization& realization);
 
-/// The same for a realization that is followed until what has fallen lies. A block that stands alone has no watched
+/// `step_bound` of a realization that is followed until what has fallen lies. A block that stands alone has no watched
 /// pair, yet comes down on its bed with the whole of a long face at once: K_N times its height. Let w be the face's own
 /// circular frequency. Of 288 such falls (1 m wide, 2.5 to 9 m high, damping ratios of 0.01 to 0.5) 27 broke their
 /// energy bound with steps of 0.9 / w, one of 1440 did with 0.45 / w; of 96 faster ones one did with 0.3 / w and none
@@ -98,16 +97,12 @@ struct LinearResponse {
     double step_s = 0;                ///< critical step of the scheme with its dashpots
 };
 
-/// Exact where `step_bound` is a bound; cost grows with the cube of the number of blocks. Gravity enters through the
+/// Exact where `step_bound` is a bound, in the realization's own model with its beds about their loads at rest; cost
+/// grows with the cube of the number of blocks. Gravity enters through the
 /// weight N that each joint carries: each of its blocks leans on the joint from half its height above or below, which
 /// takes N H / 2 from its rotational stiffness.
 ///
-/// @param gravity_m_s2 0 leaves the weight out
-/// @pre as above, and every free block is connected to a fixed one by beds; watched pairs are left out
-LinearResponse linear_response(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
-                               int watched = 0);
-
-/// The same for a realization in its own model, its beds about their loads at rest.
+/// @pre as of `step_bound`, and every free block is connected to a fixed one by beds; watched pairs are left out
 LinearResponse linear_response(const Realization& realization);
 
 /// The lowest vibration of a structure about its static equilibrium, all contacts full, no slip.
@@ -119,9 +114,8 @@ struct FirstMode {
 /// Frequency and damping of `linear_response`'s first shape alone, for structures of any size (subspace iteration of
 /// K v = w2 M v, Bathe, "Finite Element Procedures" (1996), section 11.6; one Cholesky factor).
 /// @pre as of `linear_response`
-FirstMode first_mode(const std::vector<Block>& blocks, const std::vector<Joint>& joints, double gravity_m_s2,
-                     int watched = 0);
-/// The same for a realization in its own model.
 FirstMode first_mode(const Realization& realization);
+/// `first_mode` of a realization with the paper's beds, whatever its form and its mechanisms.
+FirstMode first_mode_of_paper(const Realization& realization);
 
 } // namespace stylobate

@@ -2,7 +2,7 @@
 /// Realizations with every mechanism, and runs of them whose every bit can be compared.
 
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/statics/extension.hpp"
+#include "ensemble/statics/mechanisms.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"

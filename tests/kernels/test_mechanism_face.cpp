@@ -1,6 +1,5 @@
 /// Mechanisms of the faces and contact forms, each against its closed form, through the real kernel.
 
-#include "ensemble/statics/extension.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "kernels/mechanisms/corner_wear.hpp"
@@ -290,7 +289,7 @@ TEST(CornerLoss, IsTakenFromTheBlockThatEndsTheFace)
     // a narrow lower block under a wide one: the lower face is the one that is chipped
     Realization r = stack({{0.048, 0.029, 0.1355}, {0.1, 0.029, 0.3}}, {1e9, 0.3, 5}, 2e-5, 0.2);
     r.joints[1].extension.chip_left_m = 0.006;
-    const BedLaw law = bed_law(r, 1);
+    const BedLaw law = beds_at_rest(r)[1].law;
     EXPECT_EQ(law.faces.loss.lower_left, 0.006);
     EXPECT_EQ(law.faces.loss.upper_left, 0);
     EXPECT_NEAR(face_length_m(r, 1), 0.042, 1e-15);

@@ -19,14 +19,21 @@ namespace {
 
 LinearResponse response(const Column& column, double gravity = 9.81)
 {
-    const Realization r = make(column);
-    return linear_response(r.blocks, r.joints, gravity);
+    Realization r = make(column);
+    r.gravity_m_s2 = gravity;
+    return linear_response(r);
+}
+
+/// Without gravity.
+LinearResponse weightless(Realization r)
+{
+    r.gravity_m_s2 = 0;
+    return linear_response(r);
 }
 
 StepBound bound(const Column& column)
 {
-    const Realization r = make(column);
-    return step_bound(r.blocks, r.joints);
+    return step_bound(make(column));
 }
 
 /// Part of a contact that is pressed, from -1 to 1 over the face.
@@ -350,7 +357,7 @@ TEST(StepBound, DashpotAtAnEdge)
     Column column = with(mono, 1e8, 1.0);
     Realization r = make(column);
     r.joints[0].tangential_damping_n_s_m = 0;
-    const StepBound got = step_bound(r.blocks, r.joints);
+    const StepBound got = step_bound(r);
     const double rate = r.joints[0].normal_damping_n_s_m * (1 / 0.813 + 0.024 * 0.024 / r.blocks[1].inertia_kg_m2);
     EXPECT_NEAR(got.edge_s * rate, 1, 1e-12);
 
@@ -358,8 +365,8 @@ TEST(StepBound, DashpotAtAnEdge)
     const Realization stack = make(with(spec, 1e8, 0.5));
     const double both =
         stack.joints[0].normal_damping_n_s_m * 2 * (1 / 0.1355 + 0.024 * 0.024 / stack.blocks[1].inertia_kg_m2);
-    EXPECT_NEAR(step_bound(stack.blocks, stack.joints).edge_s * both, 1, 1e-12);
-    EXPECT_EQ(step_bound(stack.blocks, stack.joints).governed_by, StepLimit::edge_dashpot);
+    EXPECT_NEAR(step_bound(stack).edge_s * both, 1, 1e-12);
+    EXPECT_EQ(step_bound(stack).governed_by, StepLimit::edge_dashpot);
 
     // in proportion to the chord it vanishes at the edge
     column = with(spec, 1e8, 0.5);
@@ -376,11 +383,11 @@ TEST(StepBound, CoefficientsGivenAsSuch)
         joint.normal_damping_n_s_m = 300;
         joint.damping_chord_m = 0.048;
     }
-    const StepBound got = step_bound(r.blocks, r.joints);
+    const StepBound got = step_bound(r);
     const double w = 2 / 1.356191e-4;
     const double z = 300 * w / (2 * 1e8 * 0.048);
     EXPECT_NEAR(got.dt_s, 2 / w * (std::sqrt(1 + z * z) - z), 1e-10);
-    EXPECT_LE(got.dt_s, linear_response(r.blocks, r.joints, 0).step_s);
+    EXPECT_LE(got.dt_s, weightless(r).step_s);
 }
 
 TEST(StepBound, StiffestJointGovernsWhereverItIs)
@@ -388,8 +395,8 @@ TEST(StepBound, StiffestJointGovernsWhereverItIs)
     for (std::size_t j = 0; j < 6; ++j) {
         Realization r = make(spec);
         r.joints[j].normal_stiffness_n_m2 = 1e10;
-        const StepBound got = step_bound(r.blocks, r.joints);
-        EXPECT_LE(got.dt_s, linear_response(r.blocks, r.joints, 0).step_s * (1 + 1e-9));
+        const StepBound got = step_bound(r);
+        EXPECT_LE(got.dt_s, weightless(r).step_s * (1 + 1e-9));
         EXPECT_LT(got.dt_s, 0.3 * bound(spec).dt_s);
         EXPECT_TRUE(got.block == static_cast<int>(j) || got.block == static_cast<int>(j) + 1) << got.block;
     }
@@ -404,7 +411,7 @@ TEST(StepBound, OffsetBlocks)
         Realization r = make(with(spec, 1e8, 0.1));
         for (Block& block : r.blocks)
             block.x_m = uniform(random);
-        EXPECT_LE(step_bound(r.blocks, r.joints).dt_s, linear_response(r.blocks, r.joints, 0).step_s);
+        EXPECT_LE(step_bound(r).dt_s, weightless(r).step_s);
     }
 }
 

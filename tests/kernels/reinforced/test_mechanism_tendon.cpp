@@ -1,6 +1,5 @@
 /// Tendons, each against its closed form or an equation of motion that is integrated here.
 
-#include "ensemble/statics/reinforcement.hpp"
 #include "ensemble/statics/settle.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "kernels/mechanisms/tendon.hpp"
@@ -118,13 +117,15 @@ TEST(Tendon, ItsPrestressCompressesEveryBedBelow)
         EXPECT_NEAR(s.theta_rad[i], 0, 1e-15) << i;
     }
     for (int bed = 0; bed < 6; ++bed)
-        EXPECT_NEAR(bed_force_n(r, bed), (6 - bed) * spec_drum.mass * gravity + (bed < 4 ? T : 0), 1e-12) << bed;
+        EXPECT_NEAR(beds_at_rest(r)[static_cast<std::size_t>(bed)].force_n,
+                    (6 - bed) * spec_drum.mass * gravity + (bed < 4 ? T : 0), 1e-12)
+            << bed;
     // Newton's method finds the same
     std::vector<Pose> poses;
     for (const Block& block : r.blocks)
         poses.push_back({block.x_m, block.y_m, 0});
     std::vector<double> spring;
-    EXPECT_LT(settle(r, poses, spring), 1e-9);
+    EXPECT_LT(settle(r, beds_at_rest(r), poses, spring), 1e-9);
     for (std::size_t i = 1; i <= 6; ++i)
         EXPECT_NEAR(poses[i].y - r.blocks[i].y_m, s.y_m[i], 1e-11) << i;
 }
