@@ -3,10 +3,10 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
-#include "ensemble/engine/executor.hpp"
-#include "ensemble/engine/slot_tasks.hpp"
-#include "ensemble/engine/slots.hpp"
+#include "ensemble/device/slot_tasks.hpp"
+#include "ensemble/device/slots.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/statics/rigid_step.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 /// Whole studies: sampling, stepping, refilling of lanes, everything but the results file.
 
 #include "bench/scenes.hpp"
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/experiment/loaded_study.hpp"
 
 #include <benchmark/benchmark.h>

@@ -8,9 +8,9 @@
 
 #include "bench/mean.hpp"
 #include "bench/processor.hpp"
-#include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
+#include "ensemble/planar/compliant_set.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/markdown.hpp"
 

@@ -13,7 +13,7 @@
 #include "bench/processor.hpp"
 #include "bench/rigid_agreement.hpp"
 #include "bench/rocking_cells.hpp"
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/tables/markdown.hpp"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 /// measures the steps alone.
 
 #include "bench/scenes.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,18 +1,16 @@
 #pragma once
 /// Bundle: the realizations that share one register, one in each lane.
 ///
-/// Its memory is rows of registers: a block (or joint) has one row, a row has one register for each field. A field of a
-/// block is therefore at a constant distance from the block's row, and the fields that a step needs of a block are
-/// adjacent. The kernels allocate nothing: the caller provides the memory, and writes and reads single lanes with `at`.
+/// Its memory is lists of fields (`row_list.hpp`): a field of a block is at a constant distance from the block's row,
+/// and the fields that a step needs of a block are adjacent. The kernels allocate nothing: the caller provides the
+/// memory, and writes and reads single lanes with `at`.
 
+#include "kernels/row_list.hpp"
 #include "kernels/topology.hpp"
 
 #include <cstddef>
 
 namespace stylobate {
-
-/// Steps between two termination checks of a realization, and the length of the table of base motion.
-inline constexpr int chunk_steps = 64;
 
 /// Fields of a block. Displacements are relative to the reference stack, in the frame of the base. "step": written by
 /// it.
@@ -343,79 +341,77 @@ inline constexpr bool compensated = false;
 template <>
 inline constexpr bool compensated<float> = true;
 
+/// The second difference of the base's displacement in each step of a chunk [m].
+struct OfBase {
+    enum Field : int { second, count };
+};
+/// The same upwards [m].
+struct OfVertical {
+    enum Field : int { second, count };
+};
+
+namespace detail {
+
+struct WithExtensions {
+    template <class Number>
+    static constexpr bool in(const Topology& topology)
+    {
+        return topology.model.extended();
+    }
+};
+struct WithReinforcements {
+    template <class Number>
+    static constexpr bool in(const Topology& topology)
+    {
+        return topology.model.reinforced;
+    }
+};
+struct OfRigidForm {
+    template <class Number>
+    static constexpr bool in(const Topology& topology)
+    {
+        return topology.model.rigid();
+    }
+};
+struct WithRemainders {
+    template <class Number>
+    static constexpr bool in(const Topology&)
+    {
+        return compensated<Number>;
+    }
+};
+
+/// The lists of the planar model; the tables of the base's motion are the last of them.
 template <class Number>
-struct BundleOf {
-    int lanes = 0;
-    Number* blocks = nullptr;       ///< (blocks x OfBlock::count x lanes)
-    Number* joints = nullptr;       ///< (joints x OfJoint::count x lanes)
-    Number* realizations = nullptr; ///< (OfRealization::count x lanes)
-    int* close = nullptr;           ///< (watched) the close pairs, for the kernel alone
-    Number* base_table = nullptr;   ///< (chunk_steps x lanes) second difference of the base displacement [m]
-    Number* remainders = nullptr;   ///< (blocks x OfRemainder::count x lanes), in single precision
-    // with an extended model:
-    Number* block_extensions = nullptr;       ///< (blocks x OfBlockExtension::count x lanes)
-    Number* joint_extensions = nullptr;       ///< (joints x OfJointExtension::count x lanes)
-    Number* realization_extensions = nullptr; ///< (OfRealizationExtension::count x lanes)
-    Number* vertical_table = nullptr;         ///< (chunk_steps x lanes) as base_table, upwards [m]
-    Number* pitch_table = nullptr;            ///< (chunk_steps x OfPitch::count x lanes)
+using PlanarRows =
+    RowList<Number, FieldList<OfBlock, RowOf::block>, FieldList<OfJoint, RowOf::joint>,
+            FieldList<OfRealization, RowOf::realization>, FieldList<OfBlockExtension, RowOf::block, WithExtensions>,
+            FieldList<OfJointExtension, RowOf::joint, WithExtensions>,
+            FieldList<OfRealizationExtension, RowOf::realization, WithExtensions>,
+            FieldList<OfBlockReinforcement, RowOf::block, WithReinforcements>,
+            FieldList<OfJointReinforcement, RowOf::joint, WithReinforcements>,
+            FieldList<OfRigidBlock, RowOf::block, OfRigidForm>, FieldList<OfRigidJoint, RowOf::joint, OfRigidForm>,
+            FieldList<OfRigidEdge, RowOf::edge, OfRigidForm>, FieldList<OfRigid, RowOf::realization, OfRigidForm>,
+            FieldList<OfRemainder, RowOf::block, WithRemainders>, FieldList<OfVertical, RowOf::step, WithExtensions>,
+            FieldList<OfPitch, RowOf::step, WithExtensions>, FieldList<OfBase, RowOf::step>>;
+
+constexpr bool is_table(RowOf row)
+{
+    return row == RowOf::step;
+}
+constexpr bool is_state(RowOf row)
+{
+    return row != RowOf::step;
+}
+
+} // namespace detail
+
+template <class Number>
+struct BundleOf : detail::PlanarRows<Number> {
+    int* close = nullptr; ///< (watched) the close pairs, for the kernel alone
     /// (steps x blocks x OfBlock::traced x lanes) where the step leaves the blocks' motion after each step of a run, so
     /// that lanes can be read at steps of their own without ending it; null: nowhere
     Number* trace = nullptr;
-    // with a reinforced model:
-    Number* block_reinforcements = nullptr; ///< (blocks x OfBlockReinforcement::count x lanes)
-    Number* joint_reinforcements = nullptr; ///< (joints x OfJointReinforcement::count x lanes)
-    // with the rigid form:
-    Number* rigid_blocks = nullptr; ///< (blocks x OfRigidBlock::count x lanes)
-    Number* rigid_joints = nullptr; ///< (joints x OfRigidJoint::count x lanes)
-    Number* rigid_edges = nullptr;  ///< (Topology::rigid_edges x OfRigidEdge::count x lanes)
-    Number* rigid = nullptr;        ///< (OfRigid::count x lanes)
-
-    constexpr Number& at(OfBlock::Field field, int block, int lane) const
-    {
-        return blocks[(block * OfBlock::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfJoint::Field field, int joint, int lane) const
-    {
-        return joints[(joint * OfJoint::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRemainder::Field field, int block, int lane) const
-    {
-        return remainders[(block * OfRemainder::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRealization::Field field, int lane) const { return realizations[field * lanes + lane]; }
-    constexpr Number& at(OfBlockExtension::Field field, int block, int lane) const
-    {
-        return block_extensions[(block * OfBlockExtension::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfJointExtension::Field field, int joint, int lane) const
-    {
-        return joint_extensions[(joint * OfJointExtension::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRealizationExtension::Field field, int lane) const
-    {
-        return realization_extensions[field * lanes + lane];
-    }
-    constexpr Number& at(OfBlockReinforcement::Field field, int block, int lane) const
-    {
-        return block_reinforcements[(block * OfBlockReinforcement::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfJointReinforcement::Field field, int joint, int lane) const
-    {
-        return joint_reinforcements[(joint * OfJointReinforcement::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRigidBlock::Field field, int block, int lane) const
-    {
-        return rigid_blocks[(block * OfRigidBlock::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRigidJoint::Field field, int joint, int lane) const
-    {
-        return rigid_joints[(joint * OfRigidJoint::count + field) * lanes + lane];
-    }
-    constexpr Number& at(OfRigid::Field field, int lane) const { return rigid[field * lanes + lane]; }
-    constexpr Number& at(OfPitch::Field field, int step, int lane) const
-    {
-        return pitch_table[(step * OfPitch::count + field) * lanes + lane];
-    }
 };
 
 using Bundle = BundleOf<double>;
@@ -423,28 +419,14 @@ using Bundle = BundleOf<double>;
 /// Registers of the tables of the base's motion.
 constexpr std::size_t table_registers(const Topology& topology)
 {
-    return static_cast<std::size_t>(chunk_steps * (topology.model.extended() ? 2 + OfPitch::count : 1));
+    return Bundle::registers(topology, detail::is_table);
 }
 
 /// Registers that a bundle needs, each of `lanes` numbers; the tables are the last of them.
 template <class Number = double>
 constexpr std::size_t bundle_registers(const Topology& topology)
 {
-    const int extensions = topology.model.extended()
-                               ? topology.blocks * OfBlockExtension::count + topology.joints * OfJointExtension::count +
-                                     OfRealizationExtension::count
-                               : 0;
-    const int reinforcements = topology.model.reinforced ? topology.blocks * OfBlockReinforcement::count +
-                                                               topology.joints * OfJointReinforcement::count
-                                                         : 0;
-    const int rigid = topology.model.rigid()
-                          ? topology.blocks * OfRigidBlock::count + topology.joints * OfRigidJoint::count +
-                                topology.rigid_edges * OfRigidEdge::count + OfRigid::count
-                          : 0;
-    const int remainders = compensated<Number> ? topology.blocks * OfRemainder::count : 0;
-    return static_cast<std::size_t>(topology.blocks * OfBlock::count + topology.joints * OfJoint::count +
-                                    OfRealization::count + extensions + reinforcements + rigid + remainders) +
-           table_registers(topology);
+    return BundleOf<Number>::registers(topology, detail::is_state) + table_registers(topology);
 }
 
 /// Gives the bundle its tables of the base's motion.
@@ -452,13 +434,7 @@ constexpr std::size_t bundle_registers(const Topology& topology)
 template <class Number>
 constexpr void bind_tables(const Topology& topology, BundleOf<Number>& b, Number* memory)
 {
-    const auto rows = static_cast<std::ptrdiff_t>(chunk_steps) * b.lanes;
-    b.base_table = memory;
-    if (topology.model.extended()) {
-        b.vertical_table = memory;
-        b.pitch_table = b.vertical_table + rows;
-        b.base_table = b.pitch_table + rows * OfPitch::count;
-    }
+    b.bind(topology, memory, detail::is_table);
 }
 
 /// Lays a bundle out.
@@ -469,32 +445,7 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
 {
     BundleOf<Number> b;
     b.lanes = lanes;
-    const auto take = [&memory, lanes](int registers) {
-        Number* const begin = memory;
-        memory += static_cast<std::ptrdiff_t>(registers) * lanes;
-        return begin;
-    };
-    b.blocks = take(topology.blocks * OfBlock::count);
-    b.joints = take(topology.joints * OfJoint::count);
-    b.realizations = take(OfRealization::count);
-    if (topology.model.extended()) {
-        b.block_extensions = take(topology.blocks * OfBlockExtension::count);
-        b.joint_extensions = take(topology.joints * OfJointExtension::count);
-        b.realization_extensions = take(OfRealizationExtension::count);
-    }
-    if (topology.model.reinforced) {
-        b.block_reinforcements = take(topology.blocks * OfBlockReinforcement::count);
-        b.joint_reinforcements = take(topology.joints * OfJointReinforcement::count);
-    }
-    if (topology.model.rigid()) {
-        b.rigid_blocks = take(topology.blocks * OfRigidBlock::count);
-        b.rigid_joints = take(topology.joints * OfRigidJoint::count);
-        b.rigid_edges = take(topology.rigid_edges * OfRigidEdge::count);
-        b.rigid = take(OfRigid::count);
-    }
-    if constexpr (compensated<Number>)
-        b.remainders = take(topology.blocks * OfRemainder::count);
-    bind_tables(topology, b, memory);
+    b.bind(topology, memory, [](RowOf) { return true; });
     b.close = close;
     return b;
 }
@@ -504,25 +455,11 @@ BundleOf<Number> bind_bundle(const Topology& topology, int lanes, Number* memory
 template <class Number>
 constexpr BundleOf<Number> lane_of(BundleOf<Number> b, int lane)
 {
-    const auto move = [lane](auto*& rows) { rows = rows == nullptr ? nullptr : rows + lane; };
-    move(b.blocks);
-    move(b.joints);
-    move(b.realizations);
-    move(b.close);
-    move(b.base_table);
-    move(b.remainders);
-    move(b.block_extensions);
-    move(b.joint_extensions);
-    move(b.realization_extensions);
-    move(b.vertical_table);
-    move(b.pitch_table);
-    move(b.trace);
-    move(b.block_reinforcements);
-    move(b.joint_reinforcements);
-    move(b.rigid_blocks);
-    move(b.rigid_joints);
-    move(b.rigid_edges);
-    move(b.rigid);
+    b.move_to_lane(lane);
+    if (b.close != nullptr)
+        b.close += lane;
+    if (b.trace != nullptr)
+        b.trace += lane;
     return b;
 }
 

@@ -33,98 +33,26 @@ class Rows {
 public:
     STYLOBATE_INLINE explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : b_(bundle) {}
 
-    STYLOBATE_INLINE Real get(OfBlock::Field f, int i) const { return L::load(&b_.blocks[row(i, OfBlock::count, f)]); }
-    STYLOBATE_INLINE Real get(OfJoint::Field f, int i) const { return L::load(&b_.joints[row(i, OfJoint::count, f)]); }
-    STYLOBATE_INLINE Real get(OfRealization::Field f) const { return L::load(&b_.realizations[f * stride()]); }
-    STYLOBATE_INLINE Real get(OfBlockExtension::Field f, int i) const
+    /// @param i number of the block, joint or step; of a realization as a whole 0
+    /// @param k of a field that is several numbers
+    template <class Field>
+    STYLOBATE_INLINE Real get(Field f, int i = 0, int k = 0) const
     {
-        return L::load(&b_.block_extensions[row(i, OfBlockExtension::count, f)]);
+        return L::load(place(f, i, k));
     }
-    STYLOBATE_INLINE Real get(OfJointExtension::Field f, int i) const
+    template <class Field>
+    STYLOBATE_INLINE void put(Field f, int i, Real v, int k = 0) const
     {
-        return L::load(&b_.joint_extensions[row(i, OfJointExtension::count, f)]);
+        L::store(place(f, i, k), v);
     }
-    STYLOBATE_INLINE Real get(OfRealizationExtension::Field f) const
+    /// Of a realization as a whole.
+    template <class Field>
+    STYLOBATE_INLINE void put(Field f, Real v) const
     {
-        return L::load(&b_.realization_extensions[f * stride()]);
-    }
-    STYLOBATE_INLINE Real get(OfBlockReinforcement::Field f, int i) const
-    {
-        return L::load(&b_.block_reinforcements[row(i, OfBlockReinforcement::count, f)]);
-    }
-    STYLOBATE_INLINE Real get(OfJointReinforcement::Field f, int i) const
-    {
-        return L::load(&b_.joint_reinforcements[row(i, OfJointReinforcement::count, f)]);
+        put(f, 0, v);
     }
     /// Whether there are rows of reinforcements.
-    STYLOBATE_INLINE bool reinforced() const { return b_.joint_reinforcements != nullptr; }
-    STYLOBATE_INLINE Real get(OfPitch::Field f, int step) const
-    {
-        return L::load(&b_.pitch_table[row(step, OfPitch::count, f)]);
-    }
-    STYLOBATE_INLINE Real get(OfRemainder::Field f, int i) const
-    {
-        return L::load(&b_.remainders[row(i, OfRemainder::count, f)]);
-    }
-    STYLOBATE_INLINE Real get(OfRigidBlock::Field f, int i) const
-    {
-        return L::load(&b_.rigid_blocks[row(i, OfRigidBlock::count, f)]);
-    }
-    /// @param k of the fields that are several numbers
-    STYLOBATE_INLINE Real get(OfRigidJoint::Field f, int i, int k = 0) const
-    {
-        return L::load(&b_.rigid_joints[row(i, OfRigidJoint::count, f + k)]);
-    }
-    STYLOBATE_INLINE Real get(OfRigidEdge::Field f, int i, int k) const
-    {
-        return L::load(&b_.rigid_edges[row(i, OfRigidEdge::count, f + k)]);
-    }
-    STYLOBATE_INLINE Real get(OfRigid::Field f) const { return L::load(&b_.rigid[f * stride()]); }
-    STYLOBATE_INLINE Real base(int step) const { return L::load(&b_.base_table[step * stride()]); }
-    STYLOBATE_INLINE Real vertical(int step) const { return L::load(&b_.vertical_table[step * stride()]); }
-
-    STYLOBATE_INLINE void put(OfBlock::Field f, int i, Real v) const
-    {
-        L::store(&b_.blocks[row(i, OfBlock::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfJoint::Field f, int i, Real v) const
-    {
-        L::store(&b_.joints[row(i, OfJoint::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfRealization::Field f, Real v) const { L::store(&b_.realizations[f * stride()], v); }
-    STYLOBATE_INLINE void put(OfJointExtension::Field f, int i, Real v) const
-    {
-        L::store(&b_.joint_extensions[row(i, OfJointExtension::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfBlockReinforcement::Field f, int i, Real v) const
-    {
-        L::store(&b_.block_reinforcements[row(i, OfBlockReinforcement::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfJointReinforcement::Field f, int i, Real v) const
-    {
-        L::store(&b_.joint_reinforcements[row(i, OfJointReinforcement::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfRealizationExtension::Field f, Real v) const
-    {
-        L::store(&b_.realization_extensions[f * stride()], v);
-    }
-    STYLOBATE_INLINE void put(OfRigidBlock::Field f, int i, Real v) const
-    {
-        L::store(&b_.rigid_blocks[row(i, OfRigidBlock::count, f)], v);
-    }
-    STYLOBATE_INLINE void put(OfRigidJoint::Field f, int i, Real v, int k = 0) const
-    {
-        L::store(&b_.rigid_joints[row(i, OfRigidJoint::count, f + k)], v);
-    }
-    STYLOBATE_INLINE void put(OfRigidEdge::Field f, int i, Real v, int k) const
-    {
-        L::store(&b_.rigid_edges[row(i, OfRigidEdge::count, f + k)], v);
-    }
-    STYLOBATE_INLINE void put(OfRigid::Field f, Real v) const { L::store(&b_.rigid[f * stride()], v); }
-    STYLOBATE_INLINE void put(OfRemainder::Field f, int i, Real v) const
-    {
-        L::store(&b_.remainders[row(i, OfRemainder::count, f)], v);
-    }
+    STYLOBATE_INLINE bool reinforced() const { return b_.template rows<OfJointReinforcement::Field>() != nullptr; }
 
     /// Leaves the motion of the blocks from `first` on in the trace, if there is one, as that after step `step` of the
     /// run.
@@ -132,8 +60,7 @@ public:
     {
         for (int i = first; b_.trace != nullptr && i < blocks; ++i)
             for (int f = 0; f < OfBlock::traced; ++f)
-                L::store(&b_.trace[row(step * blocks + i, OfBlock::traced, f)],
-                         L::load(&b_.blocks[row(i, OfBlock::count, f)]));
+                L::store(&b_.trace[row(step * blocks + i, OfBlock::traced, f)], get(static_cast<OfBlock::Field>(f), i));
     }
 
     /// sum + term. In single precision the remainder of the sum so far goes in, and the new one is kept (Kahan).
@@ -159,6 +86,12 @@ protected:
             return L::count;
     }
     STYLOBATE_INLINE long row(int i, int fields, int f) const { return (static_cast<long>(i) * fields + f) * stride(); }
+    template <class Field>
+    STYLOBATE_INLINE NumberOf<Real>* place(Field f, int i, int k) const
+    {
+        using B = BundleOf<NumberOf<Real>>;
+        return b_.template rows<Field>() + row(i, B::template fields<Field>, f + k);
+    }
 
     const BundleOf<NumberOf<Real>> b_;
 };

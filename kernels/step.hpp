@@ -514,7 +514,7 @@ private:
     STYLOBATE_INLINE void update(int step, bool audit, bool others, typename Near::Path& path) const
     {
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
-        const Real base = this->base(step);
+        const Real base = this->get(OfBase::second, step);
         const Real push = gx - base;
         if constexpr (Mechanism::extended)
             reinforce_blocks<Mechanism>(*this, topology_);

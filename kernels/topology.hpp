@@ -5,6 +5,7 @@
 /// the watched pairs, blocks that share no bed but may meet: they are evaluated only while they are close.
 
 #include "kernels/model.hpp"
+#include "kernels/row_list.hpp"
 
 namespace stylobate {
 
@@ -15,6 +16,9 @@ struct TopologyJoint {
 
 /// Numbers of an edge in `Topology::rigid_order`.
 inline constexpr int rigid_edge_numbers = 5;
+
+/// Steps between two termination checks of a realization, and the length of the table of base motion.
+inline constexpr int chunk_steps = 64;
 
 /// Blocks are numbered with the fixed ones first: they move with the base, and are not stepped.
 /// A view: the joints belong to the caller. (No container here: what is compiled for one instruction set must not
@@ -32,6 +36,15 @@ struct Topology {
     const int* rigid_order = nullptr; ///< of the rigid form: what `rigid_order` makes (`rigid_order.hpp`)
     int rigid_edges = 0;              ///< and the pairs of beds in it
     constexpr int beds() const { return joints - watched; }
+    /// How many rows a list of fields has.
+    constexpr int rows(RowOf of) const
+    {
+        return of == RowOf::block   ? blocks
+               : of == RowOf::joint ? joints
+               : of == RowOf::edge  ? rigid_edges
+               : of == RowOf::step  ? chunk_steps
+                                    : 1;
+    }
     constexpr int free_blocks() const { return blocks - fixed; }
     /// (reinforced) The block that a clamp joins to block i, at its right; -1: none.
     constexpr int clamped_to(int i) const { return bed_lists[blocks + 1 + 2 * beds() + i]; }

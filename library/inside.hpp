@@ -2,9 +2,9 @@
 /// What the classes of the public headers hold. Here `inner` is the engine's own namespace, whose names are partly the
 /// same.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/records/record.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/check/check_report.hpp"

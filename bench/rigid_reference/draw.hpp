@@ -2,8 +2,8 @@
 /// A realization of a study as a column of the reference: the same blocks, friction and motion of the base.
 
 #include "bench/rigid_reference/column.hpp"
-#include "ensemble/engine/limit_states.hpp"
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/planar/limit_states.hpp"
 
 namespace stylobate::reference {
 

@@ -6,8 +6,8 @@
 #include "bench/mean.hpp"
 #include "bench/rigid_reference/draw.hpp"
 #include "bench/rocking_cells.hpp"
-#include "ensemble/engine/executor.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/tables/markdown.hpp"
 
 #include <CLI/CLI.hpp>

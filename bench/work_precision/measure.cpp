@@ -1,7 +1,7 @@
 #include "bench/work_precision/measure.hpp"
 
 #include "bench/scenes.hpp"
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"

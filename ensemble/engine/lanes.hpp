@@ -1,210 +1,267 @@
 #pragma once
 /// One bundle at work: realizations are put into its lanes, stepped together, watched, and taken out one by one.
+///
+/// This is the loop, for every model. What a lane's numbers mean is the model's, a class of which each set has one:
+///   Realization, HandOver              what is put in, and what goes on in another set (`Model::leaves`)
+///   Measured                           what it keeps of a lane from check to check
+///   Model(study, kernels, pattern, waiting)
+///   lanes(), twice(), check_steps()    of its bundle; steps between two checks
+///   clear(lane)                        an empty lane, which is at rest and does nothing
+///   begin(lane, place)                 parameters and static rest of `place.realization`, scales, start of the watch
+///   run(bases, places, first, last)    steps of a chunk, with the tables of the base's motion at its begin
+///   read(lane, place)                  where the blocks are
+///   finite, unbalanced, rests (lane, place)   parts of a check, by the templates of `watch.hpp`
+///   check_limits(lane, place, done), fallen(place), conclude(place)    limit states
+///   leaves(lane, place), hand_over(lane, place)
+///   measure(lane, place, state, outcome)      what it measures of a realization that has ended
 
-#include "ensemble/engine/limit_states.hpp"
-#include "ensemble/engine/rigid_order.hpp"
-#include "ensemble/engine/single_bundle.hpp"
+#include "ensemble/engine/lane_bases.hpp"
 #include "ensemble/engine/watch.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/base_motion.hpp"
-#include "ensemble/numerics/aligned.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "kernels/isa.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <memory>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
 
-/// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
-struct Snapshot {
-    std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
+/// A lane of a set: its realization, and what is kept of it from check to check.
+template <class Model>
+struct LanePlace {
+    bool busy = false;
+    typename Model::Realization realization;
+    Scales scales;
+    BaseMotion motion;
+    std::optional<BaseMotion> vertical; ///< where it has a record of its own
+    std::optional<Outcome> outcome;
+    std::optional<typename Model::HandOver> handed;
+    std::uint64_t steps_before = 0, first_step = 0; ///< steps of the set that handed it over; the first one of its own
+    Watch watch;
+    typename Model::Measured measured;
 };
 
-/// A realization of the rigid form in the middle of a step, from where contacts that yield take it over: its blocks are
-/// about to meet otherwise than at beds.
-struct HandOver {
-    Realization realization; ///< with rigid contacts
-    Watch watch;
-    LimitStates limits;
-    std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
-    double start_top_x_m = 0;
-    std::vector<BlockMotion> moved, increment;     ///< (blocks) place, and change of it in the last step
-    std::vector<double> max_rotation_rad;          ///< (beds)
-    std::array<double, OfRealization::count> of{}; ///< as in the bundle
-};
+/// Whole checks that a time takes, in steps; at least one.
+/// @param interval steps between two checks
+inline std::uint64_t whole_checks(double time_s, double step_s, int interval)
+{
+    const double checks = std::ceil(time_s / step_s / interval);
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(checks)) * static_cast<std::uint64_t>(interval);
+}
 
 /// What is done to a realization is a function of it alone: whether it is looked at, ended or set aside depends on the
 /// number of its own steps, never on its lane or on its neighbours.
-class LaneSet {
+template <class Model>
+class LaneSetOf {
 public:
+    using Realization = typename Model::Realization;
+    using Place = LanePlace<Model>;
+
     /// @param record may be null unless the excitation is one
     /// @param waiting realizations that are to be put in: where they do not fit into one register, and the structure is
     ///        so small that two registers at a time are faster, there are twice as many lanes
     /// @throws std::invalid_argument if the study asks for single precision and the pattern for more than the paper's
     ///         model
-    LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
-            std::uint64_t waiting = 1);
+    LaneSetOf(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
+              std::uint64_t waiting = 1)
+        : study_(study), record_(record), model_(study, kernels, pattern, waiting),
+          bases_(study, kernels, model_.lanes(), model_.twice()), places_(static_cast<std::size_t>(model_.lanes()))
+    {
+        for (int lane = 0; lane < lanes(); ++lane)
+            clear(lane);
+    }
 
-    /// What an empty lane has in place of blocks: faces of this half width, that may touch so deep [m]. The closed form
-    /// of every contact form holds for them, so that the bundle does not take the general overlap, which is many times
-    /// slower. Without stiffness they carry no force.
-    static constexpr double empty_half_width = 0.01, empty_depth_limit = 1;
-
-    int lanes() const { return static_cast<int>(lanes_); }
+    int lanes() const { return static_cast<int>(places_.size()); }
     int active() const { return active_; }
-    bool free(int lane) const { return !places_[static_cast<std::size_t>(lane)].busy; }
-    const Realization& realization(int lane) const { return places_[static_cast<std::size_t>(lane)].realization; }
+    bool free(int lane) const { return !place(lane).busy; }
+    const Realization& realization(int lane) const { return place(lane).realization; }
+    const BaseMotion& motion(int lane) const { return place(lane).motion; }
+    std::uint64_t steps(int lane) const { return place(lane).watch.steps; }
 
     /// Puts a realization into a free lane, at its static rest.
-    void load(int lane, Realization realization);
-    /// Puts one into a free lane that a set of the rigid form has handed over. This set is made from the
-    /// `compliant_form` of that set's pattern.
-    void load(int lane, const HandOver& handed);
+    void load(int lane, Realization realization)
+    {
+        Place& of = occupy(lane, std::move(realization));
+        start_watch(of);
+        model_.begin(lane, of);
+    }
 
     /// Steps all lanes by one chunk and checks each; `outcome(lane)` then shows which have ended.
-    void advance();
+    void advance() { advance(0, chunk_steps); }
     /// Part of a chunk, for trajectories: steps `first` to `last - 1`; the check comes with the chunk's last step.
-    void advance(int first, int last);
-
-    /// Accelerates a block (of the realization's numbering) from outside until the next call, for the extended model:
-    /// how a simulation is made to follow measured motion. The work counts as the base's.
-    void nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
-
-    // ---- a realization that is followed from outside: stepped without checks, read, nudged, and taken up elsewhere
-    // ----
-
-    /// All that the steps of a realization depend on but its base motion: in another lane, of this set or of another
-    /// one for the same structure and model, it goes on with the same bits.
-    std::vector<double> state(int lane) const;
-    /// Puts a realization into a free lane when steps 0 to `phase - 1` of the chunk have been done: at its static rest.
-    /// @pre its base motion is made on the host (`BaseMotion::on_host`), here and below
-    void load_followed(int lane, Realization realization, int phase);
-    /// The same in a state that it had after `step` steps; no nudging.
-    void load_followed(int lane, Realization realization, int phase, const std::vector<double>& state,
-                       std::uint64_t step);
-    /// Steps `first` to `last - 1` of the chunk, and no check: nothing ends, nothing is set aside.
-    void step_followed(int first, int last);
-    /// Displacement of a block's geometric centre (of the realization's numbering) from the reference stack, along the
-    /// axes of the laboratory even where the base turns.
-    /// @param phase  number of steps of the chunk that are done: one of those that the last `step_followed` did, or now
-    /// @param behind time before that, in steps: 0 to 1, on the straight line between the last two
-    BlockMotion moved(int lane, int block, int phase, double behind = 0) const;
-    /// What the last step added to it.
-    BlockMotion increment(int lane, int block, int phase) const;
-
-    // ---- a realization that a device steps (`slots.hpp`): what it needs, and what comes back ----
-
-    const Topology& topology() const { return topology_; }
-    std::size_t rigid_order_size() const { return rigid_order_.list.size(); }
-    /// All of a realization's numbers, in the order of a slot's column (`slot_tasks.hpp`).
-    /// @param column (column_rows);  @param samples where the device has those of the base's motion; null: nowhere
-    void write_column(int lane, double* column, const double* samples) const;
-    /// Takes its state and its watch over from a column.
-    void read_column(int lane, const double* column);
-    std::uint64_t steps(int lane) const { return places_[static_cast<std::size_t>(lane)].watch.steps; }
-    /// Of the realizations at work, the one that is furthest in simulated time.
-    SimulatedTime furthest() const;
-    /// The check after `done` steps of a chunk, as `advance` does it; every `check_steps` there is one.
-    void check(int lane, int done);
-    /// What its base goes along (`BaseMotion::along_shared_samples`).
-    SampledMotion samples(int lane) const { return motion(lane).samples(); }
-    /// Whether the tables of its base motion are made on the host.
-    bool tables_given(int lane) const;
-    /// Makes them, for the chunk that begins at a step.
-    /// @param tables (table_registers)
-    void write_tables(int lane, std::uint64_t step, double* tables);
+    void advance(int first, int last)
+    {
+        const int interval = model_.check_steps();
+        for (int done = first; done < last;) {
+            const int from = done;
+            done = std::min(last, (from / interval + 1) * interval);
+            model_.run(bases_, places_, from, done);
+            if (done % interval == 0)
+                for (int lane = 0; lane < lanes(); ++lane)
+                    if (!free(lane) && !this->done(lane))
+                        check(lane, done);
+        }
+    }
 
     /// The outcome of a realization that has ended.
-    const std::optional<Outcome>& outcome(int lane) const { return places_[static_cast<std::size_t>(lane)].outcome; }
-    /// What has become of one of the rigid form whose blocks are about to meet otherwise than at beds: it goes on in
-    /// another set (`compliant_set.hpp`).
-    const std::optional<HandOver>& handed(int lane) const { return places_[static_cast<std::size_t>(lane)].handed; }
-    /// The same, of a realization of the rigid form that still runs.
-    HandOver hand_over(int lane) const;
+    const std::optional<Outcome>& outcome(int lane) const { return place(lane).outcome; }
+    /// What goes on in another set: of a realization that this one cannot step to its end.
+    const std::optional<typename Model::HandOver>& handed(int lane) const { return place(lane).handed; }
     /// Whether this set has done with a realization: it has ended, or is handed over.
     bool done(int lane) const { return outcome(lane) || handed(lane); }
     /// Frees a lane; its place is at rest and does nothing until the next `load`.
-    void clear(int lane);
+    void clear(int lane)
+    {
+        Place& of = place(lane);
+        if (of.busy)
+            --active_;
+        of = Place{};
+        bases_.clear(lane);
+        model_.clear(lane);
+    }
 
-    /// Where the blocks are now: in the frame of the base, which turns with `BaseExtension::pitch_rad_s2_m`
-    /// (`kernels/mechanisms/table_pitch.hpp` has the transformation to laboratory coordinates).
-    Snapshot snapshot(int lane) const;
-    const BaseMotion& motion(int lane) const { return places_[static_cast<std::size_t>(lane)].motion; }
+    /// Of the realizations at work, the one that is furthest in simulated time.
+    SimulatedTime furthest() const
+    {
+        SimulatedTime furthest;
+        for (const Place& of : places_) {
+            const double reached = static_cast<double>(of.watch.steps) * of.watch.step_s;
+            if (of.busy && reached > furthest.reached_s)
+                furthest = {reached, static_cast<double>(of.watch.last_step) * of.watch.step_s};
+        }
+        return furthest;
+    }
+    /// Where the blocks are now, in the frame of the base.
+    auto snapshot(int lane) const { return model_.snapshot(lane, place(lane)); }
+
+    // ---- the state, for what steps or moves lanes in other ways: tracking, devices, a hand-over ----
+
+    Model& model() { return model_; }
+    const Model& model() const { return model_; }
+    LaneBases& bases() { return bases_; }
+    const LaneBases& bases() const { return bases_; }
+    Place& place(int lane) { return places_[static_cast<std::size_t>(lane)]; }
+    const Place& place(int lane) const { return places_[static_cast<std::size_t>(lane)]; }
+    std::vector<Place>& places() { return places_; }
+
+    /// A free lane becomes that of a realization, with its base motion; its state is still to be written.
+    Place& occupy(int lane, Realization realization)
+    {
+        clear(lane);
+        Place& of = place(lane);
+        of.busy = true;
+        ++active_;
+        of.realization = std::move(realization);
+        of.motion = BaseMotion(study_.excitation, of.realization, record_);
+        bases_.store(lane, of.motion);
+        if (of.realization.vertical != nullptr)
+            of.vertical =
+                BaseMotion::along(of.realization.vertical, of.realization.step_s, of.realization.change.offset_s);
+        return of;
+    }
+
+    /// Takes what is kept of a lane out of it, which is then free.
+    Place take(int lane)
+    {
+        Place taken = std::move(place(lane));
+        place(lane).busy = taken.busy;
+        clear(lane);
+        return taken;
+    }
+    /// Puts it into a free lane, of this set or of another one; the state of the blocks is still to be written.
+    void put(int lane, Place taken)
+    {
+        active_ += taken.busy;
+        place(lane) = std::move(taken);
+    }
+
+    /// The check after `done` steps of a chunk: not finite? fallen? energy out of balance? at rest, or out of time?
+    void check(int lane, int done)
+    {
+        Place& of = place(lane);
+        Watch& w = of.watch;
+        w.steps += static_cast<std::uint64_t>(model_.check_steps());
+        bases_.first_step(lane) = static_cast<double>(w.steps);
+
+        model_.read(lane, of);
+        if (!model_.finite(lane))
+            return end(lane, State::invalid, InvalidReason::not_finite);
+        model_.check_limits(of, done);
+        if (model_.fallen(of) && study_.outcome.follow == Follow::collapse)
+            return end(lane, State::collapsed, InvalidReason::none);
+        if (model_.leaves(lane, of)) {
+            of.handed = model_.hand_over(lane, of);
+            return;
+        }
+        if (model_.unbalanced(lane, of))
+            return end(lane, State::invalid, InvalidReason::energy);
+        if (model_.rests(lane, of)) {
+            model_.conclude(of);
+            end(lane, model_.fallen(of) ? State::collapsed : State::stood, InvalidReason::none);
+        }
+    }
 
 private:
-    struct Place {
-        bool busy = false;
-        Realization realization;
-        Scales scales;
-        BaseMotion motion;
-        std::optional<BaseMotion> vertical; ///< where it has a record of its own
-        std::optional<Outcome> outcome;
-        std::optional<HandOver> handed;
-        std::uint64_t steps_before = 0,
-                      first_step = 0; ///< steps of the set that handed it over; the first one of its own
-        Watch watch;
-        LimitStates limits;
-        std::vector<BlockMotion> moved;     ///< (blocks) at the last check
-        std::vector<int> inside;            ///< (blocks) `OfBlock::inside` of its chunk
-        std::vector<double> start_offset_m; ///< (beds) `face_offset` at rest
-        double start_top_x_m = 0;
-    };
+    /// What all models watch alike.
+    void start_watch(Place& of) const
+    {
+        const Realization& r = of.realization;
+        of.scales = scales_of(r);
+        const bool shaken = study_.excitation.kind != ExcitationKind::none;
+        const int interval = model_.check_steps();
+        const double end_s = std::max(of.motion.duration_s(), of.vertical ? of.vertical->duration_s() : 0.0);
+        Watch& w = of.watch;
+        w.step_s = r.step_s;
+        w.shaking_end_s = shaken ? end_s : 0;
+        w.barrier_j = of.scales.barrier_j;
+        w.rest_energy_j = rest_energy * of.scales.barrier_j;
+        w.rest_slip_m = rest_slip * of.scales.width_m * of.scales.p_rad_s * interval * r.step_s;
+        w.may_rest = shaken;
+        w.last_step = whole_checks(end_s + tail_s(study_.excitation, r), r.step_s, interval);
+        w.rest_steps = whole_checks(rest_time / of.scales.p_rad_s, r.step_s, interval);
+    }
 
-    /// Parameters and static rest of a realization into its lane.
-    void store_state(int lane, const Realization& r);
-    void store_rigid(int lane, const Realization& r);
-    void first_increments(int lane);
-    void run(int first, int last);
-    void begin_followed(int lane, int phase, std::uint64_t step);
-    std::size_t state_registers() const { return bundle_registers(topology_) - chunk_steps; }
-    std::array<double, chunk_steps> base_chunk(int lane, double first_step) const;
-    /// The rotation of the base and its change in a step.
-    struct Turn {
-        double angle_rad = 0, increment_rad = 0;
-    };
-    static Turn turn_of(const Realization& r, double reach, double before, double now, double after);
-    /// Time after a number of steps of the chunk.
-    Turn turn(int lane, int phase) const;
-    /// Field `OfBlock::x` of a (kernel's) block in a lane, then; the other traced fields follow, `lanes()` apart.
-    const double* traced(int k, int lane, int phase) const;
-    /// Makes the tables of the base's motion of the next chunk.
-    void fill_tables();
-    /// Tables of the vertical motion and of the base's rotation for the next chunk.
-    void fill_extension(int lane);
-    /// Which blocks the clamps join: the same in all realizations of a study.
-    void list_clamps(const Realization& pattern);
-    /// Displacement of a (kernel's) block's geometric centre.
-    BlockMotion centre(int k, int lane) const;
-    /// Where the blocks are, and when they were inside their limits last: into `Place::moved` and `Place::inside`.
-    void read_motion(int lane);
-    void end(int lane, State state, InvalidReason reason);
+    void end(int lane, State state, InvalidReason reason)
+    {
+        Place& of = place(lane);
+        const Watch& w = of.watch;
+        Outcome o;
+        o.step_s = w.step_s;
+        o.steps = of.steps_before + (w.steps - of.first_step);
+        o.end_time_s = static_cast<double>(w.steps) * w.step_s;
+        o.at_rest = at_rest(w) ? 1 : 0;
+        const EnergyBalance balance = model_.balance(lane, of);
+        o.energy_kinetic_j = balance.kinetic;
+        o.energy_potential_j = balance.potential;
+        o.energy_spring_j = balance.spring;
+        o.energy_friction_j = balance.friction;
+        o.energy_damping_j = balance.damping;
+        o.energy_base_work_j = balance.base_work;
+        o.energy_residual = balance.residual;
+        if (state != State::invalid && !(std::fabs(o.energy_residual) < energy_bound)) {
+            state = State::invalid;
+            reason = InvalidReason::energy;
+        }
+        if (state == State::invalid)
+            o.at_rest = 0;
+        model_.measure(lane, of, state, o);
+        o.state = state == State::stood ? model_.motion_of(of, o) : state;
+        o.invalid_reason = reason;
+        of.outcome = o;
+    }
 
     const Study& study_;
     const Motion* record_;
-    const KernelTable& kernels_;
-    std::size_t lanes_ = 0;
-    bool twice_ = false;        ///< whether two registers are stepped at a time
-    std::vector<int> order_;    ///< kernel's block -> realization's block: the fixed ones first
-    std::vector<int> place_of_; ///< realization's block -> kernel's block, -1 for one that touches no free block
-    std::vector<TopologyJoint> joints_;
-    std::vector<int> close_; ///< for the kernel
-    std::vector<int> bed_lists_;
-    RigidOrder rigid_order_;
-    Topology topology_;
-    AlignedArray<double> memory_;
-    Bundle bundle_;
-    AlignedArray<double> trace_; ///< of the last `step_followed`, which did the steps between these two of the chunk
-    int trace_first_ = 0, trace_last_ = 0;
-    std::optional<SingleBundle> single_; ///< that is stepped for `bundle_`, in single precision
-    AlignedArray<double> parameters_memory_;
-    FormulaParameters parameters_{};
-    double* first_step_ = nullptr;
+    Model model_;
+    LaneBases bases_;
     std::vector<Place> places_;
     int active_ = 0;
 };

@@ -1,8 +1,8 @@
 #include "ensemble/replicas/twins.hpp"
 
 #include "ensemble/engine/drive.hpp"
-#include "ensemble/engine/lanes.hpp"
 #include "ensemble/numerics/slope.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/scales.hpp"
 
 #include <algorithm>

@@ -15,11 +15,11 @@
 /// without renormalization). Small separations grow at the same rate whatever their size, until an event (a contact
 /// that opens, a joint that slips) occurs in only one of the two; the exponent therefore belongs to a size.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/followed_twin.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <vector>

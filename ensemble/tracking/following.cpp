@@ -1,7 +1,7 @@
 #include "ensemble/tracking/following.hpp"
 
 #include "ensemble/engine/drive.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/tracking/tracked_lanes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -199,7 +199,7 @@ public:
                 if (work_[lane].busy)
                     until = std::min(until, steps_to_change(lane));
             const int last = phase_ + static_cast<int>(until);
-            lanes_.step_followed(phase_, last);
+            lanes_.step(phase_, last);
             lane_steps_ += until * work_.size();
             active_steps_ += until * static_cast<std::uint64_t>(lanes_.active());
             phase_ = last;
@@ -228,13 +228,12 @@ private:
         const FollowJob& j = job(work);
         FollowResult& result = course_.result(work.leg.job);
         if (work.leg.window < 0) {
-            lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_);
+            lanes_.load(static_cast<int>(lane), followed(j.realization), phase_);
             work.times = j.watched_s.get();
             work.readings = &result.watched;
             work.nudge_steps = j.targets && j.nudge_rad_s > 0 ? nudge_steps(j) : 0;
         } else {
-            lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_, work.leg.state,
-                                 work.leg.step);
+            lanes_.load(static_cast<int>(lane), followed(j.realization), phase_, work.leg.state, work.leg.step);
             work.times = &(*j.windows)[static_cast<std::size_t>(work.leg.window)].times_s;
             work.readings = &result.windows[static_cast<std::size_t>(work.leg.window)];
         }
@@ -373,7 +372,7 @@ private:
     }
 
     Course& course_;
-    LaneSet lanes_;
+    TrackedLanes lanes_;
     int phase_ = 0;                    ///< steps of the chunk, which all lanes share, that have been done
     std::vector<Work> work_;           ///< (lanes)
     std::vector<std::uint64_t> steps_; ///< (lanes) done by the realization

@@ -14,10 +14,10 @@
 /// next one. A result is a function of its job alone, bit by bit, whatever the lane, the neighbours, the instruction
 /// set and the number of threads.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -271,9 +271,9 @@ public:
         : rows_(rows), pitch_{rows.get(OfPitch::angle, step), rows.get(OfPitch::increment, step),
                               rows.get(OfPitch::second, step)},
           gravity_x_(rows.get(OfRealization::gravity_dx)), gravity_y_(rows.get(OfRealization::gravity_dy)),
-          base_(rows.base(step)), vertical_(rows.vertical(step)), base_dx_(rows.get(OfRealizationExtension::base_dx)),
-          base_dy_(rows.get(OfRealizationExtension::base_dy)), level_x_(gravity_x_ - base_),
-          level_y_(vertical_pull(gravity_y_, vertical_)), x_(level_x_), y_(level_y_)
+          base_(rows.get(OfBase::second, step)), vertical_(rows.get(OfVertical::second, step)),
+          base_dx_(rows.get(OfRealizationExtension::base_dx)), base_dy_(rows.get(OfRealizationExtension::base_dy)),
+          level_x_(gravity_x_ - base_), level_y_(vertical_pull(gravity_y_, vertical_)), x_(level_x_), y_(level_y_)
     {
         const Real zero(0.0);
         pitched_ = any((pitch_.angle != zero) | (pitch_.increment != zero) | (pitch_.second != zero));

@@ -181,7 +181,7 @@ private:
     STYLOBATE_INLINE void fall_freely(int step) const
     {
         const Real share = get(OfRigid::share), rest = Real(1.0) - share;
-        const Real push = rest * (get(OfRealization::gravity_dx) - this->base(step));
+        const Real push = rest * (get(OfRealization::gravity_dx) - this->get(OfBase::second, step));
         const Real fall = rest * get(OfRealization::gravity_dy);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {
             put_free(i, {get(OfBlock::dx, i) + fma(share, get(B::change_x, i), push),
@@ -287,7 +287,7 @@ private:
             give_back();
         close_gaps();
         const Real gx = get(OfRealization::gravity_dx), gy = get(OfRealization::gravity_dy);
-        const Real base = this->base(step), share = get(OfRigid::share), half(0.5);
+        const Real base = this->get(OfBase::second, step), share = get(OfRigid::share), half(0.5);
         const Real now(static_cast<NumberOf<Real>>(step));
         Real kinetic(0.0), potential(0.0), momentum(0.0), losses = get(OfRealization::dashpot_energy);
         for (int i = topology_.fixed; i < topology_.blocks; ++i) {

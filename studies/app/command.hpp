@@ -1,7 +1,7 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "kernels/isa.hpp"
 #include "studies/app/choose_realization.hpp"
 

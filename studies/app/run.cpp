@@ -1,7 +1,7 @@
 /// `stylobate run` and `stylobate merge`: from a study file, or from the results of its parts, to a results file.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"

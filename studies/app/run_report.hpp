@@ -1,7 +1,7 @@
 #pragma once
 /// What `stylobate run` prints at its end.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/app/command.hpp"
 #include "studies/app/console.hpp"
 #include "studies/kinds/kind.hpp"

@@ -14,11 +14,11 @@
 /// about the best ones, then a quadratic form through them (`calibration_surface.hpp`), then the profile of every
 /// parameter: the best score with that parameter held.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/calibration/fit_keys.hpp"
 #include "studies/windows/window_comparison.hpp"
 #include "studies/windows/window_motion.hpp"

@@ -1,10 +1,10 @@
 #pragma once
 /// What parameter sets are judged by: histories in windows, or outcomes in ensembles.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/calibration/outcome_tests.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "studies/check/rocking_decay.hpp"
 
-#include "ensemble/engine/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "kernels/isa.hpp"

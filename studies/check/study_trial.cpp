@@ -1,6 +1,6 @@
 #include "studies/check/study_trial.hpp"
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "studies/check/run_cost.hpp"

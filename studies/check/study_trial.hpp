@@ -2,10 +2,10 @@
 /// A trial of a study: a fair sample of its realizations, run to their ends with the threads and the instruction set
 /// that the run would use, for what the run takes and for what it would show.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// A round that several processes run: its places are dealt out, and rank 0 takes all rows.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/store/result_store.hpp"
 
 #include <functional>

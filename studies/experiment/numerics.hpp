@@ -2,8 +2,8 @@
 /// What the numerics of a study change in its collapse probability: measured on the study itself, by a part of its
 /// realizations that are run twice, the second time with finer numerics.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <optional>

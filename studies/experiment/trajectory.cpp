@@ -1,7 +1,7 @@
 #include "studies/experiment/trajectory.hpp"
 
 #include "ensemble/engine/drive.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
@@ -116,7 +116,7 @@ public:
         FollowedRealization followed{lanes_.realization(lane), {}, std::move(place.trajectory)};
         if (const std::optional<HandOver>& handed = lanes_.handed(lane)) {
             Follower taker(experiment_, stepped_, isa_, compliant_form(handed->realization), 1);
-            taker.lanes_.load(0, *handed);
+            take_over(taker.lanes_, 0, *handed);
             taker.follow(0, std::move(followed.trajectory), place.recorder.has_value());
             std::optional<FollowedRealization> rest = taker.to_end(go_on);
             if (!rest)

@@ -1,10 +1,10 @@
 #pragma once
 /// Realizations followed through time, with their trajectories.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/realization.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What a kind of study requests from a run: realizations, round by round.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,8 +2,8 @@
 /// The verification of a results file: of its values among each other, against the study, and against realizations
 /// that are run again. `docs/verify_file.md` describes the checks.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/verify/verification.hpp"
 
 #include <cstdint>

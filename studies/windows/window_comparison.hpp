@@ -1,10 +1,10 @@
 #pragma once
 /// Models compared with measured histories, window by window (`ensemble/tracking/following.hpp`).
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/following_score.hpp"
 
 #include <array>

@@ -1,9 +1,9 @@
 #pragma once
 /// Windows to be shown in motion: which ones, and the measured and simulated blocks in them.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/windows/window_comparison.hpp"
 #include "studies/windows/window_motion.hpp"

@@ -3,7 +3,7 @@
 
 #include "bench/rigid_reference/draw.hpp"
 #include "bench/rocking_cells.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <Eigen/Dense>

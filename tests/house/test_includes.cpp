@@ -34,12 +34,17 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/statics"}},
     {"ensemble", {"ensemble/model", "ensemble/motion", "ensemble/sampling"}}, // an experiment
     {"ensemble/ranks", {}},
-    {"ensemble/engine",
-     {"ensemble", "ensemble/ranks", "ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/sampling",
-      "ensemble/statics"}},
-    {"ensemble/tracking", {"ensemble/engine", "ensemble/model", "ensemble/numerics"}},
+    {"ensemble/engine", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/statics"}},
+    {"ensemble/planar", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/statics"}},
+    {"ensemble/device", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar"}},
+    {"ensemble/run",
+     {"ensemble", "ensemble/device", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar",
+      "ensemble/ranks"}},
+    {"ensemble/tracking",
+     {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/run"}},
     {"ensemble/replicas",
-     {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/sampling", "ensemble/statics"}},
+     {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/run",
+      "ensemble/sampling", "ensemble/statics"}},
     {"ensemble/estimators/resampling", {"ensemble/numerics"}},
     {"ensemble/estimators/fragility", {"ensemble/model", "ensemble/numerics"}},
     {"ensemble/estimators/rare", {"ensemble/estimators/resampling", "ensemble/numerics"}},
@@ -427,12 +432,12 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study/study_file.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
-    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "ensemble/run/executor.hpp"), "");
     EXPECT_NE(breach("ensemble/unheard_of/noun.cpp", "ensemble/model/study.hpp"), "");
-    EXPECT_NE(breach("io/records/record.cpp", "ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "ensemble/run/executor.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "io/store/result_store.hpp"), "");
-    EXPECT_NE(breach("io/records/record.cpp", "../ensemble/engine/executor.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "../ensemble/run/executor.hpp"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "library/inside.hpp"), "");
@@ -442,7 +447,7 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("kernels/step.hpp", "kernels/mechanisms/stribeck.hpp"), "");
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
-    EXPECT_EQ(breach("ensemble/engine/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
+    EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("library/study.cpp", "io/study/study_file.hpp"), "");

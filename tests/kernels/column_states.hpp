@@ -108,7 +108,7 @@ public:
         double base = 0;
         for (int k = 0; k < chunk_steps; ++k) {
             base = 0.9 * base + dt * dt * uniform(-2, 2);
-            b.base_table[k] = base;
+            b.rows<OfBase::Field>()[k] = base;
         }
         return State(memory.data.get(), memory.data.get() + memory.count);
     }

@@ -1,7 +1,7 @@
 #pragma once
 /// Realizations with every mechanism, and runs of them whose every bit can be compared.
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/mechanisms.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/model.hpp"

@@ -42,10 +42,10 @@ void lift(LaneSet& set, double height)
 {
     const double time = chunk_steps * set.realization(0).step_s;
     for (const double sign : {1.0, -1.0}) {
-        set.nudge(0, 1, 0, sign * height / (time * time), 0);
+        nudge(set, 0, 1, 0, sign * height / (time * time), 0);
         set.advance();
     }
-    set.nudge(0, 1, 0, 0, 0);
+    nudge(set, 0, 1, 0, 0, 0);
 }
 
 } // namespace
@@ -59,9 +59,9 @@ TEST(Drag, SlowsAsOneOverTime)
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
-    set.nudge(0, 1, 300, 400, 0);
+    nudge(set, 0, 1, 300, 400, 0);
     set.advance();
-    set.nudge(0, 1, 0, 0, 0);
+    nudge(set, 0, 1, 0, 0, 0);
     const Snapshot a = set.snapshot(0);
     set.advance(0, 1);
     const Snapshot b = set.snapshot(0);
@@ -144,9 +144,9 @@ TEST(Tie, SlowsRotation)
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
     lift(set, 0.2);
-    set.nudge(0, 1, 0, 0, 20);
+    nudge(set, 0, 1, 0, 0, 20);
     set.advance();
-    set.nudge(0, 1, 0, 0, 0);
+    nudge(set, 0, 1, 0, 0, 0);
     const Snapshot a = set.snapshot(0);
     set.advance(0, 1);
     const double rate = (set.snapshot(0).theta_rad[1] - a.theta_rad[1]) / dt;

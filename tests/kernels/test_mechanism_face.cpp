@@ -73,9 +73,9 @@ std::vector<double> vibration(Realization r, Along along, double pull_m_s2, int 
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
     const int top = static_cast<int>(r.blocks.size()) - 1;
-    set.nudge(0, top, along == Along::x ? pull_m_s2 : 0, along == Along::y ? pull_m_s2 : 0, 0);
+    nudge(set, 0, top, along == Along::x ? pull_m_s2 : 0, along == Along::y ? pull_m_s2 : 0, 0);
     set.advance();
-    set.nudge(0, top, 0, 0, 0);
+    nudge(set, 0, top, 0, 0, 0);
     std::vector<double> history;
     for (int chunk = 0; chunk < chunks; ++chunk)
         for (int k = 0; k < chunk_steps; ++k) {
@@ -151,10 +151,10 @@ TEST(RateDamping, AnImpactLosesWhatTheEquationSays)
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
-    set.nudge(0, 1, 0, 30, 0);
+    nudge(set, 0, 1, 0, 30, 0);
     for (int chunk = 0; chunk < 80; ++chunk)
         set.advance();
-    set.nudge(0, 1, 0, 0, 0);
+    nudge(set, 0, 1, 0, 0, 0);
     double before = set.snapshot(0).y_m[1] - 0.05, landing = 0, leaving = 0;
     ASSERT_GT(before, 0);
     bool down = false;

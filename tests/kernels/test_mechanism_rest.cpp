@@ -151,10 +151,10 @@ TEST(ExtendedStepBound, HoldsForRandomStacks)
         LaneSet set(study, nullptr, kernels(best_isa()), r);
         set.load(0, r);
         for (int b = 1; b <= count; ++b)
-            set.nudge(0, b, draw(random) - 0.5, draw(random) - 0.5, 20 * (draw(random) - 0.5));
+            nudge(set, 0, b, draw(random) - 0.5, draw(random) - 0.5, 20 * (draw(random) - 0.5));
         set.advance(0, 4);
         for (int b = 1; b <= count; ++b)
-            set.nudge(0, b, 0, 0, 0);
+            nudge(set, 0, b, 0, 0, 0);
         const Snapshot start = set.snapshot(0);
         set.advance(4, chunk_steps);
         double most = 0;

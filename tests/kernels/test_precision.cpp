@@ -2,7 +2,7 @@
 /// double precision agrees with itself at another step, and refusals. `docs/precision.md` has the figures.
 
 #include "bench/scenes.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 
 #include <gtest/gtest.h>

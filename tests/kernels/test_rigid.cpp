@@ -1,6 +1,6 @@
 /// The rigid form against oracles that share no code with it: Housner's block, sliding under a pulse, limit analysis.
 
-#include "ensemble/engine/rigid_order.hpp"
+#include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/statics/limit_analysis.hpp"
 #include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/model.hpp"

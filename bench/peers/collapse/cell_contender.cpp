@@ -2,8 +2,8 @@
 
 #include "bench/peers/column.hpp"
 #include "bench/peers/ground.hpp"
-#include "ensemble/engine/executor.hpp"
-#include "ensemble/engine/limit_states.hpp"
+#include "ensemble/planar/limit_states.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "studies/version.hpp"
 

@@ -2,8 +2,8 @@
 /// The values of one to three numbers of a study for which a limit state is least probable, or least frequent over a
 /// hazard.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/study/decisions/study_variants.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/search/search_objective.hpp"

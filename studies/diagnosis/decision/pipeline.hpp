@@ -1,10 +1,10 @@
 #pragma once
 /// A diagnosis from beginning to end. `docs/diagnosis.md` explains the stages; each is a file of this folder.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"

@@ -1,10 +1,10 @@
 #pragma once
 /// What naming a cause is worth: predictions of runs that were not used to size it, with and without it.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"

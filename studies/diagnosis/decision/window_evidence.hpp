@@ -2,10 +2,10 @@
 /// The contacts of the baseline, from free windows of the simulation (`window_comparison.hpp`): the model follows the
 /// measured motion, and the contacts of each form are those that predict best what is seen in windows that run free.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/windows/window_comparison.hpp"

@@ -1,10 +1,10 @@
 #pragma once
 /// Where and how the baseline is off: the windows that it predicts worst, and the motion in them.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/windows/window_motions.hpp"

@@ -7,11 +7,11 @@
 /// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
 /// the blocks were put, unless the cameras saw that.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"

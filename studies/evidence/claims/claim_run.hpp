@@ -4,7 +4,7 @@
 
 #include "studies/evidence/claims/sample.hpp"
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <filesystem>
 #include <functional>

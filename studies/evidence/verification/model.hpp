@@ -4,8 +4,8 @@
 /// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
-#include "ensemble/engine/compliant_set.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/static_state.hpp"
 
 #include <algorithm>
@@ -303,7 +303,7 @@ public:
     /// One step in which the base's displacement has this second difference [m].
     void step(double base_second_difference = 0)
     {
-        bundle_.base_table[0] = base_second_difference;
+        bundle_.at(OfBase::second, 0, 0) = base_second_difference;
         kernels(Isa::scalar).run(topology_, bundle_, 0, 1);
     }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A study run by the executor, outcomes by index and as bits.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
 #include <gtest/gtest.h>

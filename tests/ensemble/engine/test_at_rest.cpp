@@ -1,7 +1,7 @@
 /// Whether a structure lies still at the end, and what is known of its residual displacements then.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
 #include "kernels/isa.hpp"

@@ -3,7 +3,7 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "kernels/mechanisms/points.hpp"
 #include "kernels/mechanisms/two_corner.hpp"
 #include "kernels/overlap.hpp"
@@ -100,7 +100,7 @@ TEST(EmptyLanes, AskForNothingInAnyModelAndStructure)
 
 TEST(EmptyLanes, NeedNoGeneralOverlapInAnyContactForm)
 {
-    constexpr double b = LaneSet::empty_half_width, limit = LaneSet::empty_depth_limit;
+    constexpr double b = PlanarModel::empty_half_width, limit = PlanarModel::empty_depth_limit;
     const Placement<double> at_rest{0, 0, 0, 1}; // all of an empty lane is 0
     bool fits = false;
     EXPECT_LT(stacked_overlap(at_rest, b, b, limit, fits).area, 0.1 * detail::least_area); // below it nothing touches

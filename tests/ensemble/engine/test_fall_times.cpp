@@ -1,7 +1,7 @@
 /// When blocks fall, to a step: against a realization that is stepped one by one and looked at from outside; and that
 /// no number of a block decides which fell first.
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 

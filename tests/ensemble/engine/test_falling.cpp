@@ -1,6 +1,6 @@
 /// Full-scale columns that fall, followed until what has fallen lies: flat blows of long faces break no energy bound.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/study/study_file.hpp"

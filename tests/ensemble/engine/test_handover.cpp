@@ -1,7 +1,8 @@
 /// How realizations go from rigid contacts to contacts that yield: what goes on, and that nothing has met before.
 
-#include "ensemble/engine/compliant_set.hpp"
 #include "ensemble/experiment.hpp"
+#include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
@@ -80,7 +81,8 @@ TEST(Handover, ComesBeforeBlocksMeetOtherwiseThanAtBeds)
                 const double least =
                     std::min({r.blocks[l].half_width_m, r.blocks[l].half_height_m, r.blocks[u].half_width_m});
                 // beds have what their corners may have entered in an impact
-                EXPECT_LT(overlap_m(r.blocks[l], h.moved[l], r.blocks[u], h.moved[u]), j < r.beds() ? 0.02 * least : 0)
+                EXPECT_LT(overlap_m(r.blocks[l], h.measured.moved[l], r.blocks[u], h.measured.moved[u]),
+                          j < r.beds() ? 0.02 * least : 0)
                     << input << ' ' << r.index << ": " << l << " and " << u;
             }
         }
@@ -94,7 +96,7 @@ TEST(Handover, TimePlaceAndVelocityGoOn)
     ASSERT_FALSE(all.empty());
     for (const HandOver& h : all) {
         LaneSet set(study, nullptr, kernels(Isa::scalar), compliant_form(h.realization));
-        set.load(lane, h);
+        take_over(set, lane, h);
         const double step_s = set.realization(lane).step_s, rigid_s = h.realization.step_s;
         // the middle of the last rigid step, where its increment is the velocity
         const double begin_s = (static_cast<double>(h.watch.steps) - 0.5) * rigid_s;
@@ -102,12 +104,12 @@ TEST(Handover, TimePlaceAndVelocityGoOn)
         const Snapshot before = set.snapshot(lane);
         set.advance(0, 1);
         const Snapshot after = set.snapshot(lane);
-        for (std::size_t i = 0; i < h.moved.size(); ++i) {
+        for (std::size_t i = 0; i < h.measured.moved.size(); ++i) {
             const Block& block = h.realization.blocks[i];
             if (block.fixed)
                 continue;
-            EXPECT_NEAR(before.x_m[i], block.x_m + h.moved[i].x_m - h.increment[i].x_m / 2, 1e-12);
-            EXPECT_NEAR(before.theta_rad[i], h.moved[i].theta_rad - h.increment[i].theta_rad / 2, 1e-12);
+            EXPECT_NEAR(before.x_m[i], block.x_m + h.measured.moved[i].x_m - h.increment[i].x_m / 2, 1e-12);
+            EXPECT_NEAR(before.theta_rad[i], h.measured.moved[i].theta_rad - h.increment[i].theta_rad / 2, 1e-12);
             // contacts carry nothing yet: only gravity and the base change the velocity
             EXPECT_NEAR((after.x_m[i] - before.x_m[i]) / step_s, h.increment[i].x_m / rigid_s, 50 * step_s + 1e-3);
             EXPECT_NEAR((after.y_m[i] - before.y_m[i]) / step_s, h.increment[i].y_m / rigid_s, 50 * step_s + 1e-3);

@@ -2,8 +2,9 @@
 /// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
 /// realizations are.
 
-#include "ensemble/engine/host_device.hpp"
-#include "ensemble/engine/slots.hpp"
+#include "ensemble/device/host_device.hpp"
+#include "ensemble/device/slot_column.hpp"
+#include "ensemble/device/slots.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
@@ -406,11 +407,11 @@ TEST(Slots, AColumnHoldsALane)
     a.load(0, sampler.realization(7));
     for (int chunk = 0; chunk < 20; ++chunk)
         a.advance();
-    std::vector<double> column(column_rows(a.topology())), again(column.size());
-    a.write_column(0, column.data(), nullptr);
+    std::vector<double> column(column_rows(a.model().topology())), again(column.size());
+    write_column(a, column.data());
     b.load(0, sampler.realization(7));
-    b.read_column(0, column.data());
-    b.write_column(0, again.data(), nullptr);
+    read_column(b, column.data());
+    write_column(b, again.data());
     for (std::size_t i = 0; i < column.size(); ++i)
         EXPECT_EQ(std::bit_cast<std::uint64_t>(column[i]), std::bit_cast<std::uint64_t>(again[i])) << "row " << i;
     EXPECT_EQ(b.steps(0), 20U * chunk_steps);

@@ -1,8 +1,8 @@
 /// The criterion of rest on a bundle filled by hand, and what the end of a realization makes of its motion.
 
-#include "ensemble/engine/executor.hpp"
-#include "ensemble/engine/lanes.hpp"
-#include "ensemble/engine/watch.hpp"
+#include "ensemble/planar/planar_model.hpp"
+#include "ensemble/planar/planar_watch.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
 #include "kernels/isa.hpp"

@@ -1,9 +1,9 @@
 /// Synthetic earthquakes: spectrum, envelope, independence, peak and rest; all with fixed seeds, false-alarm rates
 /// stated. And the way of a drawn shaking from the study to the loop.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
 

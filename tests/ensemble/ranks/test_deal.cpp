@@ -1,6 +1,6 @@
 /// Numbers that are dealt out to ranks, with ranks that are threads.
 
-#include "ensemble/engine/device.hpp"
+#include "ensemble/device/device.hpp"
 #include "ensemble/ranks/deal.hpp"
 #include "tests/ensemble/ranks/thread_ranks.hpp"
 

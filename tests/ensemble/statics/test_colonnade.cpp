@@ -1,6 +1,6 @@
 /// Structures that are no stack: their rest, contacts between blocks that were no neighbours, falls.
 
-#include "ensemble/engine/limit_states.hpp"
+#include "ensemble/planar/limit_states.hpp"
 #include "ensemble/statics/settle.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"

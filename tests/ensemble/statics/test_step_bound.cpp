@@ -1,7 +1,7 @@
 /// The safe step and the linear vibrations, against digits of studies/evidence/verification/reference_values.py
 /// (the weight as a dead load) and against a stack assembled another way.
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "tests/ensemble/statics/equal_drums.hpp"
 

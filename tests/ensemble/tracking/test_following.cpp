@@ -1,9 +1,10 @@
 /// The model along measured motion: free windows continue as the observer would have, bit by bit; the nudging is the
 /// oscillator of its documentation; and neighbours have no effect.
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracked_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -209,10 +210,10 @@ TEST(Following, EveryStepOfARunCanBeReadAfterwards)
     r.extended = true;
     r.base.pitch_rad_s2_m = 1e-3;
     r.blocks[2].extension.eccentricity_m = 2e-3;
-    LaneSet together(study, nullptr, kernels(best_isa()), r), one_by_one(study, nullptr, kernels(best_isa()), r);
-    for (LaneSet* lanes : {&together, &one_by_one})
-        lanes->load_followed(1, r, 0);
-    const auto bits = [&](const LaneSet& lanes, int phase) {
+    TrackedLanes together(study, nullptr, kernels(best_isa()), r), one_by_one(study, nullptr, kernels(best_isa()), r);
+    for (TrackedLanes* lanes : {&together, &one_by_one})
+        lanes->load(1, r, 0);
+    const auto bits = [&](const TrackedLanes& lanes, int phase) {
         Bits out;
         for (int block = 0; block < static_cast<int>(r.blocks.size()); ++block)
             for (const BlockMotion& m :
@@ -223,9 +224,9 @@ TEST(Following, EveryStepOfARunCanBeReadAfterwards)
     };
     for (int chunk = 0; chunk < 40; ++chunk) // until the drums rock
         for (const auto& [first, last] : {std::pair{0, 16}, {16, 17}, {17, 60}, {60, chunk_steps}}) {
-            together.step_followed(first, last);
+            together.step(first, last);
             for (int step = first; step < last; ++step) {
-                one_by_one.step_followed(step, step + 1);
+                one_by_one.step(step, step + 1);
                 ASSERT_EQ(bits(together, step + 1), bits(one_by_one, step + 1)) << chunk << ", " << step;
             }
         }

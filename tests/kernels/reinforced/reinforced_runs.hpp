@@ -36,7 +36,7 @@ inline std::optional<Outcome> pushed(const Realization& realization, double dura
             if (r.blocks[b].fixed)
                 continue;
             const Push p = push(static_cast<int>(b), time);
-            set.nudge(0, static_cast<int>(b), p.x_m_s2, p.y_m_s2, p.theta_rad_s2);
+            nudge(set, 0, static_cast<int>(b), p.x_m_s2, p.y_m_s2, p.theta_rad_s2);
         }
         set.advance();
         time += chunk_steps * r.step_s;

@@ -2,7 +2,7 @@
 
 #include "tests/io/measured/measured_samples.hpp"
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/base_table.hpp"

@@ -1,8 +1,8 @@
 /// Claim files read and refused, the page that is written from them, and a small run from file to samples.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/evidence/claims/claim_figure.hpp"
 #include "studies/evidence/claims/claim_file.hpp"

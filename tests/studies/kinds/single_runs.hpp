@@ -1,8 +1,8 @@
 #pragma once
 /// Outcomes of a study from single runs, for counts by another way.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/experiment.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <map>

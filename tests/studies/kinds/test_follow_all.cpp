@@ -1,7 +1,7 @@
 /// Realizations that are followed several at once have the trajectories and outcomes that each has alone.
 
 #include "bench/scenes.hpp"
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/trajectory.hpp"
 

@@ -1,11 +1,11 @@
 /// Twins: the same realization but for one thing; how fast they part; how often their verdicts differ, by pairs whose
 /// truth is known.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/twins.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
 #include "studies/kinds/replicas/twins.hpp"

@@ -2,7 +2,7 @@
 /// Small results of each kind of study, made in the process, and the same with one value altered and all checksums
 /// right: what a wrong program, and no damage, would leave.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"

@@ -1,7 +1,7 @@
 #include "studies/evidence/measured/boulders/boulder_model.hpp"
 
-#include "ensemble/engine/lanes.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
 

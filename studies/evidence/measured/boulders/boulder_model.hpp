@@ -1,9 +1,9 @@
 #pragma once
 /// A boulder as a planar rigid rectangle on the shaking table: what a test does to it, by the engine.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/parts/fall_table.hpp"
 

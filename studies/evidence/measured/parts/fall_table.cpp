@@ -1,6 +1,6 @@
 #include "studies/evidence/measured/parts/fall_table.hpp"
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "studies/evidence/measured/parts/score.hpp"
 

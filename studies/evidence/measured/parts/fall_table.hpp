@@ -1,10 +1,10 @@
 #pragma once
 /// What blocks of several slendernesses do in tests, and which of them the outcomes make most likely.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <cstdint>
 #include <vector>

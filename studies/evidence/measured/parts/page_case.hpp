@@ -1,7 +1,7 @@
 #pragma once
 /// The pages of measured data: one case each.
 
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -1,7 +1,7 @@
 /// What the outcome of an ensemble depends on, and on what not.
 
-#include "ensemble/engine/executor.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/tables/markdown.hpp"
 #include "studies/evidence/picture/picture.hpp"

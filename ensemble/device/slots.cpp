@@ -1,4 +1,6 @@
-#include "ensemble/engine/slots.hpp"
+#include "ensemble/device/slots.hpp"
+
+#include "ensemble/device/slot_column.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -52,9 +54,10 @@ void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
 
 SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots,
                  int most)
-    : study_(study), record_(record), pattern_(pattern), device_(device)
+    : study_(study), record_(record), pattern_(pattern), device_(device),
+      lanes_([this] { return LaneSet(study_, record_, kernels(Isa::scalar), pattern_); })
 {
-    const LaneSet first(study, record, kernels(Isa::scalar), pattern);
+    const PlanarModel& first = lane().model();
     const Topology& host = first.topology();
     rows_ = static_cast<int>(column_rows(host));
     tables_ = static_cast<int>(table_registers(host));
@@ -122,17 +125,26 @@ SlotSet::~SlotSet() = default;
 
 int SlotSet::active() const
 {
-    return static_cast<int>(std::count_if(slots_.begin(), slots_.end(), [](const Slot& s) { return s.busy; }));
+    int busy = 0;
+    for (int slot = 0; slot < lanes(); ++slot)
+        busy += !free(slot);
+    return busy;
 }
 
 void SlotSet::load(int slot, Realization realization)
 {
     Slot& s = slots_[static_cast<std::size_t>(slot)];
-    if (!s.lane)
-        s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
-    s.lane->load(0, std::move(realization));
+    if (on_host_) {
+        if (!s.lane)
+            s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
+        return s.lane->load(0, std::move(realization));
+    }
+    LaneSet& one = lane();
+    one.load(0, std::move(realization));
+    s.column.resize(static_cast<std::size_t>(rows_));
+    write_column(one, s.column.data());
+    s.place = one.take(0);
     s.steps = 0;
-    s.busy = s.changed = true;
 }
 
 void SlotSet::clear(int slot)
@@ -140,7 +152,8 @@ void SlotSet::clear(int slot)
     Slot& s = slots_[static_cast<std::size_t>(slot)];
     if (s.lane)
         s.lane->clear(0);
-    s.busy = s.changed = false;
+    s.place = {};
+    s.column.clear();
 }
 
 void SlotSet::advance()
@@ -192,8 +205,9 @@ void SlotSet::mark(const std::vector<int>& which, SlotState state)
 /// Once there is nothing left to fill slots with, the busy ones move together: threads side by side then all work.
 void SlotSet::close_gaps()
 {
-    const auto used_end = std::find_if(slots_.rbegin(), slots_.rend(), [](const Slot& s) { return s.busy; });
-    const int end = static_cast<int>(slots_.rend() - used_end);
+    int end = lanes();
+    while (end > 0 && free(end - 1))
+        --end;
     const int busy = active();
     if (2 * busy > end) {
         used_ = end;
@@ -201,10 +215,10 @@ void SlotSet::close_gaps()
     }
     std::vector<int> from, to;
     for (int i = busy; i < end; ++i)
-        if (slots_[static_cast<std::size_t>(i)].busy)
+        if (!free(i))
             from.push_back(i);
     for (int i = 0; i < busy; ++i)
-        if (!slots_[static_cast<std::size_t>(i)].busy)
+        if (free(i))
             to.push_back(i);
     assert(from.size() == to.size());
     used_ = busy;
@@ -228,7 +242,7 @@ void SlotSet::close_gaps()
 /// The samples that a slot's base goes along come to the device once, and stay there.
 void SlotSet::keep_samples(int slot)
 {
-    const SampledMotion motion = lane(slot).samples(0);
+    const SampledMotion motion = place(slot).motion.samples();
     std::unique_ptr<Memory::Doubles>& kept = own_->samples[motion.sample];
     if (kept)
         return;
@@ -237,31 +251,30 @@ void SlotSet::keep_samples(int slot)
     device_.upload(kept->data(), motion.sample, count * sizeof(double));
 }
 
-/// Where the device has them; null where the base goes along none.
-const double* SlotSet::samples(int slot) const
-{
-    return BaseMotion::along_shared_samples(study_) ? own_->samples.at(lane(slot).samples(0).sample)->data() : nullptr;
-}
-
 void SlotSet::upload_columns()
 {
     std::vector<int> changed;
     for (int i = 0; i < used_; ++i)
-        if (slots_[static_cast<std::size_t>(i)].changed)
+        if (!slots_[static_cast<std::size_t>(i)].column.empty())
             changed.push_back(i);
     if (changed.empty())
         return;
     const auto rows = static_cast<std::size_t>(rows_);
-    if (BaseMotion::along_shared_samples(study_))
-        for (const int slot : changed)
-            keep_samples(slot);
-    each(changed.size(), [&](std::size_t i) {
-        lane(changed[i]).write_column(0, own_->host_packed.data() + i * rows, samples(changed[i]));
-    });
+    const bool sampled = BaseMotion::along_shared_samples(study_);
     for (const int slot : changed) {
-        tables_given_ = tables_given_ || lane(slot).tables_given(0);
-        slots_[static_cast<std::size_t>(slot)].changed = false;
+        if (sampled)
+            keep_samples(slot);
+        tables_given_ = tables_given_ || tables_given(study_, place(slot));
     }
+    each(changed.size(), [&](std::size_t i) {
+        Slot& s = slots_[static_cast<std::size_t>(changed[i])];
+        if (sampled) {
+            const SampledMotion motion = s.place.motion.samples();
+            write_samples(memory_.topology, motion, own_->samples.at(motion.sample)->data(), s.column.data());
+        }
+        std::copy(s.column.begin(), s.column.end(), own_->host_packed.data() + i * rows);
+        s.column = {};
+    });
     device_.upload(own_->packed.data(), own_->host_packed.data(), changed.size() * rows * sizeof(double));
     upload_list(changed);
     move(changed.size(), true);
@@ -287,10 +300,14 @@ void SlotSet::upload_tables()
     }
     each(static_cast<std::size_t>(used_), [&](std::size_t slot) {
         Slot& s = slots_[slot];
-        if (s.busy)
-            for (std::size_t chunk = 0; chunk < chunks_per_launch; ++chunk)
-                s.lane->write_tables(0, s.steps + chunk * steps_of_chunk(),
-                                     own.host_tables->data() + slot * column + chunk * tables);
+        if (!s.place.busy)
+            return;
+        LaneSet& one = lane();
+        one.put(0, std::move(s.place));
+        for (std::size_t chunk = 0; chunk < chunks_per_launch; ++chunk)
+            write_tables(one, s.steps + chunk * steps_of_chunk(),
+                         own.host_tables->data() + slot * column + chunk * tables);
+        s.place = one.take(0);
     });
     const auto used = static_cast<std::size_t>(used_);
     device_.upload(own.packed_tables->data(), own.host_tables->data(), used * column * sizeof(double));
@@ -304,15 +321,18 @@ void SlotSet::upload_tables()
     device_.run(task, task.count());
 }
 
-/// Into the host's lanes; the slots are then empty.
-void SlotSet::take_columns(const std::vector<int>& which)
+/// From slots, which are then empty, to lanes of the host.
+/// @param take (slot, column) called on several threads
+template <class Take>
+void SlotSet::take_columns(const std::vector<int>& which, const Take& take)
 {
     const auto rows = static_cast<std::size_t>(rows_);
     upload_list(which);
     move(which.size(), false);
     mark(which, SlotState::empty);
     device_.download(own_->host_packed.data(), own_->packed.data(), which.size() * rows * sizeof(double));
-    each(which.size(), [&](std::size_t i) { lane(which[i]).read_column(0, own_->host_packed.data() + i * rows); });
+    each(which.size(),
+         [&](std::size_t i) { take(slots_[static_cast<std::size_t>(which[i])], own_->host_packed.data() + i * rows); });
 }
 
 void SlotSet::leave_device()
@@ -320,23 +340,35 @@ void SlotSet::leave_device()
     if (on_host_ || memory_.in_single)
         return;
     on_host_ = true;
+    const auto to_lane = [this](Slot& s, const double* column) {
+        s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
+        s.lane->put(0, std::move(s.place));
+        s.lane->bases().store(0, s.lane->motion(0));
+        read_column(*s.lane, column);
+        s.place = {};
+    };
     std::vector<int> there;
     for (std::size_t i = 0; i < slots_.size(); ++i)
-        if (slots_[i].busy && !slots_[i].changed)
+        if (slots_[i].place.busy && slots_[i].column.empty())
             there.push_back(static_cast<int>(i));
     if (!there.empty())
-        take_columns(there);
+        take_columns(there, to_lane);
+    for (Slot& s : slots_)
+        if (!s.column.empty()) {
+            to_lane(s, s.column.data());
+            s.column = {};
+        }
 }
 
 void SlotSet::advance_on_host()
 {
     std::vector<int> busy;
-    for (std::size_t i = 0; i < slots_.size(); ++i)
-        if (slots_[i].busy)
-            busy.push_back(static_cast<int>(i));
+    for (int slot = 0; slot < lanes(); ++slot)
+        if (!free(slot))
+            busy.push_back(slot);
     used_ = static_cast<int>(busy.size());
     each(busy.size(), [&](std::size_t i) {
-        LaneSet& one = lane(busy[i]);
+        LaneSet& one = *slots_[static_cast<std::size_t>(busy[i])].lane;
         for (int chunk = 0; chunk < chunks_on_host && !one.done(0); ++chunk)
             one.advance();
     });
@@ -354,12 +386,18 @@ void SlotSet::check_stopped_slots()
     }
     if (stopped.empty())
         return;
-    take_columns(stopped);
-    each(stopped.size(), [&](std::size_t i) {
-        Slot& s = slots_[static_cast<std::size_t>(stopped[i])];
-        s.lane->check(0, check_steps(memory_.topology));
-        s.steps = s.lane->steps(0);
-        s.changed = !s.lane->done(0); // it goes on: the device needs the result of the check
+    take_columns(stopped, [this](Slot& s, const double* column) {
+        LaneSet& one = lane();
+        one.put(0, std::move(s.place));
+        one.bases().store(0, one.motion(0));
+        read_column(one, column);
+        one.check(0, check_steps(memory_.topology));
+        s.steps = one.steps(0);
+        if (!one.done(0)) { // it goes on: the device needs the result of the check
+            s.column.resize(static_cast<std::size_t>(rows_));
+            write_column(one, s.column.data());
+        }
+        s.place = one.take(0);
     });
 }
 

@@ -1,4 +1,4 @@
-#include "ensemble/engine/limit_states.hpp"
+#include "ensemble/planar/limit_states.hpp"
 
 #include "kernels/bundle.hpp"
 

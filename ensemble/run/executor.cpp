@@ -1,10 +1,10 @@
-#include "ensemble/engine/executor.hpp"
+#include "ensemble/run/executor.hpp"
 
-#include "ensemble/engine/compliant_set.hpp"
+#include "ensemble/device/slots.hpp"
 #include "ensemble/engine/drive.hpp"
-#include "ensemble/engine/lanes.hpp"
-#include "ensemble/engine/slots.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/planar_model.hpp"
 
 #include <algorithm>
 #include <atomic>

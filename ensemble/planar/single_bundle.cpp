@@ -1,6 +1,6 @@
-#include "ensemble/engine/single_bundle.hpp"
+#include "ensemble/planar/single_bundle.hpp"
 
-#include "ensemble/engine/single_lanes.hpp"
+#include "ensemble/planar/single_lanes.hpp"
 
 #include <cassert>
 #include <cstddef>
@@ -24,12 +24,7 @@ void SingleBundle::take(int lane)
 void SingleBundle::take_base()
 {
     for (int i = 0; i < chunk_steps * host_.lanes; ++i)
-        own_.base_table[i] = static_cast<float>(host_.base_table[i]);
-}
-
-void SingleBundle::fill_base(MotionFormula formula, const FormulaParameters& parameters, const double* first_step)
-{
-    kernels_.fill_single(formula, parameters, first_step, own_.base_table);
+        own_.rows<OfBase::Field>()[i] = static_cast<float>(host_.rows<OfBase::Field>()[i]);
 }
 
 void SingleBundle::run(int first, int last)

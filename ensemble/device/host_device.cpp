@@ -1,6 +1,6 @@
-#include "ensemble/engine/host_device.hpp"
+#include "ensemble/device/host_device.hpp"
 
-#include "ensemble/engine/slot_tasks.hpp"
+#include "ensemble/device/slot_tasks.hpp"
 
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "ensemble/engine/rigid_order.hpp"
+#include "ensemble/planar/rigid_order.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,9 @@
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 
 #include "ensemble/statics/mechanisms.hpp"
 #include "kernels/step.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -14,15 +13,6 @@ namespace stylobate {
 
 namespace {
 
-// A realization has come to rest when, after the shaking, its kinetic energy stays below this part of what it takes to
-// topple the weakest part of it, for as long as 2 / p. (A resting stack keeps a small rocking vibration that the
-// dashpots at the centroids hardly damp; its residual displacement is the mean over that time.)
-constexpr double rest_energy = 1e-2;
-// Nor may it slip faster than this part of its width in a time of 1 / p.
-constexpr double rest_slip = 1e-4;
-constexpr double rest_time = 2;
-// A block that has turned beyond its slenderness angle has fallen unless it comes back within 1 / p.
-constexpr double fall_time = 1;
 // How far a block may stray before close pairs are looked for again, as a part of the smallest half size: small enough
 // that what stands apart stays out of the list, large enough that looking is rare.
 constexpr double skin_part = 0.25;
@@ -30,13 +20,6 @@ constexpr double skin_part = 0.25;
 bool is_single(const Study& study)
 {
     return study.run.precision == Precision::single;
-}
-
-/// @param interval steps between two checks
-std::uint64_t whole_checks(double time_s, double step_s, int interval)
-{
-    const double checks = std::ceil(time_s / step_s / interval);
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(checks)) * static_cast<std::uint64_t>(interval);
 }
 
 /// Of the narrower of a bed's two faces.
@@ -60,9 +43,9 @@ std::vector<double> bed_offsets(const Realization& r, const std::vector<BlockMot
 
 } // namespace
 
-LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
-                 std::uint64_t waiting)
-    : study_(study), record_(record), kernels_(kernels), place_of_(pattern.blocks.size(), -1)
+PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const Realization& pattern,
+                         std::uint64_t waiting)
+    : study_(study), kernels_(kernels), place_of_(pattern.blocks.size(), -1)
 {
     const auto take = [&](int block) {
         if (place_of_[static_cast<std::size_t>(block)] < 0) {
@@ -107,7 +90,6 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
     twice_ = !is_single(study) && topology_.model == Model{} && topology_.stack && topology_.watched == 0 &&
              topology_.free_blocks() <= kernels.twice_blocks && waiting > static_cast<std::uint64_t>(kernels.lanes);
     lanes_ = static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : (twice_ ? 2 : 1) * kernels.lanes);
-    places_.resize(lanes_);
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
@@ -115,20 +97,9 @@ LaneSet::LaneSet(const Study& study, const Motion* record, const KernelTable& ke
             throw std::invalid_argument("run.precision = \"single\" supports only the paper's model and rigid blocks");
         single_.emplace(topology_, bundle_, kernels_);
     }
-    parameters_memory_ = aligned_array<double>(9 * lanes_);
-    double* p = parameters_memory_.get();
-    for (double** array : {&parameters_.cycles_per_step, &parameters_.amplitude_m, &parameters_.cycles,
-                           &parameters_.phase_cycles, &parameters_.offset, &parameters_.start_ramps_per_cycle,
-                           &parameters_.end_ramps_per_cycle, &parameters_.end_velocity, &first_step_}) {
-        *array = p;
-        p += lanes_;
-    }
-    for (int lane = 0; lane < lanes(); ++lane)
-        clear(lane);
-    active_ = 0;
 }
 
-void LaneSet::list_clamps(const Realization& pattern)
+void PlanarModel::list_clamps(const Realization& pattern)
 {
     // of the kernel's blocks: a fixed block that nothing touches is none of them
     int* const clamped = bed_lists_.data() + (bed_lists_.size() - order_.size());
@@ -137,28 +108,41 @@ void LaneSet::list_clamps(const Realization& pattern)
             clamped[place_of_[i]] = place_of_[static_cast<std::size_t>(right)];
 }
 
-void LaneSet::clear(int lane)
+void PlanarModel::clear(int lane)
 {
-    Place& place = places_[static_cast<std::size_t>(lane)];
-    if (place.busy)
-        --active_;
-    place = Place{};
     for (std::size_t i = 0; i < bundle_registers(topology_); ++i)
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = 0;
-    BaseMotion{}.store(parameters_, lane);
-    // an empty lane must not divide by a rate of zero
-    parameters_.cycles_per_step[lane] = 1;
     for (int k = 0; k < topology_.blocks; ++k)
         bundle_.at(OfBlock::half_width, k, lane) = empty_half_width;
     for (int k = 0; k < topology_.joints; ++k)
         bundle_.at(OfJoint::depth_limit, k, lane) = empty_depth_limit;
-    first_step_[lane] = 0;
-    if (single_)
-        single_->take(lane);
+    take_single(lane);
 }
 
-void LaneSet::store_state(int lane, const Realization& r)
+void PlanarModel::begin(int lane, Place& place)
 {
+    const Realization& r = place.realization;
+    assert((!model_of(r).mechanisms || topology_.model.mechanisms) &&
+           (!model_of(r).reinforced || topology_.model.reinforced) && r.form == topology_.model.form &&
+           "the realizations of a bundle follow the model of the pattern that it was made from");
+    place.watch.seated = 1;
+    place.watch.beds_alone =
+        topology_.model.rigid() && (topology_.watched > 0 || study_.outcome.follow == Follow::rest);
+    const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
+    PlanarMeasured& m = place.measured;
+    m.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
+                           whole_checks(fall_time / place.scales.p_rad_s, r.step_s, check_steps()));
+    store_state(lane, place);
+    first_increments(lane, place.watch);
+    take_single(lane);
+    read(lane, place);
+    m.start_offset_m = bed_offsets(r, m.moved);
+    m.start_top_x_m = centre(topology_.top, lane).x_m;
+}
+
+void PlanarModel::store_state(int lane, const Place& place)
+{
+    const Realization& r = place.realization;
     const Statics statics(r);
     const StaticState& rest = statics.start;
     const double dt = r.step_s, dt2 = dt * dt;
@@ -173,9 +157,8 @@ void LaneSet::store_state(int lane, const Realization& r)
             continue;
         bundle_.at(OfBlock::dt2_per_mass, k, lane) = dt2 / block.mass_kg;
         bundle_.at(OfBlock::dt2_per_inertia, k, lane) = dt2 / block.inertia_kg_m2;
-        const LimitStates& limits = places_[static_cast<std::size_t>(lane)].limits;
-        bundle_.at(OfBlock::least_y, k, lane) = limits.lowest_m(block);
-        bundle_.at(OfBlock::most_turn, k, lane) = limits.turn_limit_rad(i);
+        bundle_.at(OfBlock::least_y, k, lane) = place.measured.limits.lowest_m(block);
+        bundle_.at(OfBlock::most_turn, k, lane) = place.measured.limits.turn_limit_rad(i);
         const double e = block.extension.eccentricity_m, theta = rest.theta_rad[i];
         bundle_.at(OfBlock::x, k, lane) = rest.x_m[i] - e * (1 - std::cos(theta));
         bundle_.at(OfBlock::y, k, lane) = rest.y_m[i] + e * std::sin(theta);
@@ -212,11 +195,11 @@ void LaneSet::store_state(int lane, const Realization& r)
         store_rigid(lane, r);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
     bundle_.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(r.base_tilt_rad);
-    bundle_.at(OfRealization::skin, lane) = skin_part * places_[static_cast<std::size_t>(lane)].scales.least_size_m;
+    bundle_.at(OfRealization::skin, lane) = skin_part * place.scales.least_size_m;
 }
 
 /// What the rigid form needs beside.
-void LaneSet::store_rigid(int lane, const Realization& r)
+void PlanarModel::store_rigid(int lane, const Realization& r)
 {
     const double per_dt2 = 1 / (r.step_s * r.step_s);
     for (int k = topology_.fixed; k < topology_.blocks; ++k) {
@@ -241,7 +224,7 @@ void LaneSet::store_rigid(int lane, const Realization& r)
 
 /// The increments before the first step: U(-dt) = U0 + a0 dt2 / 2 for a start from rest, a0 by one trial step of the
 /// contact forces and gravity alone (the base does not move before it starts).
-void LaneSet::first_increments(int lane)
+void PlanarModel::first_increments(int lane, Watch& w)
 {
     const std::size_t registers = bundle_registers(topology_) - chunk_steps; // the table of base motion stays at 0
     const AlignedArray<double> memory = aligned_array<double>(registers + chunk_steps);
@@ -255,7 +238,6 @@ void LaneSet::first_increments(int lane)
         bundle_.at(OfBlock::dy, i, lane) = -0.5 * one.at(OfBlock::dy, i, 0);
         bundle_.at(OfBlock::dtheta, i, lane) = -0.5 * one.at(OfBlock::dtheta, i, 0);
     }
-    Watch& w = places_[static_cast<std::size_t>(lane)].watch;
     w.start_potential_j = one.at(OfRealization::potential, 0) / (w.step_s * w.step_s);
     w.start_shear_j = spring_energy(topology_, bundle_, lane);
     w.start_spring_j = w.start_shear_j;
@@ -278,135 +260,56 @@ void LaneSet::first_increments(int lane)
     w.start_dowel_j = dowel_energy(topology_, bundle_, lane);
 }
 
-void LaneSet::load(int lane, Realization realization)
-{
-    clear(lane);
-    Place& place = places_[static_cast<std::size_t>(lane)];
-    place.busy = true;
-    ++active_;
-    place.realization = std::move(realization);
-    const Realization& r = place.realization;
-    assert((!model_of(r).mechanisms || topology_.model.mechanisms) &&
-           (!model_of(r).reinforced || topology_.model.reinforced) && r.form == topology_.model.form &&
-           "the realizations of a bundle follow the model of the pattern that it was made from");
-    place.scales = scales_of(r);
-    place.motion = BaseMotion(study_.excitation, r, record_);
-    place.motion.store(parameters_, lane);
-    if (r.vertical != nullptr)
-        place.vertical = BaseMotion::along(r.vertical, r.step_s, r.change.offset_s);
-
-    const bool shaken = study_.excitation.kind != ExcitationKind::none;
-    Watch& w = place.watch;
-    const int interval = check_steps(topology_);
-    w.step_s = r.step_s;
-    const double end_s = std::max(place.motion.duration_s(), place.vertical ? place.vertical->duration_s() : 0.0);
-    w.shaking_end_s = shaken ? end_s : 0;
-    w.barrier_j = place.scales.barrier_j;
-    w.rest_energy_j = rest_energy * place.scales.barrier_j;
-    w.rest_slip_m = rest_slip * place.scales.width_m * place.scales.p_rad_s * interval * r.step_s;
-    w.may_rest = shaken;
-    w.last_step = whole_checks(end_s + tail_s(study_.excitation, r), r.step_s, interval);
-    w.rest_steps = whole_checks(rest_time / place.scales.p_rad_s, r.step_s, interval);
-    w.seated = 1;
-    w.beds_alone = topology_.model.rigid() && (topology_.watched > 0 || study_.outcome.follow == Follow::rest);
-    const Block& base = r.blocks[static_cast<std::size_t>(r.joints.front().lower)];
-    place.limits = LimitStates(r, study_.outcome, base.y_m + base.half_height_m,
-                               whole_checks(fall_time / place.scales.p_rad_s, r.step_s, interval));
-    store_state(lane, r);
-    first_increments(lane);
-    if (single_)
-        single_->take(lane);
-    read_motion(lane);
-    place.start_offset_m = bed_offsets(r, place.moved);
-    place.start_top_x_m = centre(topology_.top, lane).x_m;
-}
-
-void LaneSet::advance()
-{
-    advance(0, chunk_steps);
-}
-
-void LaneSet::advance(int first, int last)
-{
-    const int interval = check_steps(topology_);
-    for (int done = first; done < last;) {
-        const int from = done;
-        done = std::min(last, (from / interval + 1) * interval);
-        run(from, done);
-        if (done % interval == 0)
-            for (int lane = 0; lane < lanes(); ++lane)
-                if (!free(lane) && !this->done(lane))
-                    check(lane, done);
-    }
-}
-
 /// The tables of the base's motion at the beginning of a chunk, and the steps.
-void LaneSet::run(int first, int last)
+void PlanarModel::run(const LaneBases& bases, const std::vector<Place>& places, int first, int last)
 {
     if (first == 0)
-        fill_tables();
+        fill_tables(bases, places);
     if (single_)
         single_->run(first, last);
     else
         (twice_ ? kernels_.run_twice : kernels_.run)(topology_, bundle_, first, last);
 }
 
-void LaneSet::fill_tables()
+void PlanarModel::fill_tables(const LaneBases& bases, const std::vector<Place>& places)
 {
-    const auto each_busy = [this](auto&& fill) {
+    const auto each_busy = [&](auto&& fill) {
         for (int lane = 0; lane < lanes(); ++lane)
-            if (!free(lane))
-                fill(lane);
+            if (const Place& place = places[static_cast<std::size_t>(lane)]; place.busy)
+                fill(lane, place);
     };
-    const MotionFormula formula = BaseMotion::formula(study_.excitation.kind);
-    if (BaseMotion::on_host(study_)) {
-        each_busy([this](int lane) { motion(lane).fill(first_step_[lane], bundle_.base_table + lane, lanes()); });
+    double* const table = bundle_.rows<OfBase::Field>();
+    if (bases.on_host()) {
+        each_busy(
+            [&](int lane, const Place& place) { place.motion.fill(bases.first_step(lane), table + lane, lanes()); });
         if (single_)
             single_->take_base();
     } else if (single_) {
-        single_->fill_base(formula, parameters_, first_step_);
+        bases.fill(single_->base_table());
     } else {
-        (twice_ ? kernels_.fill_twice : kernels_.fill)(formula, parameters_, first_step_, bundle_.base_table);
+        bases.fill(table);
     }
     if (topology_.model.extended())
-        each_busy([this](int lane) { fill_extension(lane); });
+        each_busy([&](int lane, const Place& place) { fill_extension(lane, bases, place); });
 }
 
-/// Second differences of the base's displacement [m], for `chunk_steps` steps from one of the realization's own on.
-std::array<double, chunk_steps> LaneSet::base_chunk(int lane, double first_step) const
+void PlanarModel::fill_extension(int lane, const LaneBases& bases, const Place& place)
 {
-    std::array<double, chunk_steps> table{};
-    const BaseMotion& base = motion(lane);
-    if (BaseMotion::on_host(study_)) {
-        base.fill(first_step, table.data(), 1);
-        return table;
-    }
-    std::array<double, 8> values{};
-    const FormulaParameters one{&values[0], &values[1], &values[2], &values[3],
-                                &values[4], &values[5], &values[6], &values[7]};
-    base.store(one, 0);
-    kernels(Isa::scalar).fill(BaseMotion::formula(study_.excitation.kind), one, &first_step, table.data());
-    return table;
-}
-
-void LaneSet::fill_extension(int lane)
-{
-    const Place& place = places_[static_cast<std::size_t>(lane)];
     const Realization& r = place.realization;
-    const double first = first_step_[lane];
+    const double first = bases.first_step(lane);
     if (place.vertical)
-        place.vertical->fill(first, bundle_.vertical_table + lane, lanes());
+        place.vertical->fill(first, bundle_.rows<OfVertical::Field>() + lane, lanes());
     else if (r.base.vertical_ratio != 0)
         for (std::size_t k = 0; k < chunk_steps; ++k)
-            bundle_.vertical_table[k * lanes_ + static_cast<std::size_t>(lane)] =
-                r.base.vertical_ratio * bundle_.base_table[k * lanes_ + static_cast<std::size_t>(lane)];
+            bundle_.rows<OfVertical::Field>()[k * lanes_ + static_cast<std::size_t>(lane)] =
+                r.base.vertical_ratio * bundle_.rows<OfBase::Field>()[k * lanes_ + static_cast<std::size_t>(lane)];
     if (r.base.pitch_rad_s2_m == 0)
         return;
     // Samples with straight lines between them have no second derivative: the rotation is their mean under a triangle
     // as wide as two samples, whose second derivative is a difference of three values.
     const double reach = std::max(1.0, std::round(place.motion.spacing_s() / r.step_s));
-    const auto before = base_chunk(lane, first - reach), now = base_chunk(lane, first),
-               after = base_chunk(lane, first + reach);
+    const auto before = bases.chunk(place.motion, first - reach), now = bases.chunk(place.motion, first),
+               after = bases.chunk(place.motion, first + reach);
     const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
     for (std::size_t k = 0; k < chunk_steps; ++k) {
         const int step = static_cast<int>(k);
@@ -418,92 +321,52 @@ void LaneSet::fill_extension(int lane)
 }
 
 /// @param reach steps between the three second differences of the base's displacement [m]
-LaneSet::Turn LaneSet::turn_of(const Realization& r, double reach, double before, double now, double after)
+PlanarModel::Turn PlanarModel::turn_of(const Realization& r, double reach, double before, double now, double after)
 {
     const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
     return {per * (before + 10 * now + after) / 12, per * (after - before) / (2 * reach)};
 }
 
-void LaneSet::nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
-{
-    assert(topology_.model.mechanisms && "only the extended model can be nudged");
-    const int k = place_of_[static_cast<std::size_t>(block)];
-    const double dt = realization(lane).step_s, dt2 = dt * dt;
-    if (k < topology_.fixed)
-        return;
-    bundle_.at(OfBlockExtension::nudge_x, k, lane) = dt2 * x_m_s2;
-    bundle_.at(OfBlockExtension::nudge_y, k, lane) = dt2 * y_m_s2;
-    bundle_.at(OfBlockExtension::nudge_theta, k, lane) = dt2 * theta_rad_s2;
-}
-
-BlockMotion LaneSet::centre(int k, int lane) const
+BlockMotion PlanarModel::centre(int k, int lane) const
 {
     const Planar<double> moved = centre_of(topology_, bundle_, k, lane);
     return {moved.x, moved.y, moved.theta};
 }
 
-void LaneSet::read_motion(int lane)
+void PlanarModel::read(int lane, Place& place) const
 {
-    Place& place = places_[static_cast<std::size_t>(lane)];
-    place.moved.resize(place.realization.blocks.size());
-    place.inside.resize(place.realization.blocks.size(), -1);
+    PlanarMeasured& m = place.measured;
+    m.moved.resize(place.realization.blocks.size());
+    m.inside.resize(place.realization.blocks.size(), -1);
     for (int k = topology_.fixed; k < topology_.blocks; ++k) {
         const auto i = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
-        place.moved[i] = centre(k, lane);
-        place.inside[i] = static_cast<int>(bundle_.at(OfBlock::inside, k, lane));
+        m.moved[i] = centre(k, lane);
+        m.inside[i] = static_cast<int>(bundle_.at(OfBlock::inside, k, lane));
     }
 }
 
-/// Not finite? fallen? energy out of balance? at rest, or out of time?
-void LaneSet::check(int lane, int done)
+void PlanarModel::check_limits(Place& place, int done)
 {
-    Place& place = places_[static_cast<std::size_t>(lane)];
-    Watch& w = place.watch;
-    w.steps += static_cast<std::uint64_t>(check_steps(topology_));
-    first_step_[lane] = static_cast<double>(w.steps);
-
-    read_motion(lane);
-    if (!is_finite(topology_, bundle_, lane))
-        return end(lane, State::invalid, InvalidReason::not_finite);
-
-    place.limits.check(place.realization, w.steps, place.moved, place.inside, done);
-    w.undecided = place.limits.undecided();
-    w.seated = !place.limits.unseated();
-    if (place.limits.fallen() && study_.outcome.follow == Follow::collapse)
-        return end(lane, State::collapsed, InvalidReason::none);
-
-    if (leaves_beds(topology_, bundle_, lane, w)) {
-        place.handed = hand_over(lane);
-        return;
-    }
-    if (unbalanced(topology_, bundle_, lane, w))
-        return end(lane, State::invalid, InvalidReason::energy);
-
-    if (watch_rest(topology_, bundle_, lane, place.limits.undecided(), w)) {
-        place.limits.conclude(place.realization);
-        end(lane, place.limits.fallen() ? State::collapsed : State::stood, InvalidReason::none);
-    }
+    PlanarMeasured& m = place.measured;
+    m.limits.check(place.realization, place.watch.steps, m.moved, m.inside, done);
+    place.watch.undecided = m.limits.undecided();
+    place.watch.seated = !m.limits.unseated();
 }
 
-void LaneSet::end(int lane, State state, InvalidReason reason)
+void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o) const
 {
-    Place& place = places_[static_cast<std::size_t>(lane)];
     const Realization& r = place.realization;
-    Outcome o;
-    o.step_s = r.step_s;
-    o.steps = place.steps_before + (place.watch.steps - place.first_step);
-    o.end_time_s = static_cast<double>(place.watch.steps) * r.step_s;
-    o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
+    const PlanarMeasured& m = place.measured;
     const Watch& w = place.watch;
-    o.at_rest = at_rest(w) ? 1 : 0;
-    o.residual_top_displacement_m = w.quiet_top_m / static_cast<double>(w.quiet_checks) - place.start_top_x_m;
+    o.peak_top_displacement_m = bundle_.at(OfRealization::peak_top, lane);
+    o.residual_top_displacement_m = w.quiet_top_m / static_cast<double>(w.quiet_checks) - m.start_top_x_m;
     o.top_path_m = bundle_.at(OfRealization::top_path, lane);
     o.total_sliding_m = bundle_.at(OfRealization::slip, lane);
     o.sliding_path_m = bundle_.at(OfRealization::path, lane);
     o.rocking_path_rad = bundle_.at(OfRealization::rocking_path, lane);
-    const std::vector<double> offsets = bed_offsets(r, place.moved);
+    const std::vector<double> offsets = bed_offsets(r, m.moved);
     for (std::size_t j = 0; j < offsets.size(); ++j) {
-        const double moved = std::fabs(offsets[j] - place.start_offset_m[j]);
+        const double moved = std::fabs(offsets[j] - m.start_offset_m[j]);
         o.residual_sliding_m += moved;
         o.residual_dislocation = std::max(o.residual_dislocation, moved / bed_width_m(r, r.joints[j]));
     }
@@ -512,62 +375,36 @@ void LaneSet::end(int lane, State state, InvalidReason reason)
         o.total_rocking_rad += rotation;
         o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
     }
-    const EnergyBalance balance = energy_balance(topology_, bundle_, lane, w);
-    o.energy_kinetic_j = balance.kinetic;
-    o.energy_potential_j = balance.potential;
-    o.energy_spring_j = balance.spring;
-    o.energy_friction_j = balance.friction;
-    o.energy_damping_j = balance.damping;
-    o.energy_base_work_j = balance.base_work;
-    o.energy_residual = balance.residual;
-    if (state != State::invalid && !(std::fabs(o.energy_residual) < energy_bound)) {
-        state = State::invalid;
-        reason = InvalidReason::energy;
-    }
-    if (state == State::invalid)
-        o.at_rest = 0;
     if (o.at_rest == 0) // a snapshot of what still moves is no residual
         o.residual_top_displacement_m = o.residual_sliding_m = o.residual_dislocation =
             std::numeric_limits<double>::quiet_NaN();
     // a realization that was set aside has no outcome
-    (state == State::invalid ? LimitStates(r, study_.outcome, 0, 0) : place.limits).write(r, o);
+    const bool valid = state != State::invalid;
+    (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r, o);
     if (study_.survival) {
         o.bed_offset_m.assign(offsets.size(), 0);
         o.rotation_rad.assign(static_cast<std::size_t>(r.drums), 0);
-        for (std::size_t j = 0; state != State::invalid && j < offsets.size(); ++j)
-            o.bed_offset_m[j] = offsets[j] - place.start_offset_m[j];
-        for (std::size_t i = 0; state != State::invalid && i < o.rotation_rad.size(); ++i)
-            o.rotation_rad[i] = place.moved[i].theta_rad;
+        for (std::size_t j = 0; valid && j < offsets.size(); ++j)
+            o.bed_offset_m[j] = offsets[j] - m.start_offset_m[j];
+        for (std::size_t i = 0; valid && i < o.rotation_rad.size(); ++i)
+            o.rotation_rad[i] = m.moved[i].theta_rad;
     }
-    if (state == State::stood) {
-        // the dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum
-        const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;
-        const bool slides = o.total_sliding_m > study_.outcome.sliding_threshold * place.scales.width_m;
-        const double opening = o.total_rocking_rad * place.scales.width_m;
-        if (rocks && (!slides || opening >= o.total_sliding_m))
-            state = State::rocked;
-        else if (slides)
-            state = State::slid;
-    }
-    o.state = state;
-    o.invalid_reason = reason;
-    place.outcome = o;
 }
 
-SimulatedTime LaneSet::furthest() const
+/// The dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum.
+State PlanarModel::motion_of(const Place& place, const Outcome& o) const
 {
-    SimulatedTime furthest;
-    for (const Place& place : places_) {
-        const double reached = static_cast<double>(place.watch.steps) * place.watch.step_s;
-        if (place.busy && reached > furthest.reached_s)
-            furthest = {reached, static_cast<double>(place.watch.last_step) * place.watch.step_s};
-    }
-    return furthest;
+    const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;
+    const bool slides = o.total_sliding_m > study_.outcome.sliding_threshold * place.scales.width_m;
+    const double opening = o.total_rocking_rad * place.scales.width_m;
+    if (rocks && (!slides || opening >= o.total_sliding_m))
+        return State::rocked;
+    return slides ? State::slid : State::stood;
 }
 
-Snapshot LaneSet::snapshot(int lane) const
+Snapshot PlanarModel::snapshot(int lane, const Place& place) const
 {
-    const Realization& r = realization(lane);
+    const Realization& r = place.realization;
     Snapshot s;
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
         const Block& block = r.blocks[i];
@@ -578,6 +415,20 @@ Snapshot LaneSet::snapshot(int lane) const
         s.theta_rad.push_back(moved.theta_rad);
     }
     return s;
+}
+
+void nudge(LaneSet& set, int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
+{
+    const Topology& topology = set.model().topology();
+    assert(topology.model.mechanisms && "only the extended model can be nudged");
+    const int k = set.model().place_of(block);
+    const double dt = set.realization(lane).step_s, dt2 = dt * dt;
+    if (k < topology.fixed)
+        return;
+    const Bundle& bundle = set.model().bundle();
+    bundle.at(OfBlockExtension::nudge_x, k, lane) = dt2 * x_m_s2;
+    bundle.at(OfBlockExtension::nudge_y, k, lane) = dt2 * y_m_s2;
+    bundle.at(OfBlockExtension::nudge_theta, k, lane) = dt2 * theta_rad_s2;
 }
 
 } // namespace stylobate

@@ -1,7 +1,7 @@
 #pragma once
 /// Steps what sets of the rigid form hand over, with contacts that yield, to its end: a register at a time.
 
-#include "ensemble/engine/lanes.hpp"
+#include "ensemble/planar/planar_model.hpp"
 
 #include <vector>
 

@@ -21,8 +21,8 @@ public:
     void take(int lane);
     /// Takes the host's table of base motion.
     void take_base();
-    /// Makes the table by formula instead; arguments as those of `KernelTable::fill`.
-    void fill_base(MotionFormula formula, const FormulaParameters& parameters, const double* first_step);
+    /// Where a table that is made by formula goes instead.
+    float* base_table() const { return own_.rows<OfBase::Field>(); }
     /// Steps `first` to `last - 1` of a chunk; then the host's bundle has what they did.
     void run(int first, int last);
 

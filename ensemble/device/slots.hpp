@@ -1,15 +1,18 @@
 #pragma once
 /// Many realizations on a device: put into its slots, stepped together, looked at where it matters, and taken out.
 ///
-/// What begins and ends a realization is the host's `LaneSet`, of one lane for each slot: it makes the state that the
-/// device steps from. After every chunk the device determines whether a check would only count
-/// (`slot_tasks.hpp`). If so, the slot stops, its column comes back, and the host's lane takes it over and checks it.
-/// So every decision, and every number of an outcome, is made by the code that the processor's own runs are made by.
+/// What begins and ends a realization is the host's `LaneSet`, of which each thread has one, of one lane: it makes the
+/// state that the device steps from. After every chunk the device determines whether a check would only count
+/// (`slot_tasks.hpp`). If not, the slot stops, its column comes back, and a lane of the host takes it over and checks
+/// it. So every decision, and every number of an outcome, is made by the code that the processor's own runs are made
+/// by.
 
-#include "ensemble/engine/device.hpp"
-#include "ensemble/engine/lanes.hpp"
-#include "ensemble/engine/slot_tasks.hpp"
+#include "ensemble/device/device.hpp"
+#include "ensemble/device/slot_tasks.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
+#include "ensemble/planar/planar_model.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include <cstdint>
 #include <functional>
@@ -58,10 +61,10 @@ public:
     /// Slots below this number are the ones that the device goes through: those above have been emptied for good.
     int used() const { return used_; }
     int active() const;
-    bool free(int slot) const { return !slots_[static_cast<std::size_t>(slot)].busy; }
+    bool free(int slot) const { return !place(slot).busy; }
     /// Whether its realization has ended or was handed over.
-    bool done(int slot) const { return lane(slot).done(0); }
-    const Realization& realization(int slot) const { return lane(slot).realization(0); }
+    bool done(int slot) const { return outcome(slot) || handed(slot); }
+    const Realization& realization(int slot) const { return place(slot).realization; }
 
     /// Puts a realization into a slot that is free or has ended. Different slots may be loaded at the same time.
     void load(int slot, Realization realization);
@@ -73,8 +76,8 @@ public:
     /// From now on the host's lanes step what is busy, `chunks_on_host` chunks in a call of `advance`. What is stepped
     /// in single precision stays on the device.
     void leave_device();
-    const std::optional<Outcome>& outcome(int slot) const { return lane(slot).outcome(0); }
-    const std::optional<HandOver>& handed(int slot) const { return lane(slot).handed(0); }
+    const std::optional<Outcome>& outcome(int slot) const { return place(slot).outcome; }
+    const std::optional<HandOver>& handed(int slot) const { return place(slot).handed; }
 
     /// A slot that has ended waits for the end of the launch: at the most 7 of the hundreds of chunks of a realization.
     static constexpr int chunks_per_launch = 8;
@@ -82,24 +85,30 @@ public:
 
 private:
     struct Slot {
-        std::unique_ptr<LaneSet> lane; ///< of the host
+        LaneSet::Place place;          ///< as the last check has left it
+        std::vector<double> column;    ///< that the device has not yet; empty: it has
+        std::unique_ptr<LaneSet> lane; ///< that steps it, once it has left the device; the place is then there
         std::uint64_t steps = 0;       ///< done
-        bool busy = false;
-        bool changed = false; ///< the device has not its column yet
     };
 
-    LaneSet& lane(int slot) const { return *slots_[static_cast<std::size_t>(slot)].lane; }
+    const LaneSet::Place& place(int slot) const
+    {
+        const Slot& s = slots_[static_cast<std::size_t>(slot)];
+        return s.lane ? s.lane->place(0) : s.place;
+    }
+    /// A set of one lane, of the calling thread alone.
+    LaneSet& lane() { return lanes_.local(); }
     std::uint64_t steps_of_chunk() const { return static_cast<std::uint64_t>(check_steps(memory_.topology)); }
     /// Calls f(i) for i from 0 to count - 1, on several threads of the host.
     static void each(std::size_t count, const std::function<void(std::size_t)>& f);
     void close_gaps();
     void keep_samples(int slot);
-    const double* samples(int slot) const;
     void upload_columns();
     void upload_tables();
     void check_stopped_slots();
     void advance_on_host();
-    void take_columns(const std::vector<int>& which);
+    template <class Take>
+    void take_columns(const std::vector<int>& which, const Take& take);
     void move(std::size_t count, bool into_slots);
     void move_singles(std::size_t count, bool into_slots);
     void mark(const std::vector<int>& which, SlotState state);
@@ -116,6 +125,7 @@ private:
     int tables_ = 0;      ///< numbers of the tables of one chunk
     bool tables_given_ = false;
     bool on_host_ = false;
+    tbb::enumerable_thread_specific<LaneSet> lanes_;
     SlotMemory memory_;
 
     struct Memory; ///< what `memory_` points to, and the host's copies

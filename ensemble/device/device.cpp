@@ -1,4 +1,4 @@
-#include "ensemble/engine/device.hpp"
+#include "ensemble/device/device.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -5,8 +5,8 @@
 /// A slot is a place for one realization. Its numbers are a column of the device's memory: row r of slot s is number
 /// r * slots + s, so that threads side by side read and write side by side.
 
-#include "ensemble/engine/single_lanes.hpp"
-#include "ensemble/engine/watch.hpp"
+#include "ensemble/planar/planar_watch.hpp"
+#include "ensemble/planar/single_lanes.hpp"
 #include "kernels/base_motion.hpp"
 #include "kernels/instances/instantiate.hpp"
 #include "kernels/sampled_motion.hpp"
@@ -186,11 +186,12 @@ struct AdvanceSlot {
         Bundle all = m.bundle;
         bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
         const Bundle b = lane_of(all, slot);
-        const int begin = fill_base(slot, done, b.base_table);
+        const int begin = fill_base(slot, done, b.rows<OfBase::Field>());
         if constexpr (single) {
             const BundleOf<float> rounded = lane_of(m.single, slot);
             for (long k = 0; k < check_steps(m.topology); ++k)
-                rounded.base_table[k * m.slots] = static_cast<float>(b.base_table[(begin + k) * m.slots]);
+                rounded.rows<OfBase::Field>()[k * m.slots] =
+                    static_cast<float>(b.rows<OfBase::Field>()[(begin + k) * m.slots]);
             run(rounded);
             give_lanes(m.topology, m.single, m.bundle, slot, slot + 1, true);
         } else {

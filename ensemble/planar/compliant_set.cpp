@@ -1,5 +1,6 @@
-#include "ensemble/engine/compliant_set.hpp"
+#include "ensemble/planar/compliant_set.hpp"
 
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 
 namespace stylobate {
@@ -14,7 +15,7 @@ void CompliantSet::fill()
 {
     for (int lane = 0; lane < set_.lanes() && !waiting_.empty(); ++lane)
         if (set_.free(lane)) {
-            set_.load(lane, waiting_.back());
+            take_over(set_, lane, waiting_.back());
             waiting_.pop_back();
         }
 }

@@ -2,7 +2,7 @@
 /// What goes between a bundle that is stepped in single precision and that in double precision, which the host writes
 /// and reads: on the processor for many lanes at once, on a device for one slot.
 
-#include "ensemble/engine/watch.hpp"
+#include "ensemble/planar/planar_watch.hpp"
 #include "kernels/bundle.hpp"
 
 #include <initializer_list>
@@ -43,7 +43,7 @@ STYLOBATE_INLINE void round_lanes(const Topology& topology, const Bundle& host, 
     const auto registers = static_cast<long>(bundle_registers(topology) - table_registers(topology));
     for (long i = 0; i < registers; ++i)
         for (int lane = first; lane < last; ++lane)
-            single.blocks[i * host.lanes + lane] = static_cast<float>(host.blocks[i * host.lanes + lane]);
+            single.begin[0][i * host.lanes + lane] = static_cast<float>(host.begin[0][i * host.lanes + lane]);
     for (int block = 0; block < topology.blocks; ++block)
         detail::each_compensated([&](auto field, auto remainder) {
             for (int lane = first; lane < last; ++lane) {
