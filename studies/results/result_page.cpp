@@ -10,7 +10,6 @@
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/results/cell_outcomes.hpp"
-#include "studies/results/fall_order.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/app/command.hpp"
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
 #include "studies/version.hpp"
+#include "studies/workflow/console.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,7 +33,8 @@ struct Options {
     std::vector<double> pulse; ///< distance and velocity of the one that is to be written
     fs::path to;
     std::vector<std::string> names;
-    CommonOptions common;
+    Machine machine;
+    bool quiet = false;
 };
 
 std::vector<PageCase> chosen(const std::vector<std::string>& names)
@@ -89,10 +90,10 @@ int run(Options o)
     o.place.data = fs::absolute(o.place.data);
     o.place.docs = fs::absolute(o.place.docs);
     o.place.studies = o.place.studies.empty() ? o.place.docs : fs::absolute(o.place.studies);
-    o.place.run = {o.common.isa(), o.common.thread_count()};
+    o.place.run = {o.machine.isa(), o.machine.thread_count()};
     if (!o.place.predict.empty())
         o.place.predict = fs::absolute(o.place.predict);
-    o.place.quiet = o.common.quiet;
+    o.place.quiet = o.quiet;
     for (const PageCase& c : chosen(o.names)) {
         if (!fs::is_directory(o.place.data / c.folder)) {
             fmt::print("{}: skipped, there is no folder {}\n", c.name, (o.place.data / c.folder).string());
@@ -125,9 +126,9 @@ int main(int argc, char** argv)
     app.add_option(
         "--predict", o.place.predict,
         "a table of planar impacts: writes the predictions of the fitted laws beside the page planar_impact");
-    app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
+    app.add_option("--threads", o.machine.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
-    app.add_flag("--quiet", o.common.quiet, "no progress: only errors");
+    app.add_flag("--quiet", o.quiet, "no progress: only errors");
     app.set_version_flag("--version", code_version());
     try {
         app.parse(argc, argv);

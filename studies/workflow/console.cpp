@@ -1,13 +1,11 @@
-#include "studies/app/console.hpp"
+#include "studies/workflow/console.hpp"
 
 #include "io/files/utf8.hpp"
-#include "studies/report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <unistd.h>
@@ -32,12 +30,6 @@ void say(const std::string& text)
     std::fflush(stderr);
 }
 
-void note(bool quiet, const std::string& line)
-{
-    if (!quiet)
-        say(line + "\n");
-}
-
 void say_error(std::string message)
 {
     std::ranges::replace_if(
@@ -49,15 +41,34 @@ void say_error(std::string message)
     say(fmt::format("stylobate: {}\n", message));
 }
 
-Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1)
+Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Console::~Console()
+{
+    clear_line();
+}
+
+void Console::begin()
 {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 }
 
-Console::~Console()
+void Console::note(const std::string& line)
 {
+    if (quiet_)
+        return;
     clear_line();
+    say(line + "\n");
+}
+
+void Console::counted(const std::string& line, const Progress& p)
+{
+    constexpr double between_lines_s = 10;
+    if (p.done == 0 || (p.seconds < next_s_ && p.done < p.total))
+        return;
+    next_s_ = p.seconds + between_lines_s;
+    note(line);
 }
 
 void Console::clear_line()
@@ -93,31 +104,6 @@ void Console::warn(const std::string& text)
 bool Console::stop_requested()
 {
     return interrupted;
-}
-
-std::string progress_line(const Progress& p)
-{
-    const std::string of = !p.open_end      ? fmt::format(" of {}", p.total)
-                           : p.expected > 0 ? fmt::format(" of about {}", std::max(p.expected, p.done))
-                                            : "";
-    std::string line = fmt::format("{}{} realizations", p.done, of);
-    if (p.rate > 0)
-        line += ", " + rate_text(p.rate) + "/s";
-    const std::uint64_t end = p.open_end ? p.expected : p.total; // 0: unknown
-    if (p.rate > 0 && p.done < end)
-        line += fmt::format(", {}{} left", p.open_end ? "about " : "",
-                            duration_text(static_cast<double>(end - p.done) / p.rate));
-    if (const SimulatedTime& t = p.furthest; p.done == 0 && t.reached_s > 0) { // a realization takes long
-        line += fmt::format(", {:.3g} of at most {:.3g} s simulated", t.reached_s, t.latest_end_s);
-        if (p.seconds > 0 && p.total == 1)
-            line += fmt::format(", at most {} left", duration_text((t.latest_end_s / t.reached_s - 1) * p.seconds));
-    }
-    if (!std::isnan(p.share))
-        line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})", 100 * p.share, 100 * p.share_lower,
-                            100 * p.share_upper);
-    if (p.invalid > 0)
-        line += fmt::format(", {} invalid", p.invalid);
-    return line;
 }
 
 } // namespace stylobate

@@ -1,4 +1,4 @@
-#include "studies/app/output_path.hpp"
+#include "studies/workflow/output_path.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/app/file_kind.hpp"
+#include "studies/workflow/file_kind.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"

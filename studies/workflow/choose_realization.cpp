@@ -1,4 +1,4 @@
-#include "studies/app/choose_realization.hpp"
+#include "studies/workflow/choose_realization.hpp"
 
 #include "ensemble/model/input_error.hpp"
 
