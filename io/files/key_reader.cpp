@@ -235,12 +235,6 @@ std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uin
     refuse(key, "is outside " + range, hint);
 }
 
-std::uint64_t KeyReader::whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
-                                  const std::string& hint) const
-{
-    return has(key) ? whole(key, low, high, hint) : absent;
-}
-
 std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,
                                                          const std::string& hint) const
 {

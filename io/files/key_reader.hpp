@@ -89,8 +89,6 @@ public:
     /// A whole number; 1e6 counts as one. @pre high is at most 2^63 - 1
     std::uint64_t whole(std::string_view key, std::uint64_t low, std::uint64_t high,
                         const std::string& hint = {}) const;
-    std::uint64_t whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
-                           const std::string& hint = {}) const;
 
     /// Whole numbers in brackets, at least one; none if the key is absent.
     std::vector<std::uint64_t> whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,

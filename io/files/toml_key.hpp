@@ -31,7 +31,7 @@ struct Range {
     std::string text() const;
     /// "Did you mean 0.155 (155 mm) or 1.55 (155 cm)?" of a value outside; empty: in none of those units it is inside.
     std::string meant(double value) const;
-    /// The same as `text` for a message about a value outside: of a range that begins just above 0 it states the least
+    /// The text for a message about a value outside: of a range that begins just above 0 it states the least
     /// value.
     std::string text_for(double value) const;
 

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/file_handle.hpp"
-#include "io/files/hdf5_label.hpp"
+#include "io/files/hdf5.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_seal.hpp"
 
@@ -101,7 +101,7 @@ std::string beginning_of(const fs::path& file)
 RecognisedFile of_sealed(const fs::path& file)
 {
     check_seal(FileHandle::open(file, false), file.string()); // before the library meets what may be damaged
-    const Hdf5Label label = hdf5_label(file);
+    const hdf5::Label label = hdf5::label_of(file);
     if (label.format == "stylobate-diagnosis")
         return {FileKind::diagnosis, ""};
     if (label.format == "stylobate-comparison")
@@ -115,7 +115,7 @@ RecognisedFile of_sealed(const fs::path& file)
 
 RecognisedFile of_hdf5(const fs::path& file)
 {
-    const std::string format = hdf5_label(file).format;
+    const std::string format = hdf5::label_of(file).format;
     return {format == "stylobate-calibration" ? FileKind::calibration
             : format == "stylobate-measured"  ? FileKind::campaign
                                               : FileKind::unknown,
