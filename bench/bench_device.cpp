@@ -7,7 +7,7 @@
 #include "ensemble/engine/slot_tasks.hpp"
 #include "ensemble/engine/slots.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "ensemble/statics/rigid_step.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <benchmark/benchmark.h>
 
