@@ -1,7 +1,7 @@
 #include "studies/results/cell_outcomes.hpp"
 
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 #include "studies/report/json.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "io/files/suggest.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"

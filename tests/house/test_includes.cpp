@@ -62,8 +62,6 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/store", {"io/files", "io/tables"}},
     {"io/sealed", {"io/files", "io/store", "io/tables"}},
     {"io/plots", {"io/files", "io/store", "io/tables"}},
-    {"io/drawing", {"io/plots"}},
-    {"io/curves", {"io/plots"}},
 
     {"studies", {}},
     {"studies/report", {"studies"}},

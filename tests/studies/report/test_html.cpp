@@ -164,7 +164,7 @@ TEST(HtmlMap, PutsCellsWhereTheyLie)
     map.x_edges = {0, 0.25, 1};
     map.y_edges = {0, 0.5, 0.75, 1};
     map.value = {0, 0.5, 1, std::nan(""), 0.5, 1};
-    map.lines = {{{{{0, 0}, {1, 1}}}, "0.5", {0.5, 0.5}}};
+    map.contours = {{0.5, {{{0, 0}, {1, 1}}}, {0.5, 0.5}}};
     const std::string svg = map_svg(map).markup;
     EXPECT_EQ(count_of(svg, "data-cell="), 6U);
     EXPECT_EQ(count_of(svg, "class=\"empty-cell\""), 1U); // of which nothing is known

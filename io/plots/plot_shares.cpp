@@ -1,4 +1,4 @@
-#include "io/curves/plot_shares.hpp"
+#include "io/plots/plot_shares.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"

@@ -1,4 +1,4 @@
-#include "io/drawing/drawing_sheet.hpp"
+#include "io/plots/drawing_sheet.hpp"
 
 #include <fmt/format.h>
 

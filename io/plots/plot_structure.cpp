@@ -1,6 +1,6 @@
-#include "io/drawing/plot_structure.hpp"
+#include "io/plots/plot_structure.hpp"
 
-#include "io/drawing/drawing_sheet.hpp"
+#include "io/plots/drawing_sheet.hpp"
 
 #include <fmt/format.h>
 
