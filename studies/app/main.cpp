@@ -8,10 +8,7 @@
 #include "studies/cluster/together.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/results/kept_animations.hpp"
-#include "studies/usage/bash_completion.hpp"
-#include "studies/usage/checked_words.hpp"
-#include "studies/usage/manual_page.hpp"
-#include "studies/usage/usage_notes.hpp"
+#include "studies/usage/usage.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>

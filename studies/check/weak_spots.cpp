@@ -7,7 +7,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "io/files/suggest.hpp"
 #include "io/study/study_accuracy.hpp"
-#include "studies/check/trial_order.hpp"
+#include "studies/check/study_trial.hpp"
 #include "studies/experiment/motions.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "io/files/suggest.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/verify/replay_sample.hpp"
+#include "studies/verify/recorded_rounds.hpp"
 
 #include <fmt/format.h>
 

@@ -9,9 +9,7 @@
 #include "studies/results/results.hpp"
 #include "studies/verify/count_checks.hpp"
 #include "studies/verify/recorded_rounds.hpp"
-#include "studies/verify/replay_sample.hpp"
-#include "studies/verify/row_checks.hpp"
-#include "studies/verify/table_checks.hpp"
+#include "studies/verify/value_checks.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

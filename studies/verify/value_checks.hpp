@@ -1,8 +1,10 @@
 #pragma once
-/// Rows of a results file, against the study, each other, and the same realization run again.
+/// Values of a results file: rows against the study, each other, and the same realization run again; tables against
+/// those that the rows or counts make again.
 
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
+#include "io/tables/table.hpp"
 #include "studies/verify/verification.hpp"
 
 namespace stylobate {
@@ -20,7 +22,11 @@ RowChecks check_rows(const Study& study, const ResultReader& reader);
 /// @pre both are of one study
 void compare_rows(const ResultHeader& header, const ResultRow& stored, const ResultRow& again, FileCheck& check);
 
-/// The same of two trajectories; of each list the first difference.
+/// Adds the first difference of each list of two trajectories.
 void compare_trajectories(const Trajectory& stored, const Trajectory& again, FileCheck& check);
+
+/// Adds each value of a table of which the bits differ.
+void compare_surfaces(const SurfaceTable& stored, const SurfaceTable& again, FileCheck& check);
+void compare_tables(const Table& stored, const Table& again, FileCheck& check);
 
 } // namespace stylobate

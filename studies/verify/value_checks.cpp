@@ -1,8 +1,7 @@
-#include "studies/verify/row_checks.hpp"
+#include "studies/verify/value_checks.hpp"
 
 #include "io/files/suggest.hpp"
 #include "io/store/result_layout.hpp"
-#include "studies/verify/compared.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +10,55 @@
 #include <cmath>
 #include <functional>
 #include <type_traits>
+#include <variant>
 
 namespace stylobate {
 
 namespace {
+
+/// Of numbers: bit by bit, so that NaN is NaN, and 0 is not -0.
+template <class Value>
+bool same_value(const Value& a, const Value& b)
+{
+    if constexpr (std::is_same_v<Value, double>)
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    else
+        return a == b;
+}
+
+template <class Value>
+std::string shown(const Value& value)
+{
+    if constexpr (std::is_enum_v<Value>)
+        return to_string(value);
+    else
+        return fmt::format("{}", value);
+}
+
+/// Adds each difference of two lists, or the first one alone.
+template <class List>
+void compare_lists(const std::string& where, std::optional<std::uint64_t> realization, const List& stored,
+                   const List& again, FileCheck& check, bool first_alone = false)
+{
+    if (stored.size() != again.size()) {
+        check.add(
+            {where, realization, fmt::format("{} values", stored.size()), fmt::format("{} values", again.size())});
+        return;
+    }
+    for (std::size_t i = 0; i < stored.size(); ++i)
+        if (!same_value(stored[i], again[i])) {
+            check.add({fmt::format("{}[{}]", where, i), realization, shown(stored[i]), shown(again[i])});
+            if (first_alone)
+                return;
+        }
+}
+
+template <class Value>
+void compare_values(const std::string& where, const Value& stored, const Value& again, FileCheck& check)
+{
+    if (!same_value(stored, again))
+        check.add({where, std::nullopt, shown(stored), shown(again)});
+}
 
 /// Numbers of a row that may be negative; all others may not.
 bool may_be_negative(std::string_view path)
@@ -191,16 +235,7 @@ void compare_rows(const ResultHeader& header, const ResultRow& stored, const Res
 void compare_trajectories(const Trajectory& stored, const Trajectory& again, FileCheck& check)
 {
     const auto lists = [&](const char* name, const auto& a, const auto& b) {
-        const std::string where = fmt::format("trajectories/{}/{}", stored.index, name);
-        if (a.size() != b.size()) {
-            check.add({where, stored.index, fmt::format("{} values", a.size()), fmt::format("{} values", b.size())});
-            return;
-        }
-        for (std::size_t i = 0; i < a.size(); ++i)
-            if (!same_value(a[i], b[i])) {
-                check.add({fmt::format("{}[{}]", where, i), stored.index, shown(a[i]), shown(b[i])});
-                return;
-            }
+        compare_lists(fmt::format("trajectories/{}/{}", stored.index, name), stored.index, a, b, check, true);
     };
     lists("time_s", stored.time_s, again.time_s);
     lists("x_m", stored.x_m, again.x_m);
@@ -215,6 +250,59 @@ void compare_trajectories(const Trajectory& stored, const Trajectory& again, Fil
     lists("blocks", stored.name, again.name);
     if (stored.role != again.role)
         check.add({fmt::format("trajectories/{}/role", stored.index), stored.index, "other roles", "the study's"});
+}
+
+void compare_surfaces(const SurfaceTable& stored, const SurfaceTable& again, FileCheck& check)
+{
+    const auto lists = [&](const char* where, const auto& a, const auto& b) {
+        compare_lists(where, std::nullopt, a, b, check);
+    };
+    lists("surface/frequency_hz", stored.frequency_hz, again.frequency_hz);
+    lists("surface/pga_m_s2", stored.pga_m_s2, again.pga_m_s2);
+    lists("surface/trials", stored.trials, again.trials);
+    lists("surface/collapses", stored.collapses, again.collapses);
+    lists("surface/probability", stored.probability, again.probability);
+    lists("surface/lower", stored.lower, again.lower);
+    lists("surface/upper", stored.upper, again.upper);
+    lists("surface/method", stored.method, again.method);
+    compare_values("surface/interval", stored.interval, again.interval, check);
+    compare_values("surface/half_width", stored.half_width, again.half_width, check);
+    compare_values("surface/rounds", stored.rounds, again.rounds, check);
+}
+
+void compare_tables(const Table& stored, const Table& again, FileCheck& check)
+{
+    for (const Table::Column& column : again.columns()) {
+        const std::string where = again.name() + "/" + column.name;
+        const auto found = std::ranges::find(stored.columns(), column.name, &Table::Column::name);
+        if (found == stored.columns().end() || found->values.index() != column.values.index() ||
+            found->shape != column.shape) {
+            check.add({where, std::nullopt, found == stored.columns().end() ? "nothing" : "another type or shape",
+                       "what the realizations make"});
+            continue;
+        }
+        std::visit(
+            [&](const auto& values) {
+                compare_lists(where, std::nullopt, std::get<std::remove_cvref_t<decltype(values)>>(found->values),
+                              values, check);
+            },
+            column.values);
+    }
+    for (const auto& [name, value] : again.attributes()) {
+        const auto found =
+            std::ranges::find(stored.attributes(), name, &std::pair<std::string, Table::Attribute>::first);
+        const std::string where = fmt::format("attribute {} of {}", name, again.name());
+        if (found == stored.attributes().end() || found->second.index() != value.index()) {
+            check.add({where, std::nullopt, "nothing", "what the realizations make"});
+            continue;
+        }
+        std::visit(
+            [&](const auto& expected) {
+                compare_values(where, std::get<std::remove_cvref_t<decltype(expected)>>(found->second), expected,
+                               check);
+            },
+            value);
+    }
 }
 
 } // namespace stylobate
