@@ -122,18 +122,20 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"library", {}},
     {"studies/evidence/picture", {}},
     {"studies/evidence/claims",
-     {"studies", "studies/experiment", "studies/kinds/surface", "studies/report", "studies/workflow"}},
+     {"studies", "studies/evidence/picture", "studies/experiment", "studies/kinds/surface", "studies/report",
+      "studies/workflow"}},
     {"studies/evidence/verification", {"studies", "studies/evidence/picture"}},
     {"studies/evidence/verification/cases", {"studies/evidence/picture", "studies/evidence/verification"}},
     {"studies/evidence/measured/parts", {}},
-    {"studies/evidence/measured/boulders", {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
+    {"studies/evidence/measured/boulders",
+     {"studies", "studies/evidence/measured/parts", "studies/evidence/picture", "studies/evidence/verification"}},
     {"studies/evidence/measured/double_pulse",
      {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
     {"studies/evidence/measured/planar_impact",
      {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
     {"studies/evidence/measured",
      {"studies", "studies/evidence/measured/boulders", "studies/evidence/measured/double_pulse",
-      "studies/evidence/measured/parts", "studies/workflow"}},
+      "studies/evidence/measured/parts", "studies/evidence/picture", "studies/workflow"}},
 };
 
 /// Floors below, which every room of a floor may include. Who is not listed here may include everything.

@@ -1,17 +1,13 @@
 /// `stylobate_claims`: runs claim files and writes the page of their verdicts.
 
-#include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/evidence/claims/claim_figure.hpp"
-#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim.hpp"
 #include "studies/evidence/claims/claim_page.hpp"
-#include "studies/evidence/claims/claim_run.hpp"
+#include "studies/evidence/claims/sample.hpp"
+#include "studies/evidence/picture/page_program.hpp"
 #include "studies/report/words.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/console.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -97,10 +93,8 @@ int run(const Options& o)
     for (std::size_t i = 0; i < files.size(); ++i)
         for (const Figure& figure : files[i].figures)
             draw_figure(files[i], figure, curves_of(files[i], figure, samples[i]), images / (figure.name + ".png"));
-    AtomicFile out(page);
-    out.write(claims_page(std::move(results), images.lexically_relative(page.parent_path()).generic_string(),
-                          code_version()));
-    out.commit();
+    write_whole(page, claims_page(std::move(results), images.lexically_relative(page.parent_path()).generic_string(),
+                                  code_version()));
     if (!o.quiet)
         fmt::print("{}\n", o.page);
     return exit_done;
@@ -126,16 +120,5 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_flag("--quiet", o.quiet, "no progress: only errors");
     app.set_version_flag("--version", code_version());
-    try {
-        app.parse(argc, argv);
-        return run(o);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_done : exit_bad_input;
-    } catch (const InputError& error) {
-        fmt::print(stderr, "stylobate_claims: {}\n", error.what());
-        return exit_bad_input;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stylobate_claims: {}\n", error.what());
-        return exit_failed;
-    }
+    return page_program(app, argc, argv, "stylobate_claims", [&] { return run(o); });
 }

@@ -1,10 +1,15 @@
-#include "studies/evidence/measured/parts/score.hpp"
+#include "studies/evidence/measured/parts/forecast.hpp"
+
+#include "ensemble/estimators/fragility/binomial_regression.hpp"
+#include "ensemble/model/input_error.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <random>
+#include <set>
 
 namespace stylobate::measured {
 
@@ -110,6 +115,41 @@ Answers answers_worth(const std::vector<bool>& predicted, const std::vector<bool
         falls[predicted[i]] += fell[i];
     }
     return {(falls[0] + 0.5) / (tests[0] + 1), (falls[1] + 0.5) / (tests[1] + 1)};
+}
+
+std::vector<bool> fitting_half(const std::vector<std::string>& group)
+{
+    const std::set<std::string> names(group.begin(), group.end());
+    std::vector<bool> fits;
+    for (const std::string& name : group)
+        fits.push_back(std::distance(names.begin(), names.find(name)) % 2 == 0);
+    return fits;
+}
+
+double Logistic::probability(const std::vector<double>& x) const
+{
+    double sum = coefficients.front();
+    for (std::size_t i = 0; i < x.size(); ++i)
+        sum += coefficients[i + 1] * x[i];
+    return 1 / (1 + std::exp(-sum));
+}
+
+Logistic fit_logistic(const std::vector<std::vector<double>>& x, const std::vector<bool>& event)
+{
+    assert(!x.empty() && x.size() == event.size() && "an event to each observation");
+    const auto n = static_cast<Eigen::Index>(x.size());
+    Eigen::MatrixXd predictors(n, static_cast<Eigen::Index>(x.front().size()) + 1);
+    BinomialCounts counts{Eigen::VectorXd::Ones(n), Eigen::VectorXd(n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        predictors(i, 0) = 1;
+        for (Eigen::Index j = 1; j < predictors.cols(); ++j)
+            predictors(i, j) = x[static_cast<std::size_t>(i)][static_cast<std::size_t>(j - 1)];
+        counts.reached(i) = event[static_cast<std::size_t>(i)] ? 1 : 0;
+    }
+    const BinomialFit fit = fit_binomial(Link::logit, predictors, counts);
+    if (fit.maximum != Maximum::inside)
+        throw InputError("a logistic rule separates the events: no coefficients are the most likely ones");
+    return {std::vector<double>(fit.coefficients.data(), fit.coefficients.data() + fit.coefficients.size())};
 }
 
 } // namespace stylobate::measured

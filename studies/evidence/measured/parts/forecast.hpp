@@ -1,5 +1,6 @@
 #pragma once
-/// How good probabilities of falling are, against what fell.
+/// Forecasts of falling: which tests a model may be fitted on, a rule without mechanics, and how good probabilities
+/// are, against what fell.
 
 #include <cstddef>
 #include <cstdint>
@@ -56,5 +57,22 @@ struct Answers {
     double of(bool fall) const { return fall ? after_fall : after_stand; }
 };
 Answers answers_worth(const std::vector<bool>& predicted, const std::vector<bool>& fell);
+
+/// Which tests a model may be fitted on: whole ground motions, by a rule that is fixed before anything is looked at.
+/// The distinct groups are put in the order of their names; the first, third, fifth and so on are for fitting, the
+/// others are held out. Tests of one group never part.
+/// @param group of each test, such as its ground motion   @return (tests) true: for fitting
+std::vector<bool> fitting_half(const std::vector<std::string>& group);
+
+/// The probability of an event from a few numbers: P = 1 / (1 + exp(-(b_0 + b_1 x_1 + ...))).
+struct Logistic {
+    std::vector<double> coefficients; ///< b_0 first
+    double probability(const std::vector<double>& x) const;
+};
+
+/// By maximum likelihood.
+/// @param x (observations x numbers)   @pre as many of each, at least one observation
+/// @throws InputError if the numbers separate the events
+Logistic fit_logistic(const std::vector<std::vector<double>>& x, const std::vector<bool>& event);
 
 } // namespace stylobate::measured
