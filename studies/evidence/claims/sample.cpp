@@ -297,9 +297,8 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
 {
     Sample sample;
     const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz = study.contact.form == ContactForm::rigid
-                       ? std::numeric_limits<double>::infinity()
-                       : first_mode_of_paper(nominal).frequency_hz;
+    sample.f1_hz = study.contact.form == ContactForm::rigid ? std::numeric_limits<double>::infinity()
+                                                            : first_mode_of_paper(nominal).frequency_hz;
     sample.rigid_m_s2 = rigid_limit(study, nominal);
     if (study.surface) {
         for (int i = 0; i < study.surface->frequency_hz.count; ++i)
