@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
-#include "studies/verify/verify_file.hpp"
+#include "studies/verify/verification.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "studies/workflow/output_path.hpp"
 

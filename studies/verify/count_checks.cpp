@@ -1,4 +1,4 @@
-#include "studies/verify/count_checks.hpp"
+#include "studies/verify/value_checks.hpp"
 
 #include "io/files/suggest.hpp"
 #include "studies/experiment/limit_state.hpp"

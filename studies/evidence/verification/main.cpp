@@ -5,7 +5,7 @@
 #include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
 #include "studies/evidence/picture/page_program.hpp"
-#include "studies/evidence/verification/page.hpp"
+#include "studies/evidence/verification/case.hpp"
 #include "studies/version.hpp"
 
 #include <chrono>

@@ -95,6 +95,12 @@ inline Realization single(const Stone& stone, const Bed& bed, double step_s, dou
     return stack({stone}, bed, step_s, base_width);
 }
 
+/// A stone that moves vertically on its bed: a mass on a spring of rate w, 1 kg on 1 m, tall enough to let it sink in.
+inline Realization oscillator(double w, double xi, double step_s)
+{
+    return single({1, 20, 1}, {w * w, xi, 1}, step_s, 2);
+}
+
 /// p = sqrt(3 g / (4 R)) of a rigid block [rad/s], and its slenderness angle [rad].
 inline double rocking_rate(const Stone& s)
 {

@@ -3,7 +3,7 @@
 
 #include "ensemble/statics/limit_analysis.hpp"
 #include "studies/evidence/verification/model.hpp"
-#include "studies/evidence/verification/page.hpp"
+#include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 
 #include <gtest/gtest.h>

@@ -156,11 +156,6 @@ std::string size_text(const SizedBlock& s)
     return fmt::format("{:.0f} x {:.0f} mm", 1000 * s.block.slenderness * s.block.height_m, 1000 * s.block.height_m);
 }
 
-std::string estimate_text(const Estimate& e)
-{
-    return fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", e.mean, e.low, e.high);
-}
-
 /// A reading of what the block was: a model of it and its forecasts of the held-out tests.
 struct Reading {
     SizedBlock sized;
@@ -293,9 +288,10 @@ std::string reading_table(const PulseResults& r, std::size_t which)
                               "scores on the held-out half relative to the baseline: {} of right answers, {} of the "
                               "Brier score, {} of the log score (95 % "
                               "intervals, bootstrap over the distances BD).\n\n",
-                              r.choices[r.likeliest[which]].name, estimate_text(difference(after, before, share_right)),
-                              estimate_text(difference(after, before, brier)),
-                              estimate_text(difference(after, before, log_loss)));
+                              r.choices[r.likeliest[which]].name,
+                              signed_interval(difference(after, before, share_right)),
+                              signed_interval(difference(after, before, brier)),
+                              signed_interval(difference(after, before, log_loss)));
 }
 
 /// In words, whether a gain of the Brier score is one.
@@ -337,8 +333,8 @@ std::string opening(const PulseResults& r)
         "without mechanics, is right in {:.3f} of the held-out tests, the published simulation in {:.3f}.\n\n",
         code_version(), r.choices.front().plain.false_falls,
         std::lround(r.choices.front().plain.right * static_cast<double>(r.measured.size())), r.measured.size(),
-        r.choices[r.likeliest[same_size]].name, verdict(gain[same_size]), estimate_text(gain[same_size]),
-        r.choices[r.likeliest[free_size]].name, verdict(gain[free_size]), estimate_text(gain[free_size]),
+        r.choices[r.likeliest[same_size]].name, verdict(gain[same_size]), signed_interval(gain[same_size]),
+        r.choices[r.likeliest[free_size]].name, verdict(gain[free_size]), signed_interval(gain[free_size]),
         size_text(r.choices.front().reading[free_size].sized), score(r.choices.front().reading[free_size].held).right,
         score(r.by_rule).right, score(r.by_published).right);
 }
@@ -408,10 +404,10 @@ std::string without_mechanics(const PulseResults& r)
                              s.brier, s.log);
     }
     for (const std::size_t which : {same_size, free_size})
-        text +=
-            fmt::format("{}he best choice with {} changes the Brier score relative to this rule by {}",
-                        which == same_size ? "\nT" : ", t", which == same_size ? "that size" : "a free size",
-                        estimate_text(difference(r.choices[r.likeliest[which]].reading[which].held, r.by_rule, brier)));
+        text += fmt::format(
+            "{}he best choice with {} changes the Brier score relative to this rule by {}",
+            which == same_size ? "\nT" : ", t", which == same_size ? "that size" : "a free size",
+            signed_interval(difference(r.choices[r.likeliest[which]].reading[which].held, r.by_rule, brier)));
     text += ".\n\n";
     return text;
 }

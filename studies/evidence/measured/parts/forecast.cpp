@@ -3,6 +3,8 @@
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
 #include "ensemble/model/input_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -55,6 +57,11 @@ Scores score(const std::vector<Forecast>& forecasts)
     s.brier /= n;
     s.log /= n;
     return s;
+}
+
+std::string signed_interval(const Estimate& e)
+{
+    return fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", e.mean, e.low, e.high);
 }
 
 Estimate grouped_mean(const std::vector<double>& values, const std::vector<std::string>& groups, int draws,

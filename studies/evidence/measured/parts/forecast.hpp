@@ -34,6 +34,8 @@ Scores score(const std::vector<Forecast>& forecasts);
 struct Estimate {
     double mean = 0, low = 0, high = 0;
 };
+/// "+0.031 (+0.012 to +0.051)"
+std::string signed_interval(const Estimate& estimate);
 
 /// Mean of values with the percentile bootstrap over groups: groups are drawn with replacement, each with all of its
 /// values.
