@@ -27,9 +27,6 @@ double edge(const std::function<bool(double)>& yes, double low, double high)
     return 0.5 * (low + high);
 }
 
-using Real = long double;
-constexpr Real pi = std::numbers::pi_v<Real>;
-
 /// From stick to stick, piece by piece; each piece in closed form, its end by halving.
 class Slider {
 public:
