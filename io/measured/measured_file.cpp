@@ -1,6 +1,5 @@
 #include "io/measured/measured_file.hpp"
 
-#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_layout.hpp"
 
 #include <system_error>
@@ -16,17 +15,6 @@ Campaign read_campaign(const std::filesystem::path& path)
     check_shapes(campaign);
     check_campaign(campaign);
     return campaign;
-}
-
-void write_campaign(const Campaign& campaign, const std::filesystem::path& path)
-{
-    Campaign copy = campaign;
-    copy.source = path.string();
-    check_shapes(copy);
-    if (path.extension() == ".h5" || path.extension() == ".hdf5")
-        write_measured_hdf5(copy, path);
-    else
-        write_measured_csv(copy, path);
 }
 
 } // namespace stylobate

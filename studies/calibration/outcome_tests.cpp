@@ -17,7 +17,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 namespace stylobate {
 
@@ -198,16 +197,12 @@ OutcomeTests outcome_tests(const Campaign& campaign, const std::vector<std::size
 
 OutcomeTests outcome_tests(const OutcomeTable& table, const Study& study)
 {
-    using Row = std::tuple<std::string, double, double, double, double>;
     OutcomeTests out;
     TableShakings shakings(table, study);
-    std::map<Row, std::size_t> known;
+    std::map<decltype(MeasuredOutcome().motion()), std::size_t> known;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const MeasuredOutcome& row = table.rows[i];
-        const auto [found, first] =
-            known.emplace(Row{row.motion_file, row.amplitude_m.value_or(0), row.frequency_hz.value_or(0),
-                              row.pga_m_s2.value_or(0), row.pgv_over_pga_s.value_or(0)},
-                          out.shakings.size());
+        const auto [found, first] = known.emplace(row.motion(), out.shakings.size());
         if (first)
             out.shakings.push_back(shakings.of(row));
         out.tests.push_back({i, found->second, row.fell});
