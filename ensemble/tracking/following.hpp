@@ -68,6 +68,26 @@ struct Readings {
     std::vector<double> theta_rad;
 };
 
+/// What simulations along measured motion have cost.
+struct SimulationCount {
+    std::uint64_t simulations = 0;        ///< of whole runs
+    std::uint64_t window_simulations = 0; ///< of windows that start from measured states
+    std::uint64_t block_steps = 0;
+
+    SimulationCount& operator+=(const SimulationCount& other)
+    {
+        simulations += other.simulations;
+        window_simulations += other.window_simulations;
+        block_steps += other.block_steps;
+        return *this;
+    }
+    SimulationCount operator-(const SimulationCount& other) const
+    {
+        return {simulations - other.simulations, window_simulations - other.window_simulations,
+                block_steps - other.block_steps};
+    }
+};
+
 struct FollowResult {
     std::vector<Readings> windows; ///< in the order of the job's
     Readings watched;              ///< of the observer

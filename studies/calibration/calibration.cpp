@@ -7,8 +7,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration_evidence.hpp"
 #include "studies/calibration/calibration_search.hpp"
-#include "studies/calibration/kept_evidence.hpp"
-#include "studies/calibration/shared_evidence.hpp"
+#include "studies/calibration/evidence_portions.hpp"
 #include "studies/diagnosis/tests/friction_judgement.hpp"
 #include "studies/version.hpp"
 #include "studies/windows/window_motions.hpp"
@@ -252,7 +251,7 @@ void search_forms(Calibration& result, Begin begin, const CalibrationOptions& op
     for (std::size_t f = 1; f < result.forms.size(); ++f)
         if (merit(result.forms[f]) > merit(result.forms[result.best]))
             result.best = f;
-    const EvidenceCost cost = evidence.cost();
+    const SimulationCount cost = evidence.cost();
     result.parameter_sets = evidence.candidates();
     result.restored_sets = evidence.restored();
     result.simulations = cost.simulations;
@@ -303,14 +302,12 @@ std::vector<FitKey> checked_keys(const Study& base, const CalibrationOptions& op
 void show_windows(Calibration& result, const Campaign& campaign, const Study& nominal,
                   const CalibrationOptions& options, const RunOptions& run, Observer& observer)
 {
-    WindowOptions windows;
-    windows.window_s = options.window_s;
-    windows.runs = options.runs;
+    const WindowOptions windows{options.window_s, options.runs, {}};
     WindowComparison comparison(campaign, windows);
-    const ModelVariant best{{}, result.forms[result.best].study, {}, {}}, start{{}, nominal, {}, {}};
+    const ModelVariant best{result.forms[result.best].study}, start{nominal};
     StopOnly stop_only(observer);
     const std::vector<WindowResiduals> residuals = comparison.residuals({best}, run, stop_only);
-    SimulationCount cost{comparison.simulations(), comparison.window_simulations(), comparison.block_steps()};
+    SimulationCount cost = comparison.cost();
     if (!residuals.empty())
         result.motion =
             window_motions(choose_windows(comparison.windows(),

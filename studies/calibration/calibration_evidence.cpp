@@ -29,7 +29,7 @@ public:
     {
         std::vector<ModelVariant> variants;
         for (const Study& study : candidates)
-            variants.push_back({{}, study, {}, {}});
+            variants.push_back({study});
         const std::vector<WindowResiduals> z = comparison_.residuals(variants, options, observer);
         if (z.size() != candidates.size())
             return std::nullopt;
@@ -54,10 +54,7 @@ public:
         return comparison_.scores(residuals_[candidate], *scales_[scales_of]);
     }
 
-    EvidenceCost cost() const override
-    {
-        return {comparison_.simulations(), comparison_.window_simulations(), comparison_.block_steps()};
-    }
+    SimulationCount cost() const override { return comparison_.cost(); }
 
     bool take(const Predictions& predictions) override
     {
@@ -148,7 +145,7 @@ public:
         return scores_[candidate];
     }
     std::vector<double> scores(std::size_t candidate, std::size_t) const override { return scores_[candidate]; }
-    EvidenceCost cost() const override { return cost_; }
+    SimulationCount cost() const override { return cost_; }
     bool take(const Predictions& predictions) override
     {
         for (const std::vector<double>& scores : predictions)
@@ -164,7 +161,7 @@ private:
     const std::uint64_t ensemble_;
     std::vector<std::size_t> runs_;           ///< (tests)
     std::vector<std::vector<double>> scores_; ///< (candidates x tests)
-    EvidenceCost cost_;
+    SimulationCount cost_;
 };
 
 } // namespace
@@ -172,10 +169,7 @@ private:
 std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
                                                       double window_s)
 {
-    WindowOptions options;
-    options.window_s = window_s;
-    options.runs = runs;
-    WindowComparison comparison(campaign, options);
+    WindowComparison comparison(campaign, {window_s, runs, {}});
     if (comparison.windows().empty())
         return nullptr;
     return std::make_unique<HistoryEvidence>(std::move(comparison));

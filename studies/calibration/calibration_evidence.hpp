@@ -5,6 +5,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/tracking/following.hpp"
 #include "studies/calibration/outcome_tests.hpp"
 
 #include <cstdint>
@@ -13,26 +14,6 @@
 #include <vector>
 
 namespace stylobate {
-
-/// What predictions have cost.
-struct EvidenceCost {
-    std::uint64_t simulations = 0; ///< runs along the measurement, or realizations
-    std::uint64_t window_simulations = 0;
-    std::uint64_t block_steps = 0;
-
-    EvidenceCost& operator+=(const EvidenceCost& other)
-    {
-        simulations += other.simulations;
-        window_simulations += other.window_simulations;
-        block_steps += other.block_steps;
-        return *this;
-    }
-    EvidenceCost operator-(const EvidenceCost& other) const
-    {
-        return {simulations - other.simulations, window_simulations - other.window_simulations,
-                block_steps - other.block_steps};
-    }
-};
 
 /// Of some studies, one after the other.
 using Predictions = std::vector<std::vector<double>>;
@@ -64,7 +45,7 @@ public:
     /// (units) scores of a candidate by the scales of another one.
     virtual std::vector<double> scores(std::size_t candidate, std::size_t scales_of) const = 0;
 
-    virtual EvidenceCost cost() const = 0;
+    virtual SimulationCount cost() const = 0;
 
     /// Adds candidates whose predictions are known. @return false if these are none of this evidence: then none is
     /// added

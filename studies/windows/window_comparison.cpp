@@ -14,69 +14,45 @@
 
 namespace stylobate {
 
-struct WindowComparison::Prepared {
-    struct Run {
-        std::size_t index = 0; ///< of the campaign
-        std::shared_ptr<const Motion> base;
-        SeenRun seen;
-        std::shared_ptr<const Targets> targets;
-        std::shared_ptr<const std::vector<FreeWindow>> windows;
-        std::size_t first = 0; ///< of its windows among all
-    };
-    StructureSpec structure;
-    std::vector<double> plan_x_m; ///< (blocks)
-    FollowScales scales;
-    std::vector<Run> runs;
-    std::vector<std::size_t> used;
-    std::vector<WindowPlace> places;
-    std::vector<std::vector<SeenValue>> values; ///< (windows)
-    std::size_t blocks = 0;
+/// The run as a variant is to follow it, through all of its windows.
+FollowJob WindowComparison::job_of(const Run& run, const ModelVariant& variant) const
+{
+    FollowJob job;
+    job.realization = nominal_realization(variant.study, structure_);
+    Realization& r = job.realization;
+    for (std::size_t i = 0; i < plan_x_m_.size(); ++i)
+        if (std::isfinite(run.seen.standing_x_m[i]) && !r.blocks[i].fixed)
+            r.blocks[i].x_m += run.seen.standing_x_m[i];
+    r.motion = run.base;
+    if (variant.change)
+        variant.change(r, run.index);
+    job.targets = run.targets;
+    job.nudge_rad_s = scales_.nudge_rad_s;
+    job.windows = run.windows;
+    return job;
+}
 
-    /// The run as a variant is to follow it, through all of its windows.
-    FollowJob job_of(const Run& run, const ModelVariant& variant) const
-    {
-        FollowJob job;
-        job.realization = nominal_realization(variant.study, structure);
-        Realization& r = job.realization;
-        for (std::size_t i = 0; i < blocks; ++i)
-            if (std::isfinite(run.seen.standing_x_m[i]) && !r.blocks[i].fixed)
-                r.blocks[i].x_m += run.seen.standing_x_m[i];
-        r.motion = variant.base ? std::make_shared<Motion>(variant.base(*run.base)) : run.base;
-        if (variant.change)
-            variant.change(r, run.index);
-        job.targets = run.targets;
-        job.nudge_rad_s = scales.nudge_rad_s;
-        job.windows = run.windows;
-        return job;
-    }
-
-    /// The selected windows of a run, or all.
-    std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const
-    {
-        if (options.places.empty())
-            return windows_of(run.seen, scales.window_s);
-        std::vector<SeenWindow> windows;
-        for (const WindowPlace& place : options.places)
-            if (place.run == run.index)
-                if (std::optional<SeenWindow> window = window_at(run.seen, place.free_s, scales.window_s))
-                    windows.push_back(std::move(*window));
-        return windows;
-    }
-
-    WindowCurve measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
-                               FreeWindow& read) const;
-
-    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
-};
+/// The selected windows of a run, or all.
+std::vector<SeenWindow> WindowComparison::windows_in(const Run& run, const WindowOptions& options) const
+{
+    if (options.places.empty())
+        return windows_of(run.seen, scales_.window_s);
+    std::vector<SeenWindow> windows;
+    for (const WindowPlace& place : options.places)
+        if (place.run == run.index)
+            if (std::optional<SeenWindow> window = window_at(run.seen, place.free_s, scales_.window_s))
+                windows.push_back(std::move(*window));
+    return windows;
+}
 
 /// A window as it was measured; no model yet.
 /// @param read the same window, to be read at every sample
-WindowCurve WindowComparison::Prepared::measured_curve(const Run& run, std::size_t window,
-                                                       const std::vector<std::size_t>& chosen, FreeWindow& read) const
+WindowCurve WindowComparison::measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
+                                             FreeWindow& read) const
 {
     const FreeWindow& free = (*run.windows)[window - run.first];
     const SeenRun& seen = run.seen;
-    const double clock_s = places[window].start_s - free.start_s;
+    const double clock_s = places_[window].start_s - free.start_s;
     read.start_s = free.start_s;
     WindowCurve curve;
     curve.noise_sd = seen.noise_sd;
@@ -88,13 +64,21 @@ WindowCurve WindowComparison::Prepared::measured_curve(const Run& run, std::size
         curve.base_m.push_back(seen.base_m[row]);
         for (std::size_t c = 0; c < coordinate_count; ++c)
             for (const std::size_t block : chosen)
-                curve.seen[c].push_back(seen.seen[c][row * blocks + block]);
+                curve.seen[c].push_back(seen.seen[c][row * seen.blocks + block]);
     }
     for (const std::size_t block : chosen) {
         const double moved = seen.standing_x_m[block];
-        curve.stood_x_m.push_back(plan_x_m[block] + (std::isfinite(moved) ? moved : 0));
+        curve.stood_x_m.push_back(plan_x_m_[block] + (std::isfinite(moved) ? moved : 0));
     }
     return curve;
+}
+
+FollowReport WindowComparison::followed(const std::vector<FollowJob>& jobs, const RunOptions& options,
+                                        Observer& observer)
+{
+    FollowReport report = follow(jobs, options, observer);
+    cost_ += {jobs.size(), report.windows, report.block_steps};
+    return report;
 }
 
 Realization nominal_realization(const Study& variant, const StructureSpec& structure)
@@ -113,122 +97,76 @@ Realization nominal_realization(const Study& variant, const StructureSpec& struc
 }
 
 WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions& options)
-    : prepared_(std::make_unique<Prepared>())
 {
-    Prepared& p = *prepared_;
     const SpecimenStructure specimen = build_specimen(campaign.specimen);
-    p.structure = specimen.structure;
-    const Layout layout = lay_out(p.structure);
-    p.blocks = layout.blocks.size();
+    structure_ = specimen.structure;
+    const Layout layout = lay_out(structure_);
     double width = 0;
     std::size_t drums = 0;
     for (const PlacedBlock& block : layout.blocks) {
-        p.plan_x_m.push_back(block.x_m() + specimen.origin_x_m);
+        plan_x_m_.push_back(block.x_m() + specimen.origin_x_m);
         if (!block.fixed && block.role == BlockRole::drum) {
             width += block.width_m;
             ++drums;
         }
     }
-    p.scales =
+    scales_ =
         follow_scales(width / static_cast<double>(std::max<std::size_t>(drums, 1)), campaign.specimen.gravity_m_s2);
     if (options.window_s > 0)
-        p.scales.window_s = options.window_s;
-    if (options.nudge_rad_s > 0)
-        p.scales.nudge_rad_s = options.nudge_rad_s;
+        scales_.window_s = options.window_s;
     for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
         if (!options.runs.empty() && std::find(options.runs.begin(), options.runs.end(), i) == options.runs.end())
             continue;
         const MeasuredRun& measured = campaign.runs[i];
         if (measured.base_acceleration_m_s2.empty() && measured.base_displacement_m.empty())
             continue;
-        Prepared::Run run;
+        Run run;
         run.index = i;
         run.base = std::make_shared<Motion>(base_motion_of(measured));
-        run.seen = seen_run(measured, *run.base, specimen.block, p.plan_x_m, p.scales.smoothing_s);
+        run.seen = seen_run(measured, *run.base, specimen.block, plan_x_m_, scales_.smoothing_s);
         if (run.seen.blocks == 0)
             continue;
-        const std::vector<SeenWindow> windows = p.windows_in(run, options);
+        const std::vector<SeenWindow> windows = windows_in(run, options);
         if (windows.empty())
             continue;
         run.targets = std::make_shared<Targets>(targets_of(run.seen));
         auto list = std::make_shared<std::vector<FreeWindow>>();
-        run.first = p.places.size();
-        for (std::vector<SeenValue>& values : seen_values(run.seen, windows, p.scales.lag_s))
-            p.values.push_back(std::move(values));
+        run.first = places_.size();
+        for (std::vector<SeenValue>& values : seen_values(run.seen, windows, scales_.lag_s))
+            values_.push_back(std::move(values));
         for (const SeenWindow& window : windows) {
             list->push_back(window.window);
-            p.places.push_back({i, window.window.start_s + measured.time_s.front(),
-                                window.window.times_s.back() + measured.time_s.front(), window.window.start_s});
+            places_.push_back({i, window.window.start_s + measured.time_s.front(),
+                               window.window.times_s.back() + measured.time_s.front(), window.window.start_s});
         }
         run.windows = list;
-        p.used.push_back(i);
-        p.runs.push_back(std::move(run));
+        runs_.push_back(std::move(run));
     }
-}
-
-WindowComparison::~WindowComparison() = default;
-WindowComparison::WindowComparison(WindowComparison&&) noexcept = default;
-
-const std::vector<WindowPlace>& WindowComparison::windows() const
-{
-    return prepared_->places;
-}
-const std::vector<std::size_t>& WindowComparison::used() const
-{
-    return prepared_->used;
-}
-const FollowScales& WindowComparison::scales() const
-{
-    return prepared_->scales;
-}
-const StructureSpec& WindowComparison::structure() const
-{
-    return prepared_->structure;
-}
-const std::vector<SeenValue>& WindowComparison::seen(std::size_t window) const
-{
-    return prepared_->values[window];
-}
-std::uint64_t WindowComparison::simulations() const
-{
-    return prepared_->simulations;
-}
-std::uint64_t WindowComparison::window_simulations() const
-{
-    return prepared_->window_simulations;
-}
-std::uint64_t WindowComparison::block_steps() const
-{
-    return prepared_->block_steps;
 }
 
 std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<ModelVariant>& variants,
                                                          const RunOptions& options, Observer& observer)
 {
-    Prepared& p = *prepared_;
     std::vector<FollowJob> jobs;
     std::vector<std::vector<double>> rest_y; // (jobs x blocks)
     for (const ModelVariant& variant : variants) {
-        for (const Prepared::Run& run : p.runs) {
-            jobs.push_back(p.job_of(run, variant));
+        for (const Run& run : runs_) {
+            jobs.push_back(job_of(run, variant));
             rest_y.push_back(static_state(jobs.back().realization).y_m);
         }
     }
-    const FollowReport report = follow(jobs, options, observer);
-    p.simulations += jobs.size();
-    p.window_simulations += report.windows;
-    p.block_steps += report.block_steps;
+    const FollowReport report = followed(jobs, options, observer);
     std::vector<WindowResiduals> all;
     if (!report.complete)
         return all;
     std::size_t job = 0;
     for (std::size_t v = 0; v < variants.size(); ++v) {
-        WindowResiduals z(p.places.size());
-        for (const Prepared::Run& run : p.runs) {
+        WindowResiduals z(places_.size());
+        for (const Run& run : runs_) {
             const FollowResult& result = report.results[job];
             const std::size_t read = jobs[job].realization.blocks.size(); // the ground among them, where it can be met
             for (std::size_t w = 0; w < result.windows.size(); ++w)
-                z[run.first + w] = stylobate::residuals(p.values[run.first + w], result.windows[w], read, rest_y[job]);
+                z[run.first + w] = stylobate::residuals(values_[run.first + w], result.windows[w], read, rest_y[job]);
             ++job;
         }
         all.push_back(std::move(z));
@@ -240,25 +178,21 @@ std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, c
                                                   const std::vector<std::size_t>& blocks, const RunOptions& options,
                                                   Observer& observer)
 {
-    Prepared& p = *prepared_;
     std::vector<WindowCurve> curves;
     std::vector<FollowJob> jobs;
-    for (const Prepared::Run& run : p.runs) {
+    for (const Run& run : runs_) {
         auto dense = std::make_shared<std::vector<FreeWindow>>();
         for (const std::size_t w : windows) {
             if (w < run.first || w >= run.first + run.windows->size())
                 continue;
-            curves.push_back(p.measured_curve(run, w, blocks, dense->emplace_back()));
+            curves.push_back(measured_curve(run, w, blocks, dense->emplace_back()));
         }
         if (dense->empty())
             continue;
-        jobs.push_back(p.job_of(run, variant));
+        jobs.push_back(job_of(run, variant));
         jobs.back().windows = dense;
     }
-    const FollowReport report = follow(jobs, options, observer);
-    p.simulations += jobs.size();
-    p.window_simulations += report.windows;
-    p.block_steps += report.block_steps;
+    const FollowReport report = followed(jobs, options, observer);
     if (!report.complete)
         return {};
     auto curve = curves.begin();
@@ -282,11 +216,10 @@ std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, c
 ResidualScales WindowComparison::fit_scales(const WindowResiduals& residuals,
                                             const std::vector<std::size_t>& runs) const
 {
-    const Prepared& p = *prepared_;
-    ResidualScales scales(residual_kinds(p.blocks));
-    for (std::size_t w = 0; w < p.places.size(); ++w)
-        if (runs.empty() || std::find(runs.begin(), runs.end(), p.places[w].run) != runs.end())
-            scales.add(p.values[w], residuals[w]);
+    ResidualScales scales(residual_kinds(plan_x_m_.size()));
+    for (std::size_t w = 0; w < places_.size(); ++w)
+        if (runs.empty() || std::find(runs.begin(), runs.end(), places_[w].run) != runs.end())
+            scales.add(values_[w], residuals[w]);
     scales.fit();
     return scales;
 }
@@ -295,7 +228,7 @@ std::vector<double> WindowComparison::scores(const WindowResiduals& residuals, c
 {
     std::vector<double> scores;
     for (std::size_t w = 0; w < residuals.size(); ++w)
-        scores.push_back(scales.score(prepared_->values[w], residuals[w]));
+        scores.push_back(scales.score(values_[w], residuals[w]));
     return scores;
 }
 

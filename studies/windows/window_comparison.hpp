@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace stylobate {
@@ -21,11 +20,8 @@ Realization nominal_realization(const Study& variant, const StructureSpec& struc
 
 /// A model that is to predict a campaign.
 struct ModelVariant {
-    std::string name;
     Study study; ///< its contacts and mechanisms; its structure is the specimen's, its excitation and perturbations do
                  ///< not matter here
-    /// Changes the base motion (gain, offset in time, distortion); empty: none.
-    std::function<Motion(const Motion&)> base = {};
     /// Changes the realization, its blocks being where they stood in the run; empty: not. The index is of the campaign.
     std::function<void(Realization&, std::size_t run)> change = {};
 };
@@ -40,7 +36,6 @@ struct WindowPlace {
 
 struct WindowOptions {
     double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
-    double nudge_rad_s = 0;        ///< 0: likewise
     std::vector<std::size_t> runs; ///< of the campaign; empty: all
     /// These windows only, which a comparison with the same length has chosen, ascending in each run; empty: all that
     /// follow from the base motion.
@@ -64,17 +59,12 @@ struct WindowCurve {
 /// A campaign made ready to be predicted: base motions, smoothed histories, windows. Made once, used for many models.
 class WindowComparison {
 public:
-    /// Runs without histories, or whose base motion is not known, are omitted (`used` lists the others).
+    /// Runs without histories, or whose base motion is not known, are omitted.
     /// @throws InputError if the specimen cannot be built
     WindowComparison(const Campaign& campaign, const WindowOptions& options);
-    ~WindowComparison();
-    WindowComparison(WindowComparison&&) noexcept;
 
-    const std::vector<WindowPlace>& windows() const;
-    const std::vector<std::size_t>& used() const; ///< runs of the campaign that have windows
-    const FollowScales& scales() const;
-    /// The specimen as a structure.
-    const StructureSpec& structure() const;
+    const std::vector<WindowPlace>& windows() const { return places_; }
+    const FollowScales& scales() const { return scales_; }
 
     /// Runs every variant over all windows, in lockstep. @return (variants x windows); empty if the observer stopped it
     /// @throws InputError if a variant cannot be built
@@ -93,21 +83,33 @@ public:
     /// (windows) log scores
     std::vector<double> scores(const WindowResiduals& residuals, const ResidualScales& scales) const;
     /// What each residual of a window is of.
-    const std::vector<SeenValue>& seen(std::size_t window) const;
+    const std::vector<SeenValue>& seen(std::size_t window) const { return values_[window]; }
 
-    // so far
-    std::uint64_t simulations() const;        ///< runs by observers
-    std::uint64_t window_simulations() const; ///< free windows
-    std::uint64_t block_steps() const;
+    /// What was simulated so far.
+    const SimulationCount& cost() const { return cost_; }
 
 private:
-    struct Prepared;
-    std::unique_ptr<Prepared> prepared_;
-};
+    struct Run {
+        std::size_t index = 0; ///< of the campaign
+        std::shared_ptr<const Motion> base;
+        SeenRun seen;
+        std::shared_ptr<const Targets> targets;
+        std::shared_ptr<const std::vector<FreeWindow>> windows;
+        std::size_t first = 0; ///< of its windows among all
+    };
+    FollowJob job_of(const Run& run, const ModelVariant& variant) const;
+    std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const;
+    WindowCurve measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
+                               FreeWindow& read) const;
+    FollowReport followed(const std::vector<FollowJob>& jobs, const RunOptions& options, Observer& observer);
 
-/// Counts of what was simulated, added to.
-struct SimulationCount {
-    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+    StructureSpec structure_;
+    std::vector<double> plan_x_m_; ///< (blocks)
+    FollowScales scales_;
+    std::vector<Run> runs_;
+    std::vector<WindowPlace> places_;
+    std::vector<std::vector<SeenValue>> values_; ///< (windows)
+    SimulationCount cost_;
 };
 
 /// A paired difference with its interval.

@@ -117,9 +117,7 @@ public:
         std::iota(all.begin(), all.end(), std::size_t{0});
         const std::vector<WindowResiduals> residuals = comparison.residuals({model.variant}, options, observer);
         const std::vector<WindowCurve> curves = comparison.curves(model.variant, all, order_, options, observer);
-        cost.simulations += comparison.simulations();
-        cost.window_simulations += comparison.window_simulations();
-        cost.block_steps += comparison.block_steps();
+        cost += comparison.cost();
         if (residuals.empty() || curves.size() != all.size() || all.size() != chosen_.size())
             return false;
         const std::vector<WindowExcess> excess = excess_of(comparison, residuals.front(), built_);

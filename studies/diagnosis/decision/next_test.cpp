@@ -157,8 +157,7 @@ std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& s
     for (std::size_t rival = 0; rival < 2; ++rival) {
         const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(proposed), baseline, seed, 0, simulated,
                                                         scatter, {{rivals[rival]}}, options, observer);
-        count.simulations += made.simulations;
-        count.block_steps += made.block_steps;
+        count += made.cost;
         if (!made.complete)
             return std::nullopt;
         for (std::size_t k = 0; k < motions.size(); ++k)

@@ -192,9 +192,7 @@ bool Pipeline::simulate_windows()
         windows_.complete = true;
         windows_.why_not = "The table has a vertical motion that the base motion does not contain.";
     }
-    count_.simulations += windows_.simulations;
-    count_.window_simulations += windows_.window_simulations;
-    count_.block_steps += windows_.block_steps;
+    count_ += windows_.cost;
     if (!windows_.complete)
         return false;
     if (!windows_.baselines.empty()) {
@@ -238,8 +236,7 @@ bool Pipeline::simulate_campaigns()
                               done > *cached ? time_left(begun, done - *cached, total - done) : ""));
         },
         observer_));
-    count_.simulations += ensemble_->ensemble.simulations;
-    count_.block_steps += ensemble_->ensemble.block_steps;
+    count_ += ensemble_->ensemble.cost;
     if (!ensemble_->ensemble.complete)
         return false;
     const std::vector<double>& likeness = ensemble_->by_statistics.null_weights;

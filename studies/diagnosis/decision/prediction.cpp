@@ -48,9 +48,7 @@ std::optional<WindowResiduals> residuals_of(WindowComparison& comparison, const 
 {
     std::vector<WindowResiduals> residuals =
         comparison.residuals({with_causes(study, built, causes)}, options, observer);
-    count.simulations += comparison.simulations();
-    count.window_simulations += comparison.window_simulations();
-    count.block_steps += comparison.block_steps();
+    count += comparison.cost();
     if (residuals.empty())
         return std::nullopt;
     return std::move(residuals.front());
@@ -262,8 +260,7 @@ std::vector<double> collapse_shares(const Campaign& of, const std::vector<SizedC
     std::vector<double> share(of.runs.size(), 0);
     const VirtualCampaigns made = virtual_campaigns(VirtualLaboratory(of), s.baseline, s.seed, 0, collapse_ensemble,
                                                     scatter, {causes}, s.options, s.observer);
-    s.count.simulations += made.simulations;
-    s.count.block_steps += made.block_steps;
+    s.count += made.cost;
     for (const Campaign& c : made.campaigns)
         for (std::size_t r = 0; r < c.runs.size(); ++r)
             share[r] += c.runs[r].collapsed.value_or(false) / static_cast<double>(collapse_ensemble);

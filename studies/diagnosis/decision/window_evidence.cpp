@@ -47,7 +47,7 @@ class Windows {
 public:
     Windows(const Campaign& campaign, double length_s, const std::vector<SizedCause>& given, const RunOptions& options,
             Observer& observer)
-        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, 0, {}, {}}), given_(given),
+        : built_(build_specimen(campaign.specimen)), comparison_(campaign, {length_s, {}, {}}), given_(given),
           options_(options), observer_(observer)
     {
     }
@@ -200,9 +200,7 @@ WindowEvidence window_evidence(const Campaign& campaign, const Study& start, con
     if (!contacts.run())
         return out;
     out.baselines = contacts.baselines();
-    out.simulations = few.comparison().simulations();
-    out.window_simulations = few.comparison().window_simulations();
-    out.block_steps = few.comparison().block_steps();
+    out.cost = few.comparison().cost();
     out.complete = true;
     return out;
 }

@@ -25,7 +25,7 @@ struct WindowBaseline {
 
 struct WindowEvidence {
     std::vector<WindowBaseline> baselines; ///< the best of each contact form, best first
-    std::uint64_t simulations = 0, window_simulations = 0, block_steps = 0;
+    SimulationCount cost;
     std::string why_not; ///< where there are no windows
     bool complete = false;
 };

@@ -190,9 +190,7 @@ WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std:
                 found.figures.push_back(curve_figure(s, run, coordinate, windows, places, curves, excess));
         }
     }
-    count.simulations += comparison.simulations();
-    count.window_simulations += comparison.window_simulations();
-    count.block_steps += comparison.block_steps();
+    count += comparison.cost();
     return found;
 }
 

@@ -127,14 +127,14 @@ std::vector<SimulatedCampaign> of_all_ranks(Ranks& ranks, std::string& lines, co
 /// Makes the cost that of all ranks.
 void add_costs(Ranks& ranks, CampaignEnsemble& out)
 {
-    const std::vector<std::string> costs = ranks.of_all(fmt::format("{} {}", out.simulations, out.block_steps));
-    out.simulations = out.block_steps = 0;
+    const std::vector<std::string> costs =
+        ranks.of_all(fmt::format("{} {}", out.cost.simulations, out.cost.block_steps));
+    out.cost = {};
     for (const std::string& text : costs) {
         std::istringstream numbers(text);
-        std::uint64_t simulations = 0, block_steps = 0;
-        numbers >> simulations >> block_steps;
-        out.simulations += simulations;
-        out.block_steps += block_steps;
+        SimulationCount cost;
+        numbers >> cost.simulations >> cost.block_steps;
+        out.cost += cost;
     }
 }
 
@@ -258,8 +258,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         }
         const VirtualCampaigns made = virtual_campaigns(laboratory, study, plan.seed, portion.first, portion.count,
                                                         scatter, acting, options, observer);
-        out.simulations += made.simulations;
-        out.block_steps += made.block_steps;
+        out.cost += made.cost;
         if (!all_agree(options.ranks, made.complete))
             return out;
         tbb::task_arena(options.threads).execute([&] {

@@ -75,8 +75,9 @@ struct CampaignEnsemble {
     std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
     std::vector<double> apart;                ///< (campaigns) from the measured one, by all numbers (`EvidenceRows`)
     NearnessEvidence nearness;                ///< from these; without the mechanisms and the likelihood
-    std::uint64_t simulations = 0, block_steps = 0, cached = 0;
-    bool complete = false; ///< false: the observer stopped it
+    SimulationCount cost;
+    std::uint64_t cached = 0; ///< campaigns that the file had
+    bool complete = false;    ///< false: the observer stopped it
 };
 
 /// Numbers of a campaign.

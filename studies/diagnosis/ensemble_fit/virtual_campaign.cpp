@@ -2,8 +2,6 @@
 
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/tracking/following.hpp"
-#include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/measured/measured_noise.hpp"
@@ -332,8 +330,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
         out.campaigns.push_back(std::move(campaign));
     }
     const FollowReport report = follow(jobs, options, observer);
-    out.simulations = jobs.size();
-    out.block_steps = report.block_steps;
+    out.cost = {jobs.size(), 0, report.block_steps};
     out.complete = report.complete;
     if (!out.complete)
         return out;

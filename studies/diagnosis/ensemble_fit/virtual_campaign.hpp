@@ -12,6 +12,7 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"
@@ -46,8 +47,7 @@ struct VirtualCampaigns {
     std::vector<std::string> contacts;       ///< of each, in words
     std::vector<HealthyLaw> laws;            ///< of each, where they were given
     std::vector<std::vector<double>> base_m; ///< (runs)(nt) displacement of the base, at the cameras' samples
-    std::uint64_t simulations = 0;
-    std::uint64_t block_steps = 0;
+    SimulationCount cost;
     bool complete = false; ///< false: the observer stopped it
 };
 

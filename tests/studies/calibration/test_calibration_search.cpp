@@ -54,7 +54,7 @@ public:
             all.push_back(score_(unit, at[candidate][0], at[candidate][1]));
         return all;
     }
-    EvidenceCost cost() const override { return {}; }
+    SimulationCount cost() const override { return {}; }
     bool take(const Predictions& predictions) override
     {
         at.insert(at.end(), predictions.begin(), predictions.end());

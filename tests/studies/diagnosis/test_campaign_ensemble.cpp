@@ -380,8 +380,8 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
         EXPECT_TRUE(shared.complete);
         EXPECT_EQ(shared.cached, 30U);
         EXPECT_EQ(shared.distance, whole.distance);
-        EXPECT_EQ(shared.simulations, rest.simulations);
-        EXPECT_EQ(shared.block_steps, rest.block_steps);
+        EXPECT_EQ(shared.cost.simulations, rest.cost.simulations);
+        EXPECT_EQ(shared.cost.block_steps, rest.cost.block_steps);
     });
     EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "ranks"));
 

@@ -1,15 +1,17 @@
-#include "studies/calibration/kept_evidence.hpp"
+#include "studies/calibration/evidence_portions.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
+#include "io/study/study_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -24,7 +26,7 @@ constexpr std::uint64_t longest = std::uint64_t{1} << 30;
 struct Portion {
     std::string studies; ///< texts of all of them
     Predictions predictions;
-    EvidenceCost cost;
+    SimulationCount cost;
 };
 
 std::string texts_of(const std::vector<Study>& studies)
@@ -97,6 +99,23 @@ std::uint32_t crc_of(std::string_view bytes)
     return crc32_of(std::as_bytes(std::span(bytes)));
 }
 
+/// Predicts with this rank's part: every size-th study. @return what all have made, by rank; nothing of one that was
+/// stopped
+std::vector<std::string> predict_together(Ranks& ranks, CalibrationEvidence& evidence,
+                                          const std::vector<Study>& candidates, const RunOptions& options,
+                                          Observer& observer)
+{
+    std::vector<Study> mine;
+    for (std::size_t i = static_cast<std::size_t>(ranks.rank()); i < candidates.size();
+         i += static_cast<std::size_t>(ranks.size()))
+        mine.push_back(candidates[i]);
+    const SimulationCount before = evidence.cost();
+    std::optional<Predictions> made(std::in_place);
+    if (!mine.empty())
+        made = evidence.predict(mine, options, observer);
+    return ranks.of_all(made ? bytes_of({{}, std::move(*made), evidence.cost() - before}) : std::string());
+}
+
 } // namespace
 
 struct KeptEvidence::File {
@@ -104,8 +123,7 @@ struct KeptEvidence::File {
     FileHandle handle;
     std::uint64_t end = 0;                   ///< of what is good [bytes]
     std::map<std::string, Portion> portions; ///< by their studies
-    std::size_t sets = 0, restored = 0;
-    EvidenceCost restored_cost;
+    std::size_t sets = 0;
 
     void write(std::string_view bytes)
     {
@@ -150,7 +168,7 @@ struct KeptEvidence::File {
 
 KeptEvidence::KeptEvidence(std::unique_ptr<CalibrationEvidence> inner, std::filesystem::path file,
                            const std::string& key)
-    : inner_(std::move(inner)), file_(std::make_unique<File>())
+    : EvidenceBy(std::move(inner)), file_(std::make_unique<File>())
 {
     file_->path = std::move(file);
     file_->handle = FileHandle::claim(file_->path);
@@ -171,22 +189,12 @@ KeptEvidence::KeptEvidence(std::unique_ptr<CalibrationEvidence> inner, std::file
 
 KeptEvidence::~KeptEvidence() = default;
 
-const std::vector<std::size_t>& KeptEvidence::runs() const
-{
-    return inner_->runs();
-}
-
-std::size_t KeptEvidence::candidates() const
-{
-    return inner_->candidates();
-}
-
 bool KeptEvidence::add(const std::vector<Study>& candidates, const RunOptions& options, Observer& observer)
 {
     const auto found = file_->portions.find(texts_of(candidates));
     if (found != file_->portions.end() && inner_->take(found->second.predictions)) {
-        file_->restored += candidates.size();
-        file_->restored_cost += found->second.cost;
+        restored_ += candidates.size();
+        elsewhere_ += found->second.cost;
         return true;
     }
     return CalibrationEvidence::add(candidates, options, observer);
@@ -195,7 +203,7 @@ bool KeptEvidence::add(const std::vector<Study>& candidates, const RunOptions& o
 std::optional<Predictions> KeptEvidence::predict(const std::vector<Study>& candidates, const RunOptions& options,
                                                  Observer& observer)
 {
-    const EvidenceCost before = inner_->cost();
+    const SimulationCount before = inner_->cost();
     std::optional<Predictions> made = inner_->predict(candidates, options, observer);
     if (!made)
         return made;
@@ -208,32 +216,6 @@ std::optional<Predictions> KeptEvidence::predict(const std::vector<Study>& candi
     return made;
 }
 
-std::vector<double> KeptEvidence::own_scores(std::size_t candidate, const std::vector<std::size_t>& used) const
-{
-    return inner_->own_scores(candidate, used);
-}
-
-std::vector<double> KeptEvidence::scores(std::size_t candidate, std::size_t scales_of) const
-{
-    return inner_->scores(candidate, scales_of);
-}
-
-EvidenceCost KeptEvidence::cost() const
-{
-    EvidenceCost cost = inner_->cost();
-    return cost += file_->restored_cost;
-}
-
-bool KeptEvidence::take(const Predictions& predictions)
-{
-    return inner_->take(predictions);
-}
-
-std::size_t KeptEvidence::restored() const
-{
-    return file_->restored;
-}
-
 std::size_t KeptEvidence::kept() const
 {
     return file_->sets;
@@ -243,6 +225,45 @@ void KeptEvidence::remove()
 {
     std::error_code ignored;
     std::filesystem::remove(file_->path, ignored);
+}
+
+SharedEvidence::~SharedEvidence()
+{
+    if (std::uncaught_exceptions() == 0) // else all ranks are ended
+        ranks_.of_first({});
+}
+
+std::optional<Predictions> SharedEvidence::predict(const std::vector<Study>& candidates, const RunOptions& options,
+                                                   Observer& observer)
+{
+    ranks_.of_first(texts_of(candidates));
+    const std::vector<std::string> made = predict_together(ranks_, *inner_, candidates, options, observer);
+    std::vector<Predictions> of_rank;
+    for (std::size_t rank = 0; rank < made.size(); ++rank) {
+        if (made[rank].empty())
+            return std::nullopt;
+        Portion portion = portion_of(made[rank]);
+        if (rank > 0)
+            elsewhere_ += portion.cost;
+        of_rank.push_back(std::move(portion.predictions));
+    }
+    Predictions all;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        all.push_back(std::move(of_rank[i % made.size()][i / made.size()]));
+    return all;
+}
+
+void serve_evidence(Ranks& ranks, CalibrationEvidence& evidence, const RunOptions& options, Observer& observer)
+{
+    for (std::string texts = ranks.of_first({}); !texts.empty(); texts = ranks.of_first({})) {
+        std::vector<Study> candidates;
+        for (std::string_view rest = texts; !rest.empty();) {
+            const std::size_t length = rest.find('\0');
+            candidates.push_back(parse_study(std::string(rest.substr(0, length)), "a parameter set"));
+            rest.remove_prefix(length + 1);
+        }
+        predict_together(ranks, evidence, candidates, options, observer);
+    }
 }
 
 } // namespace stylobate
