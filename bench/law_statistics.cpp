@@ -38,6 +38,14 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first, std::uint64_t count)
+{
+    std::vector<HealthyLaw> laws;
+    for (std::uint64_t n = 0; n < count; ++n)
+        laws.push_back(draw_law(family, seed, first + n));
+    return laws;
+}
+
 /// Campaigns with the laws given, and their statistics.
 Rows rows_of(const Campaign& measured, const Study& study, std::uint64_t seed, std::uint64_t first,
              const std::vector<HealthyLaw>& laws, const RunOptions& run)

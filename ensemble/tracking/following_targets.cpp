@@ -106,8 +106,8 @@ SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<i
         seen.base_m.push_back(base_displacement(base, seen.time_s.back()));
     }
     seen.end_s = seen.time_s.back();
-    if (run.collapsed.value_or(false) && run.collapse_time_s >= 0)
-        seen.end_s = std::min(seen.end_s, run.collapse_time_s - run.time_s.front());
+    if (const auto fell_s = run.fell_at_s())
+        seen.end_s = std::min(seen.end_s, *fell_s - run.time_s.front());
 
     // in the frame of the base, from where each block stood on the average of the quiet samples
     const std::array<const Series*, coordinate_count> series = {&run.blocks.x_m, &run.blocks.y_m,

@@ -4,6 +4,7 @@
 #include "ensemble/model/campaign.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace stylobate {
 
@@ -13,5 +14,8 @@ namespace stylobate {
 /// @param path an HDF5 file, a folder with campaign.toml, or that TOML file
 /// @throws InputError, naming file, run and data set
 Campaign read_campaign(const std::filesystem::path& path);
+
+/// "crc32 1a2b3c4d" of a file, or of a folder's files.
+std::string fingerprint(const std::filesystem::path& path);
 
 } // namespace stylobate

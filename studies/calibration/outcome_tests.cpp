@@ -184,7 +184,7 @@ OutcomeTests outcome_tests(const Campaign& campaign, const std::vector<std::size
     for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
         const MeasuredRun& run = campaign.runs[i];
         const bool wanted = runs.empty() || std::find(runs.begin(), runs.end(), i) != runs.end();
-        if (!wanted || !run.collapsed || (run.base_acceleration_m_s2.empty() && run.base_displacement_m.empty()))
+        if (!wanted || !run.collapsed || !run.has_base())
             continue;
         TestShaking s;
         s.excitation.kind = ExcitationKind::record;

@@ -2,6 +2,7 @@
 /// Windows in motion as a part of a page: measured blocks over simulated ones.
 
 #include "studies/report/html.hpp"
+#include "studies/windows/motion_stage.hpp"
 #include "studies/windows/window_motion.hpp"
 
 #include <string>
@@ -15,5 +16,10 @@ void add_motion(HtmlPage& page, const WindowMotions& motion);
 
 /// Why there is none though windows were simulated. @param code_version that wrote the file
 std::string no_motion_words(const std::string& file, const std::string& code_version);
+
+// ---- A moment of each window side by side: what is printed, and seen where no scripts run.
+
+/// Where the first model is farthest from what was measured, in the sizes with which the player (windows.js) begins.
+Html motion_svg(const WindowMotions& motion, const MotionStage& stage);
 
 } // namespace stylobate

@@ -118,7 +118,7 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
         if (!options.runs.empty() && std::find(options.runs.begin(), options.runs.end(), i) == options.runs.end())
             continue;
         const MeasuredRun& measured = campaign.runs[i];
-        if (measured.base_acceleration_m_s2.empty() && measured.base_displacement_m.empty())
+        if (!measured.has_base())
             continue;
         Run run;
         run.index = i;

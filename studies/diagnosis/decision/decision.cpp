@@ -2,7 +2,7 @@
 
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/diagnosis/decision/named_by_forces.hpp"
-#include "studies/diagnosis/tests/direct_findings.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     j.fit.sd = std::fabs(cause.size_of(found.high) - cause.size_of(found.low)) / (2 * half_width90);
     j.fit.gain = std::max(found.gain, 0.0);
     j.chance95 = quantile95(verdict.null_gains);
-    j.chance = conformal_p_value(verdict.null_gains, verdict.null_weights, found.gain);
+    j.chance = conformal_p_value(verdict.null_gains, found.gain, verdict.null_weights);
     return j;
 }
 
@@ -394,9 +394,8 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
 
 bool beyond_simulation(const DirectResult& direct)
 {
-    return std::any_of(direct.found.begin(), direct.found.end(), [](const CauseFit& fit) {
-        return fit.cause.mechanism == "vertical_motion" && fit.cause.parameter != "ratio";
-    });
+    return std::any_of(direct.found.begin(), direct.found.end(),
+                       [](const CauseFit& fit) { return unrecorded_vertical(fit.cause); });
 }
 
 Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const EnsembleDiagnosis* ensemble,

@@ -25,14 +25,21 @@
 ///      of forces than any cause, and not by one run alone; and, where forces name nothing, what the best cause leaves
 ///      of the statistics, beyond 99 % of healthy and of labelled campaigns.
 
-#include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// By which of three ways a cause is found.
+enum class Channel {
+    direct,    ///< base and sensors, while the lowest block rides on the table; blocks at rest
+    forces,    ///< the balance of forces, compared with that of simulated campaigns
+    statistics ///< statistics of the whole campaign, compared with simulated campaigns
+};
 
 /// Less probable causes are not named.
 inline constexpr double least_probability = 0.5;

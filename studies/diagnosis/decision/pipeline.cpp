@@ -1,7 +1,6 @@
 #include "studies/diagnosis/decision/pipeline.hpp"
 
 #include "io/study/study_file.hpp"
-#include "studies/diagnosis/decision/next_test.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/decision/presentation.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
@@ -27,12 +26,6 @@ namespace {
 constexpr std::size_t most_wrong = 20;
 constexpr std::size_t most_features = 8;
 constexpr std::size_t most_candidates = 12;
-
-/// Whether a cause is a vertical motion that does not follow the horizontal one: no model has its record.
-bool unrecorded_vertical(const Cause& cause)
-{
-    return cause.mechanism == "vertical_motion" && cause.parameter != "ratio";
-}
 
 /// How long the rest takes, if it goes on as it did.
 std::string time_left(std::chrono::steady_clock::time_point begun, std::uint64_t done, std::uint64_t left)
@@ -147,7 +140,7 @@ void Pipeline::test_base_and_sensors()
     campaign_ = corrected(measured_, direct_);
     for (const CauseFit& fit : direct_.found)
         if (fit.cause.mechanism == "wedge" || fit.cause.mechanism == "table_pitch" ||
-            (fit.cause.mechanism == "vertical_motion" && fit.cause.parameter == "ratio"))
+            (fit.cause.mechanism == "vertical_motion" && !unrecorded_vertical(fit.cause)))
             known_.push_back({fit.cause, fit.size});
 }
 
@@ -184,9 +177,7 @@ void Pipeline::balance_forces()
 bool Pipeline::simulate_windows()
 {
     // a vertical motion without a model of its own would be blamed on something
-    const bool unmodelled = std::any_of(direct_.found.begin(), direct_.found.end(),
-                                        [](const CauseFit& fit) { return unrecorded_vertical(fit.cause); });
-    if (!unmodelled)
+    if (!beyond_simulation(direct_))
         windows_ = window_evidence(campaign_, study_, scales_, known_, options_.run, observer_);
     else {
         windows_.complete = true;

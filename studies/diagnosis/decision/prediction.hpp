@@ -7,6 +7,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/diagnosis/decision/decision.hpp"
+#include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
@@ -22,9 +23,6 @@ namespace stylobate {
 
 /// The campaign with the base motion as it must have been.
 Campaign corrected(const Campaign& campaign, const DirectResult& direct);
-
-/// A study with causes in it, for a campaign that is corrected.
-ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std::vector<SizedCause> causes);
 
 /// Sizes of causes that act in the model; those that act on the base's horizontal motion are in its correction.
 std::vector<SizedCause> model_causes(const std::vector<JudgedCause>& named);
@@ -45,5 +43,12 @@ std::optional<std::pair<double, double>> interval_of_ratio(const RunErrors& befo
 std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer);
+
+// ---- The test that would distinguish the remaining causes.
+
+/// Of a few motions that a table can make, the one whose outcome separates these causes best.
+std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+                                  const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
+                                  SimulationCount& count, Observer& observer);
 
 } // namespace stylobate

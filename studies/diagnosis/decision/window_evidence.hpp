@@ -23,6 +23,9 @@ struct WindowBaseline {
     double score = 0; ///< log score of all windows by its own scales [nats]
 };
 
+/// A study with causes in it, for a campaign that is corrected.
+ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std::vector<SizedCause> causes);
+
 struct WindowEvidence {
     std::vector<WindowBaseline> baselines; ///< the best of each contact form, best first
     SimulationCount cost;

@@ -5,7 +5,7 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/diagnosis/ensemble_fit/evidence_rows.hpp"
 #include "studies/diagnosis/ensemble_fit/proposals.hpp"
-#include "studies/diagnosis/statistics/balance_scores.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>

@@ -3,7 +3,6 @@
 /// of the same order for every specimen.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/ensemble_fit/joint_paths.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
@@ -11,8 +10,23 @@
 
 namespace stylobate {
 
-/// Of a centre of mass, over the block's width: the strongest that is simulated.
-inline constexpr double largest_eccentricity = 0.08;
+// ---- What joints and blocks go through in the runs of a measured campaign.
+
+/// In a run of a campaign: wear, drag and ties are in proportion to it.
+struct JointPaths {
+    JointPath mean;                ///< over the runs
+    std::vector<JointPath> before; ///< (runs) in the runs before each, in the order in which they were shaken
+    double speed_m_s = 0;          ///< sideways, of the blocks: 99 % quantile; drag goes with its square
+    // of each block against the base, 99 % quantiles
+    std::vector<double> reach_m;       ///< (blocks) sideways from its place
+    std::vector<double> leaving_m_s;   ///< (blocks) sideways speed
+    std::vector<double> turning_rad_s; ///< (blocks) rate of rotation
+};
+
+/// From the smoothed motion.
+/// @param base_m (runs)(nt) displacement of the base at the cameras' samples
+JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
+                       const std::vector<std::vector<double>>& base_m);
 
 /// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.
 struct CandidateCause {
@@ -22,8 +36,6 @@ struct CandidateCause {
     double least = 0;   ///< z; below 0 only where the size has two signs
     double most = 1;    ///< z
     double size_of(double z) const;
-    /// @pre the size is one that `size_of` can give
-    double z_of(double size) const;
 };
 
 /// @param friction of the joints   @param stiffness_n_m2 K_N of the joints: dashpots are in proportion to critical ones

@@ -229,33 +229,7 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
     return isolation_p_value(likeness_of(plan, rows, of_law, law_kept), nulls, law_numbers(labels, diagnosis.measured));
 }
 
-} // namespace
-
-int EnsembleDiagnosis::mechanism_of(const Cause& cause) const
-{
-    const auto at = std::find(mechanisms.begin(), mechanisms.end(), cause.mechanism);
-    return static_cast<int>(at - mechanisms.begin());
-}
-
-std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) const
-{
-    double right = 0, all = 0;
-    std::size_t i = 0;
-    for (const SimulatedCampaign& row : ensemble.campaigns) {
-        if (row.cause < 0)
-            continue;
-        if (i == by_statistics.labelled_right.size())
-            break; // what follows are the rounds of the causes' own
-        if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
-            std::fabs(row.z) >= least_z) {
-            all += 1;
-            right += by_statistics.labelled_right[i] ? 1 : 0;
-        }
-        ++i;
-    }
-    return all > 0 ? std::optional(right / all) : std::nullopt;
-}
-
+/// All but the simulated campaigns and the verdicts.
 EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,
                                    const std::vector<std::vector<double>>& base_m)
 {
@@ -273,6 +247,7 @@ EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study,
     return out;
 }
 
+/// The verdicts, from the simulated campaigns.
 void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
 {
     std::vector<const SimulatedCampaign*> nulls, labelled;
@@ -315,6 +290,33 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.listed = score_test(nulls, evidence.likeness, out.scores, 0, causes);
     out.forces = score_test(nulls, evidence.likeness, out.scores, causes, structures);
     find_carrying_number(rows, evidence, out);
+}
+
+} // namespace
+
+int EnsembleDiagnosis::mechanism_of(const Cause& cause) const
+{
+    const auto at = std::find(mechanisms.begin(), mechanisms.end(), cause.mechanism);
+    return static_cast<int>(at - mechanisms.begin());
+}
+
+std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) const
+{
+    double right = 0, all = 0;
+    std::size_t i = 0;
+    for (const SimulatedCampaign& row : ensemble.campaigns) {
+        if (row.cause < 0)
+            continue;
+        if (i == by_statistics.labelled_right.size())
+            break; // what follows are the rounds of the causes' own
+        if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
+            std::fabs(row.z) >= least_z) {
+            all += 1;
+            right += by_statistics.labelled_right[i] ? 1 : 0;
+        }
+        ++i;
+    }
+    return all > 0 ? std::optional(right / all) : std::nullopt;
 }
 
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,

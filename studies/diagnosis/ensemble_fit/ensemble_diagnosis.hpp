@@ -2,9 +2,9 @@
 /// What the statistics of a campaign show of its joints and blocks, by campaigns that are simulated for it.
 
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 #include "studies/diagnosis/likelihood/ensemble_verdict.hpp"
 #include "studies/diagnosis/likelihood/force_test.hpp"
-#include "studies/diagnosis/statistics/balance_scores.hpp"
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
 #include <optional>
@@ -57,10 +57,5 @@ EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& stud
                                      const std::filesystem::path& cache, const RunOptions& options,
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                      Observer& observer);
-
-/// The parts of it: all but the simulated campaigns and the verdicts; the verdicts from these.
-EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,
-                                   const std::vector<std::vector<double>>& base_m);
-void judge(const EnsemblePlan& plan, EnsembleDiagnosis& diagnosis);
 
 } // namespace stylobate

@@ -2,9 +2,9 @@
 /// Campaigns as the verdicts see them: numbers of joints and blocks, and scores of causes and of forces.
 
 #include "studies/diagnosis/ensemble_fit/campaign_ensemble.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 #include "studies/diagnosis/likelihood/law_adjustment.hpp"
-#include "studies/diagnosis/statistics/balance_scores.hpp"
-#include "studies/diagnosis/statistics/summaries.hpp"
+#include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
 #include <Eigen/Core>
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/diagnosis/likelihood/conformal.hpp"
-#include "studies/diagnosis/statistics/summaries.hpp"
+#include "studies/diagnosis/statistics/campaign_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,10 @@
 
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/measured/measured_noise.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/diagnosis/ensemble_fit/joint_paths.hpp"
+#include "studies/diagnosis/ensemble_fit/candidate_causes.hpp"
 #include "studies/version.hpp"
 #include "studies/windows/window_comparison.hpp"
 
@@ -25,8 +24,8 @@ namespace stylobate {
 
 namespace {
 
-/// A form is drawn by its place here: a new one would change every null campaign.
-constexpr std::array null_forms = {ContactForm::area, ContactForm::two_corner, ContactForm::points};
+constexpr double common_friction = 0.03; // 1 sigma, relative
+constexpr double joint_friction = 0.03;  // likewise, of each joint
 // A block has fallen whose centre is below this part of its height at rest, or that leans by more.
 constexpr double fallen = 0.6;
 constexpr double most_lean = 0.8; // rad
@@ -44,6 +43,7 @@ public:
     }
     double uniform() { return uniform01(seed_, campaign_, stream_, next_++); }
     double normal() { return to_normal(uniform()); }
+    void skip(std::uint64_t draws) { next_ += draws; }
 
 private:
     std::uint64_t seed_, campaign_;
@@ -51,19 +51,25 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// One campaign's specimen: all but where its blocks are put.
-struct DrawnSpecimen {
-    Realization realization;
-    std::string contacts;
-};
-
-/// Joints and blocks as they vary from specimen to specimen.
-/// @param friction of all joints, over the study's
-void scatter_specimen(const Specimen& specimen, const HealthyScatter& scatter, double friction, Draws& draw,
-                      Realization& r)
+/// One campaign's specimen, as specimens vary: all but where its blocks are put.
+/// @param law null: the contacts of the study
+Realization draw_specimen(const Specimen& specimen, const Study& about, const SpecimenStructure& built,
+                          std::uint64_t seed, std::uint64_t number, const HealthyLaw* law,
+                          const std::vector<SizedCause>& causes)
 {
+    Draws draw(seed, number, Stream::virtual_specimen);
+    Study study = about;
+    double friction = 1; // of all joints, over the study's
+    if (law) {
+        apply_law(*law, study);
+    } else { // a draw keeps its place: those beside the friction were of contacts
+        draw.skip(2);
+        friction = 1 + common_friction * draw.normal();
+        draw.skip(draw.uniform() < 0.5 ? 4 : 3);
+    }
+    Realization r = nominal_realization(study, built.structure);
     for (Joint& joint : r.joints)
-        joint.friction *= friction * (1 + scatter.friction * draw.normal());
+        joint.friction *= friction * (1 + joint_friction * draw.normal());
     for (Block& block : r.blocks) {
         const double wider = 1 + specimen.width_tolerance * draw.normal();
         const double heavier = 1 + specimen.mass_tolerance * draw.normal();
@@ -73,76 +79,12 @@ void scatter_specimen(const Specimen& specimen, const HealthyScatter& scatter, d
         block.mass_kg *= heavier;
         block.inertia_kg_m2 *= heavier * wider * wider;
     }
-}
-
-/// A specimen with a contact law that is given.
-DrawnSpecimen draw_specimen(const HealthyLaw& law, const Campaign& measured, const Study& about,
-                            const SpecimenStructure& built, std::uint64_t seed, std::uint64_t number,
-                            const HealthyScatter& scatter, const std::vector<SizedCause>& causes)
-{
-    Draws draw(seed, number, Stream::virtual_specimen);
-    Study study = about;
-    apply_law(law, study);
-    DrawnSpecimen out;
-    out.contacts = law.words();
-    out.realization = nominal_realization(study, built.structure);
-    scatter_specimen(measured.specimen, scatter, 1, draw, out.realization);
-    for (const SizedCause& cause : causes)
-        apply_cause(cause, built, out.realization);
-    apply_law(law, measured.specimen, built, study.run.step_fraction, out.realization);
-    return out;
-}
-
-DrawnSpecimen draw_specimen(const Campaign& measured, const Study& about, const SpecimenStructure& built,
-                            std::uint64_t seed, std::uint64_t number, const HealthyScatter& scatter,
-                            const std::vector<SizedCause>& causes)
-{
-    Draws draw(seed, number, Stream::virtual_specimen);
-    Study study = about;
-    // drawn in any case, so that the rest does not depend on it
-    const std::size_t form = number % null_forms.size();
-    const double stiffness = std::exp(scatter.stiffness * draw.normal());
-    const double damping =
-        scatter.least_damping * std::pow(scatter.most_damping / scatter.least_damping, draw.uniform());
-    const double friction = 1 + scatter.common_friction * draw.normal();
-    const double share = draw.uniform() < 0.5 ? draw.uniform() : 1;
-    const double bend = draw.uniform() * draw.uniform(), hurry = draw.uniform();
-    const double exponent = null_forms[form] == ContactForm::area ? 1 + (scatter.most_exponent - 1) * bend : 1;
-    double height = 0;
-    for (const double y : measured.specimen.rest_y_m)
-        height = std::max(height, y);
-    const double rate = scatter.most_rate_s_m * hurry / (0.1 * std::sqrt(measured.specimen.gravity_m_s2 * height));
-    if (scatter.contacts) {
-        study.contact.form = null_forms[form];
-        study.contact.normal_stiffness_n_m2 *= stiffness;
-        study.contact.tangential_stiffness_n_m *= stiffness;
-        study.contact.normal_damping_ratio = damping;
-        study.contact.tangential_damping_ratio = std::min(damping, 0.2);
-        study.contact.normal_damping_n_s_m.reset();
-        study.contact.tangential_damping_n_s_m.reset();
-    }
-    DrawnSpecimen out;
-    Realization& r = out.realization;
-    r = nominal_realization(study, built.structure);
-    for (Joint& joint : r.joints) {
-        if (!scatter.contacts)
-            break;
-        joint.extension.face_damping = share;
-        joint.extension.rate_s_m = rate;
-        if (exponent > 1) {
-            const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
-            joint.extension.force_exponent = exponent;
-            joint.extension.reference_overlap_m2 = upper.mass_kg * r.gravity_m_s2 / joint.normal_stiffness_n_m2;
-        }
-    }
-    scatter_specimen(measured.specimen, scatter, friction, draw, r);
     r.extended = true;
     for (const SizedCause& cause : causes)
         apply_cause(cause, built, r);
-    out.contacts =
-        fmt::format("{}, K_N x {:.2f}, damping {:.2f} ({:.0f} % at the ends), exponent {:.2f}",
-                    word_for(contact_form_names, null_forms[form]), stiffness, damping, 100 * share, exponent);
-    return out;
+    if (law)
+        apply_law(*law, specimen, built, study.run.step_fraction, r);
+    return r;
 }
 
 /// Displacement of the base at the cameras' samples.
@@ -270,9 +212,7 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
 {
     in_parallel(std::size_t{0}, measured.runs.size(), [&](std::size_t i) {
         const MeasuredRun& run = measured.runs[i];
-        const bool shaken = !run.base_acceleration_m_s2.empty() || !run.base_displacement_m.empty();
-        if (!shaken || run.time_s.size() < 2 || run.blocks.x_m.empty() || run.blocks.y_m.empty() ||
-            run.blocks.theta_rad.empty())
+        if (!run.has_base() || !run.has_blocks())
             return;
         base[i] = std::make_shared<const Motion>(base_motion_of(run));
         base_m[i] = displacement_at_samples(run, *base[i]);
@@ -301,22 +241,17 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
     for (std::uint64_t c = 0; c < count; ++c) {
         const std::vector<SizedCause> acting =
             causes.empty() ? std::vector<SizedCause>() : causes[causes.size() > 1 ? c : 0];
-        const DrawnSpecimen specimen =
-            scatter.laws.empty()
-                ? draw_specimen(measured, study, built, seed, first + c, scatter, acting)
-                : draw_specimen(scatter.laws[c], measured, study, built, seed, first + c, scatter, acting);
+        const Realization specimen = draw_specimen(measured.specimen, study, built, seed, first + c,
+                                                   scatter.laws.empty() ? nullptr : &scatter.laws[c], acting);
         Campaign campaign;
         campaign.source = fmt::format("virtual campaign {}", first + c);
         campaign.specimen = measured.specimen;
         campaign.runs = measured.runs;
-        out.contacts.push_back(specimen.contacts);
-        if (!scatter.laws.empty())
-            out.laws.push_back(scatter.laws[c]);
         Draws put(seed, first + c, Stream::virtual_placement);
         for (std::size_t i = 0; i < measured.runs.size(); ++i) {
             campaign.runs[i].table = {};
             FollowJob job;
-            job.realization = specimen.realization;
+            job.realization = specimen;
             put_blocks(laboratory, i, scatter, put, job.realization);
             if (!laboratory.base[i])
                 continue;

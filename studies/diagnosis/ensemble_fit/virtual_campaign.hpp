@@ -2,10 +2,9 @@
 /// Campaigns with nothing hidden: the same specimen, motions and cameras, simulated with healthy contacts of many
 /// kinds.
 ///
-/// What a diagnosis would find in them is what it may find by chance. The contacts are drawn anew for each campaign, as
-/// those of a real specimen are unknown: their form, stiffness, exponent, damping and where it acts, and its rate. So
-/// is what varies from specimen to specimen: friction (all joints and each), widths, masses; and from run to run where
-/// the blocks were put, unless the cameras saw that.
+/// What a diagnosis would find in them is what it may find by chance. Each campaign has a contact law of its own, as
+/// that of a real specimen is unknown. What varies from specimen to specimen is drawn: friction (all joints and each),
+/// widths, masses; and from run to run where the blocks were put, unless the cameras saw that.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
@@ -24,28 +23,17 @@
 
 namespace stylobate {
 
-/// What is drawn, 1 sigma where it is a spread.
+/// What of a virtual campaign is drawn beside friction, widths and masses.
 struct HealthyScatter {
-    bool contacts = true;          ///< draw contacts; false: those of the study
-    double common_friction = 0.03; ///< relative
-    double friction = 0.03;        ///< relative, of each joint
-    double stiffness = 0.7;        ///< of ln K_N
-    double least_damping = 0.03;   ///< damping ratios, uniform in the logarithm
-    double most_damping = 0.5;
-    double most_exponent = 1.4; ///< of the force, uniform from 1; contact form "area" alone
-    double most_rate_s_m = 1.0; ///< Hunt and Crossley's, over the specimen's impact velocity, uniform from 0
     /// Put the blocks where the measured ones were seen before the base moved, as well as that is known. False, and
     /// where they were not seen: anew in each run, with the specimen's tolerance.
     bool placed_as_seen = false;
-    /// Of each campaign, from a wide family (`law_family.hpp`): they take the place of the contacts and of the common
-    /// friction above. Empty: none.
+    /// The contact law of each campaign, from a wide family (`law_family.hpp`). Empty: the contacts of the study.
     std::vector<HealthyLaw> laws = {};
 };
 
 struct VirtualCampaigns {
     std::vector<Campaign> campaigns;         ///< run by run as the measured one, without what a collapse ends
-    std::vector<std::string> contacts;       ///< of each, in words
-    std::vector<HealthyLaw> laws;            ///< of each, where they were given
     std::vector<std::vector<double>> base_m; ///< (runs)(nt) displacement of the base, at the cameras' samples
     SimulationCount cost;
     bool complete = false; ///< false: the observer stopped it
@@ -81,7 +69,7 @@ struct VirtualLaboratory {
                                    ///< from run to run is taken to have gone so far in a simulated one, too
 };
 
-/// @param study contacts about which is drawn; its structure is the specimen's
+/// @param study contacts; its structure is the specimen's
 /// @param scatter with no laws, or one for each campaign
 /// @param causes that act, for campaigns that are to show something; of the base: none. One list for each campaign, or
 ///        one for all of them, or none

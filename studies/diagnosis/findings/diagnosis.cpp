@@ -6,40 +6,20 @@ namespace stylobate {
 
 const char* to_string(Verdict verdict)
 {
-    switch (verdict) {
-    case Verdict::none:
-        return "none";
-    case Verdict::named:
-        return "named";
-    default:
-        return "unexplained";
-    }
+    constexpr const char* words[] = {"none", "named", "unexplained"};
+    return words[static_cast<std::size_t>(verdict)];
 }
 
 const char* to_string(TestOutcome outcome)
 {
-    switch (outcome) {
-    case TestOutcome::passed:
-        return "passed";
-    case TestOutcome::failed:
-        return "failed";
-    default:
-        return "not judged";
-    }
+    constexpr const char* words[] = {"passed", "failed", "not judged"};
+    return words[static_cast<std::size_t>(outcome)];
 }
 
 const char* to_string(Decision decision)
 {
-    switch (decision) {
-    case Decision::named:
-        return "named";
-    case Decision::in_set:
-        return "in the set";
-    case Decision::not_shown:
-        return "not shown by these data";
-    default:
-        return "could not be judged";
-    }
+    constexpr const char* words[] = {"named", "in the set", "not shown by these data", "could not be judged"};
+    return words[static_cast<std::size_t>(decision)];
 }
 
 std::vector<const Candidate*> named_causes(const Diagnosis& diagnosis)

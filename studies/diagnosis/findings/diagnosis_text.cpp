@@ -1,8 +1,7 @@
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include "io/files/suggest.hpp"
 #include "io/files/utf8.hpp"
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
 
 #include <fmt/format.h>
 

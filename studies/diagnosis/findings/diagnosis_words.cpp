@@ -165,31 +165,6 @@ std::string verdict_heading(const Diagnosis& diagnosis)
     }
 }
 
-std::string verdict_words(const Diagnosis& diagnosis)
-{
-    if (!diagnosis.verdict_text.empty())
-        return diagnosis.verdict_text;
-    if (diagnosis.verdict == Verdict::none)
-        return "No tested mechanism explains the errors of the simulation.";
-    std::string text;
-    for (const Candidate* cause : named_causes(diagnosis)) {
-        text += fmt::format("{}{} {}: {}, {} {}", text.empty() ? "" : " ", cause->mechanism, place_words(cause->place),
-                            mechanism_words(cause->mechanism), cause->parameter,
-                            estimate_words(cause->size, cause->low, cause->high, cause->unit));
-        text += cause->probability ? ", probability " + probability_words(cause->probability) + "." : ".";
-    }
-    if (diagnosis.indistinguishable.size() > 1)
-        text += fmt::format("{}These data do not distinguish {}.", text.empty() ? "" : " ",
-                            list_words(diagnosis.indistinguishable));
-    if (diagnosis.unexplained) {
-        const Unexplained& u = *diagnosis.unexplained;
-        text += fmt::format("{}The remaining error is at {}, {}", text.empty() ? "" : " ", block_words(u.block),
-                            u.coordinate);
-        text += u.depends_on.empty() ? "." : ", and depends on " + u.depends_on + ".";
-    }
-    return text;
-}
-
 std::string gain_words(const ModelGain& gain)
 {
     if (!gain.error_before || !gain.error_after)

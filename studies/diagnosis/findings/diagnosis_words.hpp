@@ -38,12 +38,19 @@ std::string nats_words();
 std::string chance_words(const Diagnosis& diagnosis);
 /// Whether a candidate was compared with the null distribution: then gains, p-values and probabilities have a meaning.
 bool compared_with_nulls(const Diagnosis& diagnosis);
-/// The verdict in one to three sentences: the pipeline's own, or else composed of what was found.
-std::string verdict_words(const Diagnosis& diagnosis);
+/// The verdict in one to three sentences.
+inline const std::string& verdict_words(const Diagnosis& diagnosis)
+{
+    return diagnosis.verdict_text;
+}
 /// The gain on runs left out, in a sentence; empty where there is none.
 std::string gain_words(const ModelGain& gain);
 /// How well the collapses were predicted; empty where it is not known.
 std::string collapse_words(const ModelGain& gain);
 std::string cost_words(const DiagnosisCost& cost);
+
+/// What is printed at the end of a diagnosis: the verdict first, then what it rests on; lines of 100 characters at most
+/// but where a name is longer, the last one ended too.
+std::string diagnosis_text(const Diagnosis& diagnosis);
 
 } // namespace stylobate

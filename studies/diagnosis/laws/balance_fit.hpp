@@ -51,6 +51,9 @@ struct CauseFit {
     std::vector<double> gain_by_run; ///< (runs)
 };
 
+/// Of a centre of mass, over the block's width: the strongest that is simulated.
+inline constexpr double largest_eccentricity = 0.08;
+
 /// Whether a fitted size is one that the mechanism can have.
 bool possible(const CauseFit& fit);
 /// Whether it is beyond what specimens differ by anyway.

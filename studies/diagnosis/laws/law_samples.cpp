@@ -30,16 +30,10 @@ struct JointMotion {
     double width = 0; ///< half width of the narrower face
 };
 
-/// Paths of the joints since the specimen was built.
-struct PathsBefore {
-    std::vector<double> slip_m, rotation_rad; ///< (joints)
-};
-
 class Balance {
 public:
     /// @param before the run; the run's own are added
-    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction,
-            PathsBefore& before)
+    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction, JointPath& before)
         : s_(specimen), scales_(scales), track_(track), friction_(friction), weights_(rest_weights(specimen))
     {
         for (std::size_t i = 0; i < track.samples(); ++i) {
@@ -160,7 +154,7 @@ private:
             }
     }
 
-    void sum_paths(PathsBefore& before)
+    void sum_paths(JointPath& before)
     {
         const std::size_t joints = s_.joints.size();
         std::vector<LawTerm> sums(joints);
@@ -427,7 +421,6 @@ private:
                 continue;
             sample.coefficients.assign(v.data(), v.data() + v.size());
             sample.motion = newton.motion;
-            sample.base_velocity_m_s = track_.base(1, i);
             found.push_back(std::move(sample));
         }
     }
@@ -488,7 +481,7 @@ std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const 
         order[r] = r;
     const auto place = [&](std::size_t r) { return campaign.runs[r].run_order.value_or(static_cast<int>(r)); };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-    PathsBefore before;
+    JointPath before;
     std::vector<std::vector<LawSample>> samples(order.size());
     for (const std::size_t r : order) {
         const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);

@@ -53,7 +53,12 @@ struct LawSample {
     std::vector<double> coefficients; ///< (3 n_block) of force x, force y, moment of each block: value per N, N m
     /// Motion of the blocks at the sample: [derivative 0 to 2].
     std::array<BlockValues, 3> motion;
-    double base_velocity_m_s = 0;
+};
+
+/// What each joint has gone through.
+struct JointPath {
+    std::vector<double> slip_m;       ///< (joints)
+    std::vector<double> rotation_rad; ///< (joints)
 };
 
 /// Samples of each run, far enough apart to be independent. Paths of earlier runs are counted in the order in which the

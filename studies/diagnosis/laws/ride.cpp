@@ -174,8 +174,7 @@ Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales)
     for (std::size_t index = 0; index < campaign.runs.size(); ++index) {
         const MeasuredRun& run = campaign.runs[index];
         const SeenMotion& seen = out.table ? run.table : run.blocks;
-        const bool has_base = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
-        if (run.time_s.size() < 2 || seen.x_m.empty() || !has_base)
+        if (run.time_s.size() < 2 || seen.x_m.empty() || !run.has_base())
             continue;
         Ride ride = seen_ride(run, index, s, out.table, lowest, scales);
         ride.parts = stretches(riding(ride, out.table, limit, scales), shortest_ride);

@@ -87,14 +87,12 @@ struct RideFit {
     std::vector<double> gain; ///< of each, over the fit without it [nats]
     double scale = 1;
     double log_likelihood = 0; ///< of all samples [nats]
-    std::size_t samples = 0;
 };
 
 template <class Value, class Column>
 RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)
 {
-    std::vector<std::vector<double>> rows;
-    std::vector<double> values, sds;
+    std::vector<double> rows, values, sds; // rows one after the other
     for (const Ride& ride : rides)
         for (const auto& [from, to] : ride.parts) {
             std::vector<double> mean(static_cast<std::size_t>(regressors) + 1, 0);
@@ -113,46 +111,39 @@ RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value,
             for (std::size_t i = from; i < to; ++i) {
                 if (!std::isfinite(value(ride, i).first))
                     continue;
-                std::vector<double> row;
                 for (int k = 0; k < regressors; ++k)
-                    row.push_back(column(ride, i, k) - mean[static_cast<std::size_t>(k)]);
-                rows.push_back(std::move(row));
+                    rows.push_back(column(ride, i, k) - mean[static_cast<std::size_t>(k)]);
                 values.push_back(value(ride, i).first - mean.back());
                 sds.push_back(value(ride, i).second);
             }
         }
     RideFit out;
-    out.samples = rows.size();
     out.size.assign(static_cast<std::size_t>(regressors), 0);
     out.sd.assign(static_cast<std::size_t>(regressors), std::numeric_limits<double>::infinity());
     out.gain.assign(static_cast<std::size_t>(regressors), 0);
-    if (rows.empty())
+    if (values.empty())
         return out;
     RegressionData data;
-    const auto n = static_cast<Eigen::Index>(rows.size());
-    data.columns.resize(n, regressors);
+    const auto n = static_cast<Eigen::Index>(values.size());
+    data.columns = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        rows.data(), n, regressors);
     data.values = Eigen::Map<const Eigen::VectorXd>(values.data(), n);
     data.sd = Eigen::Map<const Eigen::VectorXd>(sds.data(), n);
-    data.group.assign(rows.size(), 0);
+    data.group.assign(values.size(), 0);
     data.prior_sd = Eigen::VectorXd::Constant(regressors, std::numeric_limits<double>::infinity());
-    std::vector<double> unit(static_cast<std::size_t>(regressors), 0);
-    for (const auto& row : rows)
-        for (std::size_t k = 0; k < row.size(); ++k)
-            unit[k] = std::max(unit[k], std::fabs(row[k]));
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index k = 0; k < regressors; ++k) {
-            const double by = unit[static_cast<std::size_t>(k)];
-            data.columns(i, k) = by > 0 ? rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] / by : 0;
-        }
+    const Eigen::VectorXd unit = data.columns.cwiseAbs().colwise().maxCoeff();
+    for (Eigen::Index k = 0; k < regressors; ++k)
+        if (unit(k) > 0)
+            data.columns.col(k) /= unit(k);
     const RobustFit fit = robust_fit(data);
     out.scale = fit.scale(0);
     out.log_likelihood = fit.log_density.sum();
     for (int k = 0; k < regressors; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        if (unit[c] == 0)
+        if (unit(k) == 0)
             continue;
-        out.size[c] = fit.coefficients(k) / unit[c];
-        out.sd[c] = std::sqrt(fit.covariance(k, k)) / unit[c];
+        out.size[c] = fit.coefficients(k) / unit(k);
+        out.sd[c] = std::sqrt(fit.covariance(k, k)) / unit(k);
         // Wald's: enough for what is tens of standard deviations away, and for what is none
         out.gain[c] = 0.5 * std::pow(out.size[c] / out.sd[c], 2);
     }

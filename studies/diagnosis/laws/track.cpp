@@ -29,11 +29,6 @@ constexpr double open_noise = 8;
 // A collapse begins this long, in time scales, before it is reported.
 constexpr double falls_before = 1.0;
 
-bool seen(const MeasuredRun& run)
-{
-    return !run.blocks.x_m.empty() && !run.blocks.y_m.empty() && !run.blocks.theta_rad.empty() && run.time_s.size() > 1;
-}
-
 /// Differences of the fourth order are all noise.
 double noise_of(const Series& series, std::size_t columns)
 {
@@ -104,7 +99,7 @@ TrackScales track_scales(const Campaign& campaign)
     }
     scales.time_s = std::sqrt((top - bottom) / s.gravity_m_s2);
     for (const MeasuredRun& run : campaign.runs) {
-        if (!seen(run))
+        if (!run.has_blocks())
             continue;
         std::vector<double> spacing;
         for (std::size_t i = 1; i < run.time_s.size(); ++i)
@@ -162,10 +157,10 @@ Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales
                     bad[i] = 1;
                 }
         }
-    const bool fell = run.collapsed.value_or(false);
-    for (std::size_t i = 0; i < n; ++i)
-        if (fell && run.collapse_time_s >= 0 && time_s_[i] > run.collapse_time_s - falls_before * scales.time_s)
-            bad[i] = 1;
+    if (const auto fell_s = run.fell_at_s())
+        for (std::size_t i = 0; i < n; ++i)
+            if (time_s_[i] > *fell_s - falls_before * scales.time_s)
+                bad[i] = 1;
     bad_before_.assign(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i)
         bad_before_[i + 1] = bad_before_[i] + bad[i];

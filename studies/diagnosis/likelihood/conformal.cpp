@@ -4,12 +4,7 @@
 
 namespace stylobate {
 
-double conformal_p_value(const std::vector<double>& nulls, double score)
-{
-    return conformal_p_value(nulls, {}, score);
-}
-
-double conformal_p_value(const std::vector<double>& nulls, const std::vector<double>& weights, double score)
+double conformal_p_value(const std::vector<double>& nulls, double score, const std::vector<double>& weights)
 {
     double as_large = 1, all = 1;
     for (std::size_t i = 0; i < nulls.size(); ++i) {

@@ -281,7 +281,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     for (int fold = 0; fold < count; ++fold)
         look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);
     const auto chance = [&](double gain) {
-        return conformal_p_value(left_out.null_gains, left_out.null_weights, gain);
+        return conformal_p_value(left_out.null_gains, gain, left_out.null_weights);
     };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
@@ -314,7 +314,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
     const double left = fit.left(out.residual, cause, best);
     const auto exceeds = [&](const std::vector<double>& others, const std::vector<double>& weights) {
-        const double p = conformal_p_value(others, weights, left);
+        const double p = conformal_p_value(others, left, weights);
         out.left_p_value = std::max(out.left_p_value, p);
         return p <= std::max(rule.unexplained, 1 / (1 + static_cast<double>(others.size())));
     };

@@ -94,7 +94,7 @@ ForceTest force_test(const ForceEvidence& evidence)
         without.emplace_back(evidence, part);
     for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i)
         out.nulls.push_back(without[static_cast<std::size_t>(i % score_parts)].largest(evidence.nulls.row(i)).score);
-    out.p_value = conformal_p_value(out.nulls, evidence.likeness, out.score);
+    out.p_value = conformal_p_value(out.nulls, out.score, evidence.likeness);
     return out;
 }
 

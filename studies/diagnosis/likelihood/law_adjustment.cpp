@@ -21,11 +21,6 @@ constexpr double ridge = 0.05;
 constexpr int parts = 5;
 constexpr std::array freedoms = {4.0, 6.0, 9.0, 14.0, 22.0, 35.0, 60.0, 120.0, 1000.0};
 
-double median(std::vector<double> values)
-{
-    return upper_median(std::move(values));
-}
-
 } // namespace
 
 double student_kernel(double distance2, double p, double freedom)
@@ -71,10 +66,10 @@ LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& 
     spread_.resize(q);
     for (Eigen::Index k = 0; k < q; ++k) {
         std::vector<double> values(nulls.descriptors.col(k).begin(), nulls.descriptors.col(k).end());
-        middle_(k) = median(values);
+        middle_(k) = upper_median(values);
         for (double& value : values)
             value = std::fabs(value - middle_(k));
-        spread_(k) = std::max(1.4826 * median(std::move(values)), 1e-12);
+        spread_(k) = std::max(1.4826 * upper_median(std::move(values)), 1e-12);
     }
     regress(nulls, weights, least_scatter);
     Eigen::MatrixXd residuals(n, static_cast<Eigen::Index>(used_.size()));

@@ -4,13 +4,45 @@
 /// Student's tails.
 
 #include "studies/diagnosis/likelihood/law_adjustment.hpp"
-#include "studies/diagnosis/likelihood/shift_model.hpp"
 
 #include <Eigen/Core>
 
 #include <vector>
 
 namespace stylobate {
+
+// ---- How a cause of a given size shifts the statistics of a campaign, learnt from labelled campaigns: simulated ones
+// in which the cause acts at a known place with a known size.
+//
+//   mean residual at size z = z a + z^2 b      z: 0 at the neutral size
+//
+// The coefficients of most statistics are noise. They are shrunk all alike, in parts, by the factor that minimizes
+// Stein's unbiased estimate of the risk (Stein, "Estimation of the mean of a multivariate normal distribution", Annals
+// of Statistics 9 (1981)): each pair (a, b) with chi-squared F is multiplied by max(0, 1 - kappa / F).
+
+class ShiftModel {
+public:
+    /// @param residuals (n x p) of the labelled campaigns, of scatter 1 (`LawAdjustment::decorrelated`)
+    /// @param sizes     (n) z, not all 0
+    ShiftModel(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& sizes);
+
+    /// (p) expected residual
+    Eigen::VectorXd mean(double size) const;
+    /// Variance of the expected residual of one statistic, the same for all: few campaigns show it.
+    double variance(double size) const;
+    /// Range of the sizes that were simulated; 0 is not in it unless sizes have both signs.
+    double least() const { return least_; }
+    double most() const { return most_; }
+    /// Whether more than one size was simulated on one side: else the shift is a straight line.
+    bool curved() const { return curved_; }
+
+private:
+    Eigen::MatrixXd coefficients_; ///< (1 or 2 x p)
+    Eigen::MatrixXd covariance_;   ///< (1 or 2 square) of the coefficients of one statistic
+    double least_ = 0, most_ = 0;
+    double kept_ = 1; ///< mean factor of the shrinkage
+    bool curved_ = false;
+};
 
 /// Evidence of one campaign for one cause.
 struct CauseLikelihood {

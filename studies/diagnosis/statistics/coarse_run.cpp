@@ -26,11 +26,6 @@ void turn(CoarsePose& pose)
     pose.cosine = 1 - q / 2 * (1 - q / 12 * (1 - q / 30));
 }
 
-bool seen(const MeasuredRun& run)
-{
-    return !run.blocks.x_m.empty() && !run.blocks.y_m.empty() && !run.blocks.theta_rad.empty() && run.time_s.size() > 1;
-}
-
 } // namespace
 
 CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
@@ -38,7 +33,7 @@ CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const Tra
 {
     CoarseRun out;
     out.blocks = specimen.half_width_m.size();
-    if (!seen(run))
+    if (!run.has_blocks())
         return out;
     const std::size_t n = run.time_s.size(), columns = out.blocks;
     const double spacing = (run.time_s.back() - run.time_s.front()) / static_cast<double>(n - 1);
@@ -52,8 +47,8 @@ CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const Tra
     if (!base_m.empty())
         out.base_m.resize(out.bins);
     const double per = 1 / static_cast<double>(m);
-    const bool fell = run.collapsed.value_or(false) && run.collapse_time_s >= 0;
-    const double end = fell ? run.collapse_time_s - falls_before * scales.time_s : run.time_s.back() + spacing;
+    const auto fell_s = run.fell_at_s();
+    const double end = fell_s ? *fell_s - falls_before * scales.time_s : run.time_s.back() + spacing;
     for (std::size_t i = 0; i < out.bins; ++i) {
         CoarsePose* poses = &out.poses[i * columns];
         double check = 0;

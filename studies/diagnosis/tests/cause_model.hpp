@@ -21,12 +21,6 @@ struct SizedCause {
 /// change its motion before it comes here), but for the pitch.
 void apply_cause(const SizedCause& cause, const SpecimenStructure& built, Realization& realization);
 
-/// What each joint has gone through.
-struct JointPath {
-    std::vector<double> slip_m;       ///< (joints)
-    std::vector<double> rotation_rad; ///< (joints)
-};
-
 /// Wear that goes on from run to run begins where earlier runs have left it; other causes are left alone.
 /// @param before paths of the joints in the runs before this one
 /// @pre `apply_cause` has put the cause into the realization

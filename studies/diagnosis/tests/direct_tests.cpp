@@ -1,7 +1,6 @@
 #include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include "studies/diagnosis/laws/ride.hpp"
-#include "studies/diagnosis/tests/direct_findings.hpp"
 #include "studies/diagnosis/tests/pitch_test.hpp"
 #include "studies/diagnosis/tests/rest_tests.hpp"
 #include "studies/diagnosis/tests/vertical_test.hpp"
@@ -425,10 +424,8 @@ void align_bases(const Campaign& campaign, DirectResult& out)
 DirectResult uncorrected(const Campaign& campaign)
 {
     DirectResult out;
-    for (const MeasuredRun& run : campaign.runs) {
-        const bool has = !run.base_displacement_m.empty() || !run.base_acceleration_m_s2.empty();
-        out.corrected_m.push_back(has ? base_displacement(run) : std::vector<double>());
-    }
+    for (const MeasuredRun& run : campaign.runs)
+        out.corrected_m.push_back(run.has_base() ? base_displacement(run) : std::vector<double>());
     out.base_m = out.corrected_m;
     return out;
 }
@@ -456,6 +453,63 @@ DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scal
     correct_bases(campaign, scales, out);
     align_bases(campaign, out);
     return out;
+}
+
+namespace {
+
+constexpr double least_error = 0.02; // of a size against its neutral value
+
+} // namespace
+
+bool beyond(double value, double sd, double threshold, double sds)
+{
+    return std::fabs(value) > threshold && std::fabs(value) > sds * sd;
+}
+
+DataTest told(std::string name, std::string place, double value, double sd, double threshold, std::string unit,
+              bool found, const std::string& sentence)
+{
+    DataTest test;
+    test.name = std::move(name);
+    test.place = std::move(place);
+    test.value = value;
+    if (std::isfinite(sd))
+        test.sd = sd;
+    test.threshold = threshold;
+    test.unit = std::move(unit);
+    test.outcome = found ? TestOutcome::failed : TestOutcome::passed;
+    test.sentence = sentence;
+    return test;
+}
+
+double probability_of_finding(double p, double before)
+{
+    if (p <= 0)
+        return 1;
+    const double chance = p < std::exp(-1) ? -std::exp(1) * p * std::log(p) : 1;
+    return before / (before + (1 - before) * chance);
+}
+
+DataTest cannot(std::string name, const std::string& why)
+{
+    DataTest test;
+    test.name = std::move(name);
+    test.place = "base";
+    test.outcome = TestOutcome::not_judged;
+    test.sentence = why;
+    return test;
+}
+
+CauseFit cause_of(const char* mechanism, const std::string& place, const char* parameter, const char* unit,
+                  double neutral, double size, double sd, double gain)
+{
+    CauseFit fit;
+    fit.cause = {mechanism, place, parameter, unit, neutral};
+    fit.size = size;
+    // what the tests leave out (soft contacts, a form of distortion that is not quite theirs) is small, not nothing
+    fit.sd = std::hypot(sd, least_error * (size - neutral));
+    fit.gain = gain;
+    return fit;
 }
 
 } // namespace stylobate

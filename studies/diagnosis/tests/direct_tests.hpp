@@ -11,6 +11,7 @@
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/laws/track.hpp"
 
+#include <string>
 #include <vector>
 
 namespace stylobate {
@@ -52,6 +53,12 @@ struct TableDistortion {
     double gain = 0; ///< nats
 };
 
+/// Whether a cause is a vertical motion of the table that does not follow the horizontal one: no model has its record.
+inline bool unrecorded_vertical(const Cause& cause)
+{
+    return cause.mechanism == "vertical_motion" && cause.parameter != "ratio";
+}
+
 /// What was found and how to correct for it.
 struct DirectResult {
     std::vector<DataTest> base_tests;             ///< in the order in which they are judged
@@ -69,5 +76,29 @@ struct DirectResult {
 DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scales, const DirectResult& shown);
 
 DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits = {});
+
+// ---- How direct tests report their findings.
+
+/// In these samples of a run the blocks lie as they were put down.
+inline constexpr std::size_t first_samples = 20;
+
+/// Whether a finding is beyond its threshold and its noise.
+bool beyond(double value, double sd, double threshold, double sds);
+
+/// A test that was made. @param sd infinite or NaN: not known
+DataTest told(std::string name, std::string place, double value, double sd, double threshold, std::string unit,
+              bool found, const std::string& sentence);
+
+/// Probability that a finding is no chance, from its p-value: the evidence against chance is at most -1 / (e p ln p)
+/// (Sellke, Bayarri and Berger, "Calibration of p values for testing precise null hypotheses", The American
+/// Statistician 55 (2001)).
+/// @param p of such a finding by chance, anywhere that was tested   @param before of what was found, without the test
+double probability_of_finding(double p, double before);
+
+/// A test of the base that could not be made.
+DataTest cannot(std::string name, const std::string& why);
+
+CauseFit cause_of(const char* mechanism, const std::string& place, const char* parameter, const char* unit,
+                  double neutral, double size, double sd, double gain);
 
 } // namespace stylobate

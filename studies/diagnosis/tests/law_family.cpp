@@ -1,12 +1,8 @@
 #include "studies/diagnosis/tests/law_family.hpp"
 
-#include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "io/keys/words.hpp"
 #include "studies/diagnosis/laws/law_samples.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,15 +66,6 @@ double rate_of(DampingKind kind, double u)
     return 0;
 }
 
-template <class Part>
-std::vector<Part> left_of(std::vector<Part> parts, Part part)
-{
-    std::erase(parts, part);
-    if (parts.empty())
-        throw InputError("A family of contact laws needs at least one form and one kind of damping.");
-    return parts;
-}
-
 /// Of a softening bed (q < 1) `step_bound` looks at small loads alone; the form `points` is stiffest at large ones, and
 /// so is damping by rate. These are the linear bed's, or less.
 double safe_step(const Realization& realization)
@@ -97,61 +84,8 @@ double safe_step(const Realization& realization)
 
 const char* to_string(DampingKind kind)
 {
-    switch (kind) {
-    case DampingKind::light:
-        return "light";
-    case DampingKind::dashpot:
-        return "dashpot";
-    case DampingKind::rate:
-        return "rate";
-    case DampingKind::plastic:
-        return "plastic";
-    }
-    return "";
-}
-
-std::vector<double> HealthyLaw::numbers() const
-{
-    return {form == ContactForm::two_corner ? 1.0 : 0.0,
-            form == ContactForm::points ? 1.0 : 0.0,
-            std::log(stiffness),
-            std::log(shear),
-            std::log(exponent),
-            std::log(damping),
-            std::log(tangential_damping),
-            form == ContactForm::area ? face_share : 1,
-            std::log1p(rate),
-            inset,
-            std::log(friction)};
-}
-
-std::vector<std::string> HealthyLaw::number_names()
-{
-    return {
-        "two_corner", "points",    "ln_stiffness", "ln_shear",   "ln_exponent", "ln_damping", "ln_tangential_damping",
-        "face_share", "ln_1_rate", "inset",        "ln_friction"};
-}
-
-std::string HealthyLaw::words() const
-{
-    return fmt::format("{}, {} damping, K_N x {:.2f}, K_T/K_N x {:.2f}, exponent {:.2f}, damping {:.3f} ({:.0f} % at "
-                       "the ends), rate {:.2f}, inset {:.3f}, friction x {:.2f}",
-                       word_for(contact_form_names, form), to_string(kind), stiffness, shear, exponent, damping,
-                       100 * (form == ContactForm::area ? face_share : 1), rate, inset, friction);
-}
-
-LawFamily LawFamily::without(ContactForm form) const
-{
-    LawFamily family = *this;
-    family.forms = left_of(forms, form);
-    return family;
-}
-
-LawFamily LawFamily::without(DampingKind kind) const
-{
-    LawFamily family = *this;
-    family.kinds = left_of(kinds, kind);
-    return family;
+    constexpr const char* words[] = {"light", "dashpot", "rate", "plastic"};
+    return words[static_cast<std::size_t>(kind)];
 }
 
 HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t number)
@@ -202,14 +136,6 @@ HealthyLaw draw_near(const LawFamily& family, const HealthyLaw& parent, double s
         std::clamp(law.inset + 0.3 * spread * family.most_inset * normal(LawDraw::inset), 0.0, family.most_inset);
     law.friction *= std::exp(0.9 * spread * family.common_friction * normal(LawDraw::friction));
     return law;
-}
-
-std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first, std::uint64_t count)
-{
-    std::vector<HealthyLaw> laws;
-    for (std::uint64_t n = 0; n < count; ++n)
-        laws.push_back(draw_law(family, seed, first + n));
-    return laws;
 }
 
 void apply_law(const HealthyLaw& law, Study& study)

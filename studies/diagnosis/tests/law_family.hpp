@@ -41,11 +41,6 @@ struct HealthyLaw {
     double inset = 0;      ///< of where all faces begin to carry, over the half width
     double friction = 1;   ///< of all joints, over the nominal one
 
-    /// Plain numbers of all that was drawn, for regressions: named by `number_names`. Scales are logarithms.
-    std::vector<double> numbers() const;
-    static std::vector<std::string> number_names();
-    /// For people.
-    std::string words() const;
     friend bool operator==(const HealthyLaw&, const HealthyLaw&) = default;
 };
 
@@ -60,18 +55,11 @@ struct LawFamily {
     double least_points_exponent = 0.7, most_points_exponent = 1.3; ///< of the form `points`
     double most_inset = 0.03;      ///< small ones are likelier: of the square of a uniform number
     double common_friction = 0.05; ///< 1 sigma, relative
-
-    /// The same family without a part of it, for judging a rule on laws that it has not seen.
-    /// @throws InputError if nothing would be left
-    LawFamily without(ContactForm form) const;
-    LawFamily without(DampingKind kind) const;
 };
 
 /// The law of one campaign: a pure function of family, seed and number. Forms and kinds of damping take turns; every
 /// other quantity has draws of its own, so that families with and without a part differ in nothing else.
 HealthyLaw draw_law(const LawFamily& family, std::uint64_t seed, std::uint64_t number);
-std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first,
-                                  std::uint64_t count);
 
 /// A law near another one: of the same form and kind of damping, its scales moved by `spread` (1 sigma of the
 /// logarithm), all else by the same part of its range, within the family's bounds. A pure function of its arguments.

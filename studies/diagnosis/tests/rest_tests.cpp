@@ -3,7 +3,7 @@
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/tracking/following_score.hpp"
 #include "io/measured/measured_noise.hpp"
-#include "studies/diagnosis/tests/direct_findings.hpp"
+#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <fmt/format.h>
 

@@ -28,10 +28,7 @@ constexpr std::size_t least_motions = 3;
 /// What a block does whose smoothing saw nothing but what was seen.
 std::vector<double> seen_smooth(const LocalCubic& smoothing, const std::vector<double>& series)
 {
-    std::vector<double> filled = series;
-    for (double& v : filled)
-        v = std::isfinite(v) ? v : 0;
-    std::vector<double> smooth = smoothing.apply(0, filled);
+    std::vector<double> smooth = smoothing.apply(0, filled(series));
     const auto half = static_cast<std::size_t>(smoothing.half_width());
     std::size_t good = 0; // in a row
     for (std::size_t i = 0; i < series.size(); ++i) {
@@ -51,11 +48,10 @@ std::vector<double> table_height(const Specimen& s, const MeasuredRun& run, cons
 {
     std::vector<double> height = ride.y;
     const double missing = std::numeric_limits<double>::quiet_NaN();
-    const bool fell = run.collapsed.value_or(false) && run.collapse_time_s >= 0;
-    for (std::size_t i = 0; i < height.size(); ++i)
-        if (fell &&
-            run.time_s.front() + scales.spacing_s * static_cast<double>(i) > run.collapse_time_s - scales.time_s)
-            height[i] = missing; // what falls rests on something else
+    if (const auto fell_s = run.fell_at_s()) // what falls rests on something else
+        for (std::size_t i = 0; i < height.size(); ++i)
+            if (run.time_s.front() + scales.spacing_s * static_cast<double>(i) > *fell_s - scales.time_s)
+                height[i] = missing;
     if (prepared.table)
         return height;
     if (ride.theta.empty()) {
@@ -205,10 +201,7 @@ void ride_along(const Prepared& prepared, const TrackScales& scales, VerticalMot
             continue;
         // what was not seen spoils the smoothing of its neighbours, too
         const std::vector<double> smooth = scales.rates.apply(0, ride.y), rise = scales.widths.back().apply(2, ride.y);
-        std::vector<double> turned = ride.theta;
-        for (double& v : turned)
-            v = std::isfinite(v) ? v : 0;
-        const std::vector<double> angle = scales.rates.apply(0, turned);
+        const std::vector<double> angle = scales.rates.apply(0, filled(ride.theta));
         for (const auto& [from, to] : ride.parts) {
             // a block that leans is lifted by it
             std::vector<std::size_t> upright;

@@ -64,7 +64,10 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
                  cause.cause.label()] = &cause;
         EXPECT_DOUBLE_EQ(cause.size_of(0), cause.cause.neutral) << cause.cause.label();
         for (const double z : {cause.least, 0.3 * cause.most, cause.most})
-            EXPECT_NEAR(cause.z_of(cause.size_of(z)), z, 1e-12) << cause.cause.label();
+            EXPECT_NEAR(cause.ratio ? std::log(cause.size_of(z)) / std::log(cause.at_one)
+                                    : cause.size_of(z) / cause.at_one,
+                        z, 1e-12)
+                << cause.cause.label();
     }
     EXPECT_EQ(by_label.size(), causes.size()) << "each once";
     EXPECT_DOUBLE_EQ(by_label.at("joint_friction at joint 1")->size_of(1), 0.5);

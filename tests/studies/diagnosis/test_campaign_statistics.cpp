@@ -4,7 +4,6 @@
 
 #include "studies/diagnosis/statistics/campaign_statistics.hpp"
 #include "studies/diagnosis/statistics/joint_sums.hpp"
-#include "studies/diagnosis/statistics/summaries.hpp"
 
 #include <gtest/gtest.h>
 

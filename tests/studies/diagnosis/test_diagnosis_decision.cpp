@@ -1,10 +1,10 @@
 /// The rule that names causes, on evidence that is written down here.
 
 #include "studies/diagnosis/decision/decision.hpp"
-#include "studies/diagnosis/decision/evidence.hpp"
 #include "studies/diagnosis/decision/named_by_forces.hpp"
 #include "studies/diagnosis/decision/prediction.hpp"
 #include "studies/diagnosis/decision/presentation.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     for (int i = 1; i <= 100; ++i)
         v.null_gains.push_back(0.1 * i);
     v.null_weights.assign(100, 1);
-    v.p_value = conformal_p_value(v.null_gains, v.null_weights, friction);
+    v.p_value = conformal_p_value(v.null_gains, friction, v.null_weights);
     v.named = v.p_value <= EnsembleRule{}.named;
     v.probability = v.set_probability = 0.8;
     v.residual = Eigen::Vector3d(0.5, -4, 1);

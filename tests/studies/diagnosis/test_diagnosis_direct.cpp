@@ -2,7 +2,6 @@
 
 #include "tests/io/measured/measured_samples.hpp"
 
-#include "studies/diagnosis/tests/direct_findings.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 #include "studies/diagnosis/tests/pitch_test.hpp"
 

@@ -1,7 +1,6 @@
 /// A diagnosis as JSON and as a page of text.
 
 #include "studies/diagnosis/findings/diagnosis_json.hpp"
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/diagnosis/diagnosis_sample.hpp"
@@ -181,13 +180,8 @@ TEST(DiagnosisText, OfAnEmptyOneSaysThatNothingIsWrong)
     EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
-TEST(DiagnosisWords, ComposeTheVerdictWhereTheDiagnosisHasNoWordsOfItsOwn)
+TEST(DiagnosisWords, SayWhatIsNotKnown)
 {
-    Diagnosis d = filled_diagnosis();
-    d.verdict_text.clear();
-    EXPECT_EQ(verdict_words(d), "joint_friction at joint 0: a joint with another friction, ratio 0.57 "
-                                "(0.49 to 0.66), probability 0.83. These data do not distinguish joint_friction and "
-                                "stribeck. The remaining error is at block 3, x, and depends on velocity.");
     EXPECT_EQ(interval_words({}, 2.0), "up to 2");
     EXPECT_EQ(interval_words(2.0, {}), "2 or more");
     EXPECT_EQ(estimate_words({}, {}, {}, "m"), "not known");

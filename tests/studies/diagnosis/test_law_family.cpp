@@ -17,6 +17,14 @@
 namespace stylobate {
 namespace {
 
+std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first, std::uint64_t count)
+{
+    std::vector<HealthyLaw> laws;
+    for (std::uint64_t n = 0; n < count; ++n)
+        laws.push_back(draw_law(family, seed, first + n));
+    return laws;
+}
+
 TEST(LawFamily, DrawsFillItsRanges)
 {
     const LawFamily family;
@@ -34,9 +42,6 @@ TEST(LawFamily, DrawsFillItsRanges)
         stiff += std::log10(law.stiffness) / 2400;
         shear += std::log10(law.shear) / 2400;
         strongest = std::max(strongest, law.damping);
-        EXPECT_EQ(law.numbers().size(), HealthyLaw::number_names().size());
-        for (const double number : law.numbers())
-            EXPECT_TRUE(std::isfinite(number));
     }
     EXPECT_EQ(seen.size(), 12u);
     // uniform in their logarithms: 5 standard errors
@@ -53,23 +58,12 @@ TEST(LawFamily, ADrawIsAFunctionOfItsNumber)
         EXPECT_EQ(laws[k], draw_law(family, 3, 10 + k));
     EXPECT_NE(laws[0], draw_law(family, 4, 10));
     // what is left out changes nothing else
-    const HealthyLaw other = draw_law(family.without(ContactForm::area), 3, 10);
+    LawFamily without_area = family;
+    without_area.forms = {ContactForm::two_corner, ContactForm::points};
+    const HealthyLaw other = draw_law(without_area, 3, 10);
     EXPECT_EQ(other.stiffness, laws[0].stiffness);
     EXPECT_EQ(other.shear, laws[0].shear);
     EXPECT_EQ(other.friction, laws[0].friction);
-}
-
-TEST(LawFamily, LeavesOutAPart)
-{
-    const LawFamily family;
-    for (const HealthyLaw& law :
-         draw_laws(family.without(ContactForm::points).without(DampingKind::plastic), 1, 0, 60)) {
-        EXPECT_NE(law.form, ContactForm::points);
-        EXPECT_NE(law.kind, DampingKind::plastic);
-    }
-    LawFamily one = family;
-    one.forms = {ContactForm::area};
-    EXPECT_THROW(one.without(ContactForm::area), InputError);
 }
 
 /// What is measured while nothing shakes.
@@ -98,7 +92,6 @@ TEST(LawFamily, EveryLawStands)
     const VirtualCampaigns made =
         virtual_campaigns(VirtualLaboratory(campaign), study, 5, 0, 24, scatter, {}, {best_isa(), 1}, observer);
     ASSERT_TRUE(made.complete);
-    EXPECT_EQ(made.laws, scatter.laws);
     const auto moved = [](const Series& series, std::size_t blocks) {
         double most = 0;
         for (std::size_t i = 0; i < series.values.size(); ++i)
@@ -108,10 +101,10 @@ TEST(LawFamily, EveryLawStands)
     for (std::size_t c = 0; c < made.campaigns.size(); ++c) {
         const SeenMotion& seen = made.campaigns[c].runs[0].blocks;
         const std::size_t blocks = campaign.specimen.half_width_m.size();
-        EXPECT_FALSE(made.campaigns[c].runs[0].collapsed.value_or(true)) << made.contacts[c];
-        EXPECT_LT(moved(seen.x_m, blocks), 1e-6) << made.contacts[c];
-        EXPECT_LT(moved(seen.y_m, blocks), 1e-6) << made.contacts[c];
-        EXPECT_LT(moved(seen.theta_rad, blocks), 1e-5) << made.contacts[c];
+        EXPECT_FALSE(made.campaigns[c].runs[0].collapsed.value_or(true)) << c;
+        EXPECT_LT(moved(seen.x_m, blocks), 1e-6) << c;
+        EXPECT_LT(moved(seen.y_m, blocks), 1e-6) << c;
+        EXPECT_LT(moved(seen.theta_rad, blocks), 1e-5) << c;
     }
 }
 
@@ -217,7 +210,6 @@ TEST(VirtualCampaigns, PutTheBlocksWhereTheyWereSeen)
 {
     Campaign campaign = put_askew();
     HealthyScatter scatter;
-    scatter.contacts = false;
     Observer observer;
     constexpr std::size_t count = 24;
     /// (campaigns) of block b against block 0, mean over the samples

@@ -2,10 +2,10 @@
 
 #include "tests/ensemble/motion/formula_motions.hpp"
 
-#include "studies/diagnosis/decision/evidence.hpp"
+#include "studies/diagnosis/laws/balance_evidence.hpp"
 #include "studies/diagnosis/likelihood/force_test.hpp"
 #include "studies/diagnosis/likelihood/law_adjustment.hpp"
-#include "studies/diagnosis/likelihood/shift_model.hpp"
+#include "studies/diagnosis/likelihood/synthetic_likelihood.hpp"
 #include "studies/diagnosis/statistics/coarse_run.hpp"
 #include "studies/diagnosis/statistics/joint_sums.hpp"
 

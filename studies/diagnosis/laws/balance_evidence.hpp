@@ -1,10 +1,10 @@
 #pragma once
-/// Evidence of the balance of forces of a campaign for each cause and for forces of unknown kind.
+/// Evidence of the balance of forces of a campaign for each cause and for forces of unknown kind: as scores
+/// (`BalanceFit::score`), which measured and simulated campaigns have alike, and as fits.
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
 #include "studies/diagnosis/laws/track.hpp"
-#include "studies/diagnosis/tests/direct_tests.hpp"
 
 #include <optional>
 #include <string>
@@ -12,16 +12,24 @@
 
 namespace stylobate {
 
-/// By which of three ways a cause is found.
-enum class Channel {
-    direct,    ///< base and sensors, while the lowest block rides on the table; blocks at rest
-    forces,    ///< the balance of forces, compared with that of simulated campaigns
-    statistics ///< statistics of the whole campaign, compared with simulated campaigns
+/// Of which the scores of a specimen are: causes first, then structures.
+struct ScorePlan {
+    std::vector<Cause> causes;
+    std::vector<Structure> structures;
+    std::size_t size() const { return causes.size() + structures.size(); }
 };
+ScorePlan score_plan(const Specimen& specimen, const TrackScales& scales);
+
+/// @param base_m (runs)(nt) as in `law_samples`
+/// @return refers to the campaign's specimen; nothing where no joint slid or rocked long enough
+std::optional<BalanceFit> fit_balance(const Campaign& campaign, const TrackScales& scales,
+                                      const std::vector<std::vector<double>>& base_m);
+
+/// @return (plan) NaN where the samples do not show it, and everywhere where there is no fit
+std::vector<double> balance_scores(const std::optional<BalanceFit>& fit, const ScorePlan& plan);
 
 /// The forces of a campaign.
 struct BalanceEvidence {
-    TrackScales scales;
     std::optional<BalanceFit> fit; ///< nothing where no joint slid or rocked long enough
     /// One for each mechanism and place, best first; possible ones, of sizes that a damaged specimen may have.
     std::vector<CauseFit> causes;
