@@ -34,7 +34,7 @@ constexpr std::array elsewhere = {"table_pitch", "vertical_motion", "harmonic_di
 /// The numbers that the diagnosis takes from a campaign whose base motion is right.
 Eigen::RowVectorXd numbers_of(const Campaign& campaign)
 {
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const DirectResult base = apply_corrections(campaign, scales, {});
     const Summary joints = over_motions(statistic_labels(campaign));
     std::vector<double> row = means(joints, statistics_of(campaign, scales, base.base_m).values);

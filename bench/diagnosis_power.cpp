@@ -75,7 +75,7 @@ int main(int argc, char** argv)
     Observer observer;
     for (const std::string& file : files) {
         const Campaign measured = read_campaign(file);
-        const TrackScales scales = track_scales(measured);
+        const CampaignScales scales = campaign_scales(measured);
         const DirectResult direct = direct_tests(measured, scales);
         EnsemblePlan plan = EnsemblePlan::with(nulls);
         plan.seed = seed;

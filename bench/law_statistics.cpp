@@ -53,7 +53,7 @@ Rows rows_of(const Campaign& measured, const Study& study, std::uint64_t seed, s
     constexpr std::size_t together = 8;
     Rows rows;
     Observer observer;
-    const TrackScales scales = track_scales(measured);
+    const CampaignScales scales = campaign_scales(measured);
     const VirtualLaboratory laboratory(measured);
     for (std::size_t k = 0; k < laws.size(); k += together) {
         HealthyScatter scatter;
@@ -319,7 +319,7 @@ int main(int argc, char** argv)
             fmt::print("Nothing is finite in campaign {}: {}.\n", k, draw_law(family, seed, k).words());
     print_statistics(labels, laws, repeated, per_law);
     print_contrasts(labels, static_cast<int>(campaign.specimen.joints.size()), laws, repeated, per_law);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     print_descriptors(descriptor_labels(campaign), laws, repeated, per_law,
                       statistics_of(campaign, scales, direct_tests(campaign, scales).base_m));
     return 0;

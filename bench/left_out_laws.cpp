@@ -87,7 +87,7 @@ int main(int argc, char** argv)
         for (std::uint64_t i = 0; i < campaigns; ++i) {
             std::vector<std::vector<double>> base_m;
             const Campaign campaign = healthy_campaign(like, study, part.truth, 1000 + seed, number++, run, base_m);
-            const TrackScales scales = track_scales(campaign);
+            const CampaignScales scales = campaign_scales(campaign);
             EnsemblePlan plan;
             plan.family = part.without;
             const EnsembleDiagnosis found = ensemble_diagnosis(

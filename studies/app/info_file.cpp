@@ -17,7 +17,7 @@
 #include "studies/decisions/laws/law_runs.hpp"
 #include "studies/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/report/json.hpp"
@@ -119,7 +119,7 @@ std::string refusal(const std::string& verb, const InputError& error, const std:
 std::vector<std::string> refusals_of(const Campaign& campaign, const std::string& file)
 {
     try {
-        track_scales(campaign);
+        campaign_scales(campaign);
     } catch (const InputError& error) {
         return {refusal("diagnose", error, file)};
     }

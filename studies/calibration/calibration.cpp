@@ -215,7 +215,7 @@ void search_forms(Calibration& result, Begin begin, const CalibrationOptions& op
 {
     if (result.from_outcomes)
         for (FitKey& key : begin.keys)
-            key.method_deviation = 0; // nothing is followed
+            key.method_deviation = 0; // nothing is tracked
     const std::vector<ContactForm> forms =
         options.forms.empty() ? std::vector<ContactForm>{begin.base.contact.form} : options.forms;
     std::size_t folds = 0;

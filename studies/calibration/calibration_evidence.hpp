@@ -5,7 +5,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 #include "studies/calibration/outcome_tests.hpp"
 
 #include <cstdint>
@@ -54,7 +54,7 @@ public:
     virtual std::size_t restored() const { return 0; }
 };
 
-/// Null where no run has a history that a model could follow.
+/// Null where no run has a history that a model could track.
 std::unique_ptr<CalibrationEvidence> history_evidence(const Campaign& campaign, const std::vector<std::size_t>& runs,
                                                       double window_s);
 /// How a specimen differs from its plan, as far as that is known: what is drawn where a study draws nothing.

@@ -14,10 +14,10 @@
 
 namespace stylobate {
 
-/// The run as a variant is to follow it, through all of its windows.
-FollowJob WindowComparison::job_of(const Run& run, const ModelVariant& variant) const
+/// The run as a variant is to track it, through all of its windows.
+TrackingJob WindowComparison::job_of(const Run& run, const ModelVariant& variant) const
 {
-    FollowJob job;
+    TrackingJob job;
     job.realization = nominal_realization(variant.study, structure_);
     Realization& r = job.realization;
     for (std::size_t i = 0; i < plan_x_m_.size(); ++i)
@@ -73,10 +73,10 @@ WindowCurve WindowComparison::measured_curve(const Run& run, std::size_t window,
     return curve;
 }
 
-FollowReport WindowComparison::followed(const std::vector<FollowJob>& jobs, const RunOptions& options,
-                                        Observer& observer)
+TrackingReport WindowComparison::tracked(const std::vector<TrackingJob>& jobs, const RunOptions& options,
+                                         Observer& observer)
 {
-    FollowReport report = follow(jobs, options, observer);
+    TrackingReport report = track(jobs, options, observer);
     cost_ += {jobs.size(), report.windows, report.block_steps};
     return report;
 }
@@ -111,7 +111,7 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
         }
     }
     scales_ =
-        follow_scales(width / static_cast<double>(std::max<std::size_t>(drums, 1)), campaign.specimen.gravity_m_s2);
+        tracking_scales(width / static_cast<double>(std::max<std::size_t>(drums, 1)), campaign.specimen.gravity_m_s2);
     if (options.window_s > 0)
         scales_.window_s = options.window_s;
     for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
@@ -147,7 +147,7 @@ WindowComparison::WindowComparison(const Campaign& campaign, const WindowOptions
 std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<ModelVariant>& variants,
                                                          const RunOptions& options, Observer& observer)
 {
-    std::vector<FollowJob> jobs;
+    std::vector<TrackingJob> jobs;
     std::vector<std::vector<double>> rest_y; // (jobs x blocks)
     for (const ModelVariant& variant : variants) {
         for (const Run& run : runs_) {
@@ -155,7 +155,7 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
             rest_y.push_back(static_state(jobs.back().realization).y_m);
         }
     }
-    const FollowReport report = followed(jobs, options, observer);
+    const TrackingReport report = tracked(jobs, options, observer);
     std::vector<WindowResiduals> all;
     if (!report.complete)
         return all;
@@ -163,7 +163,7 @@ std::vector<WindowResiduals> WindowComparison::residuals(const std::vector<Model
     for (std::size_t v = 0; v < variants.size(); ++v) {
         WindowResiduals z(places_.size());
         for (const Run& run : runs_) {
-            const FollowResult& result = report.results[job];
+            const TrackingResult& result = report.results[job];
             const std::size_t read = jobs[job].realization.blocks.size(); // the ground among them, where it can be met
             for (std::size_t w = 0; w < result.windows.size(); ++w)
                 z[run.first + w] = stylobate::residuals(values_[run.first + w], result.windows[w], read, rest_y[job]);
@@ -179,7 +179,7 @@ std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, c
                                                   Observer& observer)
 {
     std::vector<WindowCurve> curves;
-    std::vector<FollowJob> jobs;
+    std::vector<TrackingJob> jobs;
     for (const Run& run : runs_) {
         auto dense = std::make_shared<std::vector<FreeWindow>>();
         for (const std::size_t w : windows) {
@@ -192,7 +192,7 @@ std::vector<WindowCurve> WindowComparison::curves(const ModelVariant& variant, c
         jobs.push_back(job_of(run, variant));
         jobs.back().windows = dense;
     }
-    const FollowReport report = followed(jobs, options, observer);
+    const TrackingReport report = tracked(jobs, options, observer);
     if (!report.complete)
         return {};
     auto curve = curves.begin();

@@ -1,11 +1,11 @@
 #pragma once
-/// Models compared with measured histories, window by window (`ensemble/tracking/following.hpp`).
+/// Models compared with measured histories, window by window (`ensemble/tracking/tracking.hpp`).
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/tracking/following_score.hpp"
+#include "ensemble/tracking/tracking_score.hpp"
 
 #include <array>
 #include <cstdint>
@@ -35,7 +35,7 @@ struct WindowPlace {
 };
 
 struct WindowOptions {
-    double window_s = 0;           ///< length; 0: by the size of the drums (`follow_scales`)
+    double window_s = 0;           ///< length; 0: by the size of the drums (`tracking_scales`)
     std::vector<std::size_t> runs; ///< of the campaign; empty: all
     /// These windows only, which a comparison with the same length has chosen, ascending in each run; empty: all that
     /// follow from the base motion.
@@ -64,7 +64,7 @@ public:
     WindowComparison(const Campaign& campaign, const WindowOptions& options);
 
     const std::vector<WindowPlace>& windows() const { return places_; }
-    const FollowScales& scales() const { return scales_; }
+    const TrackingScales& scales() const { return scales_; }
 
     /// Runs every variant over all windows, in lockstep. @return (variants x windows); empty if the observer stopped it
     /// @throws InputError if a variant cannot be built
@@ -97,15 +97,15 @@ private:
         std::shared_ptr<const std::vector<FreeWindow>> windows;
         std::size_t first = 0; ///< of its windows among all
     };
-    FollowJob job_of(const Run& run, const ModelVariant& variant) const;
+    TrackingJob job_of(const Run& run, const ModelVariant& variant) const;
     std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const;
     WindowCurve measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
                                FreeWindow& read) const;
-    FollowReport followed(const std::vector<FollowJob>& jobs, const RunOptions& options, Observer& observer);
+    TrackingReport followed(const std::vector<TrackingJob>& jobs, const RunOptions& options, Observer& observer);
 
     StructureSpec structure_;
     std::vector<double> plan_x_m_; ///< (blocks)
-    FollowScales scales_;
+    TrackingScales scales_;
     std::vector<Run> runs_;
     std::vector<WindowPlace> places_;
     std::vector<std::vector<SeenValue>> values_; ///< (windows)

@@ -41,7 +41,7 @@ public:
     Pipeline(const Campaign& measured, const Study& start, const DiagnosisOptions& options, const Tell& tell,
              Observer& observer)
         : measured_(measured), start_(start), options_(options), tell_(tell), observer_(observer),
-          scales_(track_scales(measured)), // refuses what cannot be diagnosed, before anything is reported
+          scales_(campaign_scales(measured)), // refuses what cannot be diagnosed, before anything is reported
           built_(build_specimen(measured.specimen)), study_(start)
     {
         study_.structure = built_.structure;
@@ -62,7 +62,7 @@ private:
     void describe_unexplained();
     void find_wrong_windows();
     void show_windows(const std::vector<ChosenWindow>& chosen);
-    void judge_extension();
+    void judge_extended_study();
     void write_extended_study();
     void propose_next_test();
     void tell_method_and_cost();
@@ -74,7 +74,7 @@ private:
     Observer& observer_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 
-    TrackScales scales_;
+    CampaignScales scales_;
     SpecimenStructure built_;
     Study study_; ///< the baseline: with the specimen's structure, then with the contacts that the windows choose
 
@@ -100,7 +100,7 @@ std::optional<Diagnosis> Pipeline::run()
     if (observer_.stop_requested())
         return std::nullopt;
     find_wrong_windows();
-    judge_extension();
+    judge_extended_study();
     propose_next_test();
     if (observer_.stop_requested())
         return std::nullopt;
@@ -360,8 +360,8 @@ void Pipeline::show_windows(const std::vector<ChosenWindow>& chosen)
     d_.motion = window_motions(chosen, models, {}, options_.run, count_, observer_);
 }
 
-/// What the extension by the named causes gains on runs left out, and its study.
-void Pipeline::judge_extension()
+/// What the extended study gains on runs left out, and its text.
+void Pipeline::judge_extended_study()
 {
     if (d_.verdict == Verdict::unexplained)
         d_.missing.push_back(

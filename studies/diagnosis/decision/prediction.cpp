@@ -216,7 +216,7 @@ std::optional<double> size_by_windows(const CauseFit& fit, const Campaign& at, c
 
 /// The named causes with the sizes that these runs alone give them; nothing if stopped.
 std::optional<std::vector<JudgedCause>> sized_by(const Campaign& training, const DirectResult& direct,
-                                                 const TrackScales& scales, const std::vector<JudgedCause>& named,
+                                                 const CampaignScales& scales, const std::vector<JudgedCause>& named,
                                                  const Simulating& simulating)
 {
     const BalanceEvidence balance = balance_evidence(training, scales, direct.base_m);
@@ -282,7 +282,7 @@ CollapsePrediction predict_collapse(const Campaign& rest, const Campaign& rest_c
 
 } // namespace
 
-std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+std::optional<ModelGain> predictive_gain(const Campaign& campaign, const CampaignScales& scales, const Study& baseline,
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer)
 {
@@ -366,7 +366,7 @@ std::vector<double> outcome_of(const Specimen& s, const MeasuredRun& run)
 }
 
 /// Harmonic motions about the pace of the specimen and the acceleration from which anything moves.
-std::vector<ProposedMotion> proposed_motions(const Specimen& s, const TrackScales& scales)
+std::vector<ProposedMotion> proposed_motions(const Specimen& s, const CampaignScales& scales)
 {
     double width = std::numeric_limits<double>::infinity();
     for (const double b : s.half_width_m)
@@ -385,7 +385,7 @@ std::vector<ProposedMotion> proposed_motions(const Specimen& s, const TrackScale
 }
 
 /// A run of the campaign to be: base and places of the cameras' samples, with the noise that they have.
-MeasuredRun run_of(const ProposedMotion& m, std::size_t number, const Specimen& s, const TrackScales& scales)
+MeasuredRun run_of(const ProposedMotion& m, std::size_t number, const Specimen& s, const CampaignScales& scales)
 {
     MeasuredRun run;
     run.name = fmt::format("{:03}", number);
@@ -432,7 +432,7 @@ OutcomeSpread spread_of(const std::vector<Campaign>& campaigns, const Specimen& 
 
 /// Difference of two causes in the outcome that separates them best, in standard deviations and noise.
 MotionChoice choice_of(const ProposedMotion& motion, const OutcomeSpread& a, const OutcomeSpread& b,
-                       const TrackScales& scales)
+                       const CampaignScales& scales)
 {
     double separation = 0;
     for (std::size_t f = 0; f < a.mean.size(); ++f) {
@@ -452,7 +452,7 @@ MotionChoice choice_of(const ProposedMotion& motion, const OutcomeSpread& a, con
 
 } // namespace
 
-std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+std::optional<NextTest> next_test(const Campaign& campaign, const CampaignScales& scales, const Study& baseline,
                                   const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
                                   SimulationCount& count, Observer& observer)
 {

@@ -9,7 +9,7 @@
 #include "studies/diagnosis/decision/decision.hpp"
 #include "studies/diagnosis/decision/window_evidence.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/windows/window_comparison.hpp"
 
@@ -40,14 +40,14 @@ std::optional<std::pair<double, double>> interval_of_ratio(const RunErrors& befo
 
 /// Every second motion is left out; the causes are sized by the others.
 /// @return nothing where there are fewer than two motions, or the observer stopped it
-std::optional<ModelGain> predictive_gain(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+std::optional<ModelGain> predictive_gain(const Campaign& campaign, const CampaignScales& scales, const Study& baseline,
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer);
 
 // ---- The test that would distinguish the remaining causes.
 
 /// Of a few motions that a table can make, the one whose outcome separates these causes best.
-std::optional<NextTest> next_test(const Campaign& campaign, const TrackScales& scales, const Study& baseline,
+std::optional<NextTest> next_test(const Campaign& campaign, const CampaignScales& scales, const Study& baseline,
                                   const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
                                   SimulationCount& count, Observer& observer);
 

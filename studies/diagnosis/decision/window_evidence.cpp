@@ -155,7 +155,7 @@ ModelVariant with_causes(const Study& study, const SpecimenStructure& built, std
     return variant;
 }
 
-WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
+WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const CampaignScales& scales,
                                const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer)
 {
     WindowEvidence out;

@@ -1,12 +1,12 @@
 #pragma once
-/// The contacts of the baseline, from free windows of the simulation (`window_comparison.hpp`): the model follows the
+/// The contacts of the baseline, from free windows of the simulation (`window_comparison.hpp`): the model tracks the
 /// measured motion, and the contacts of each form are those that predict best what is seen in windows that run free.
 
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/windows/window_comparison.hpp"
 
@@ -35,7 +35,7 @@ struct WindowEvidence {
 
 /// @param start contacts to begin with
 /// @param given causes that are in the model already
-WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const TrackScales& scales,
+WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const CampaignScales& scales,
                                const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer);
 
 } // namespace stylobate

@@ -211,7 +211,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    Observer& observer)
 {
     CampaignEnsemble out;
-    const TrackScales scales = track_scales(measured);
+    const CampaignScales scales = campaign_scales(measured);
     const std::vector<StatisticLabel> labels = statistic_labels(measured);
     const ScorePlan scored = score_plan(measured.specimen, scales);
     const std::string key = key_of(measured, study, causes, known, plan, shown);

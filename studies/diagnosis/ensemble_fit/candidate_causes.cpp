@@ -72,7 +72,7 @@ double CandidateCause::size_of(double z) const
     return ratio ? std::pow(at_one, z) : at_one * z;
 }
 
-std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
+std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const CampaignScales& scales,
                                              const JointPaths& paths, double friction, double stiffness_n_m2)
 {
     const double speed = scales.time_s * specimen.gravity_m_s2; // sqrt(g H)
@@ -148,7 +148,7 @@ JointPath still(std::size_t joints)
 }
 
 /// Paths of the joints in one run.
-JointPath path_of(const Specimen& specimen, const TrackScales& scales, const Track& track)
+JointPath path_of(const Specimen& specimen, const CampaignScales& scales, const SmoothedRun& track)
 {
     JointPath path = still(specimen.joints.size());
     for (std::size_t j = 0; j < specimen.joints.size(); ++j) {
@@ -186,7 +186,7 @@ double largest(std::vector<double>& values)
 
 } // namespace
 
-JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
+JointPaths joint_paths(const Campaign& campaign, const CampaignScales& scales,
                        const std::vector<std::vector<double>>& base_m)
 {
     const Specimen& specimen = campaign.specimen;
@@ -201,7 +201,7 @@ JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
         paths.before.push_back(so_far);
         if (base_m[r].empty())
             continue; // not shaken, or not seen
-        const Track track(specimen, campaign.runs[r], scales, base_m[r]);
+        const SmoothedRun track(specimen, campaign.runs[r], scales, base_m[r]);
         for (std::size_t i = 0; i < track.samples(); ++i)
             for (std::size_t b = 0; b < blocks && track.usable(i, 1); ++b) {
                 const int block = static_cast<int>(b);

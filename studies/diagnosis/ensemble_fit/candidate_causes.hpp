@@ -3,7 +3,7 @@
 /// of the same order for every specimen.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <vector>
@@ -25,7 +25,7 @@ struct JointPaths {
 
 /// From the smoothed motion.
 /// @param base_m (runs)(nt) displacement of the base at the cameras' samples
-JointPaths joint_paths(const Campaign& campaign, const TrackScales& scales,
+JointPaths joint_paths(const Campaign& campaign, const CampaignScales& scales,
                        const std::vector<std::vector<double>>& base_m);
 
 /// A mechanism at a place. Its size is counted by z: 0 is neutral, 1 is strong.
@@ -39,7 +39,7 @@ struct CandidateCause {
 };
 
 /// @param friction of the joints   @param stiffness_n_m2 K_N of the joints: dashpots are in proportion to critical ones
-std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const TrackScales& scales,
+std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const CampaignScales& scales,
                                              const JointPaths& paths, double friction, double stiffness_n_m2);
 
 } // namespace stylobate

@@ -230,7 +230,7 @@ double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
 }
 
 /// All but the simulated campaigns and the verdicts.
-EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const TrackScales& scales,
+EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                    const std::vector<std::vector<double>>& base_m)
 {
     EnsembleDiagnosis out;
@@ -319,7 +319,7 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
     return all > 0 ? std::optional(right / all) : std::nullopt;
 }
 
-EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
+EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                      const std::vector<SizedCause>& known,
                                      const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
                                      const std::filesystem::path& cache, const RunOptions& options,

@@ -51,7 +51,7 @@ struct EnsembleDiagnosis {
 /// @param study    contacts about which healthy laws are drawn
 /// @param known    causes that act in every simulated campaign
 /// @param base_m   (runs)(nt) as in `balance_evidence`
-EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const TrackScales& scales,
+EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                      const std::vector<SizedCause>& known,
                                      const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
                                      const std::filesystem::path& cache, const RunOptions& options,

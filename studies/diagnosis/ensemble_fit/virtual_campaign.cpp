@@ -223,7 +223,7 @@ VirtualLaboratory::VirtualLaboratory(const Campaign& campaign)
     });
     for (const MeasuredRun& run : measured.runs)
         placed.push_back(seen_places(measured.specimen, run));
-    before = joint_paths(measured, track_scales(measured), base_m).before;
+    before = joint_paths(measured, campaign_scales(measured), base_m).before;
 }
 
 VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const Study& study, std::uint64_t seed,
@@ -236,7 +236,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
     const SpecimenStructure& built = laboratory.built;
     VirtualCampaigns out;
     out.base_m = laboratory.base_m;
-    std::vector<FollowJob> jobs;
+    std::vector<TrackingJob> jobs;
     std::vector<std::pair<std::size_t, std::size_t>> job_of; // campaign, run
     for (std::uint64_t c = 0; c < count; ++c) {
         const std::vector<SizedCause> acting =
@@ -250,7 +250,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
         Draws put(seed, first + c, Stream::virtual_placement);
         for (std::size_t i = 0; i < measured.runs.size(); ++i) {
             campaign.runs[i].table = {};
-            FollowJob job;
+            TrackingJob job;
             job.realization = specimen;
             put_blocks(laboratory, i, scatter, put, job.realization);
             if (!laboratory.base[i])
@@ -264,7 +264,7 @@ VirtualCampaigns virtual_campaigns(const VirtualLaboratory& laboratory, const St
         }
         out.campaigns.push_back(std::move(campaign));
     }
-    const FollowReport report = follow(jobs, options, observer);
+    const TrackingReport report = track(jobs, options, observer);
     out.cost = {jobs.size(), 0, report.block_steps};
     out.complete = report.complete;
     if (!out.complete)

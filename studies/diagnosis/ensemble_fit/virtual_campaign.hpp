@@ -11,8 +11,8 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/tracking/following.hpp"
 #include "ensemble/tracking/specimen.hpp"
+#include "ensemble/tracking/tracking.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 #include "studies/diagnosis/tests/law_family.hpp"
 

@@ -40,7 +40,7 @@ std::vector<CauseFit> best_of_each(std::vector<CauseFit> fits)
     return fits;
 }
 
-BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
+BalanceEvidence balance_evidence(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given)
 {
     BalanceEvidence out;
@@ -62,12 +62,12 @@ BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& sc
     return out;
 }
 
-ScorePlan score_plan(const Specimen& specimen, const TrackScales& scales)
+ScorePlan score_plan(const Specimen& specimen, const CampaignScales& scales)
 {
     return {balance_causes(specimen, scales), balance_structures(specimen)};
 }
 
-std::optional<BalanceFit> fit_balance(const Campaign& campaign, const TrackScales& scales,
+std::optional<BalanceFit> fit_balance(const Campaign& campaign, const CampaignScales& scales,
                                       const std::vector<std::vector<double>>& base_m)
 {
     const double friction = nominal_friction(campaign.specimen);

@@ -4,7 +4,7 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <optional>
 #include <string>
@@ -18,11 +18,11 @@ struct ScorePlan {
     std::vector<Structure> structures;
     std::size_t size() const { return causes.size() + structures.size(); }
 };
-ScorePlan score_plan(const Specimen& specimen, const TrackScales& scales);
+ScorePlan score_plan(const Specimen& specimen, const CampaignScales& scales);
 
 /// @param base_m (runs)(nt) as in `law_samples`
 /// @return refers to the campaign's specimen; nothing where no joint slid or rocked long enough
-std::optional<BalanceFit> fit_balance(const Campaign& campaign, const TrackScales& scales,
+std::optional<BalanceFit> fit_balance(const Campaign& campaign, const CampaignScales& scales,
                                       const std::vector<std::vector<double>>& base_m);
 
 /// @return (plan) NaN where the samples do not show it, and everywhere where there is no fit
@@ -41,7 +41,7 @@ struct BalanceEvidence {
 
 /// @param base_m (runs)(nt) the base displacement to be used; empty: not known
 /// @param given causes that are taken as given: what is fitted is fitted beside them
-BalanceEvidence balance_evidence(const Campaign& campaign, const TrackScales& scales,
+BalanceEvidence balance_evidence(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m, const std::vector<Cause>& given = {});
 
 /// Whether a specimen may have it: a possible fit, and no centre of mass farther aside than in any simulated campaign.

@@ -477,7 +477,7 @@ std::vector<Structure> balance_structures(const Specimen& specimen)
     return all;
 }
 
-std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& scales)
+std::vector<Cause> balance_causes(const Specimen& specimen, const CampaignScales& scales)
 {
     const double length = scales.time_s * scales.time_s * specimen.gravity_m_s2; // height of the specimen
     const double speed = length / scales.time_s;

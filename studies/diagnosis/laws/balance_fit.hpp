@@ -69,7 +69,7 @@ struct Scatter {
 };
 
 /// Everything that is fitted: the mechanisms that the balance of forces can see, at every place.
-std::vector<Cause> balance_causes(const Specimen& specimen, const TrackScales& scales);
+std::vector<Cause> balance_causes(const Specimen& specimen, const CampaignScales& scales);
 
 /// Forces and frictions of no mechanism in the list, for describing what stays unexplained.
 struct Structure {

@@ -33,7 +33,8 @@ struct JointMotion {
 class Balance {
 public:
     /// @param before the run; the run's own are added
-    Balance(const Specimen& specimen, const TrackScales& scales, const Track& track, double friction, JointPath& before)
+    Balance(const Specimen& specimen, const CampaignScales& scales, const SmoothedRun& track, double friction,
+            JointPath& before)
         : s_(specimen), scales_(scales), track_(track), friction_(friction), weights_(rest_weights(specimen))
     {
         for (std::size_t i = 0; i < track.samples(); ++i) {
@@ -432,8 +433,8 @@ private:
     }
 
     const Specimen& s_;
-    const TrackScales& scales_;
-    const Track& track_;
+    const CampaignScales& scales_;
+    const SmoothedRun& track_;
     double friction_;
     std::vector<double> weights_;
     std::vector<std::vector<JointMotion>> motion_; ///< [sample][joint]
@@ -473,7 +474,7 @@ std::vector<double> rest_weights(const Specimen& specimen)
     return weights;
 }
 
-std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const TrackScales& scales,
+std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const CampaignScales& scales,
                                                 const std::vector<std::vector<double>>& base_m, double friction)
 {
     std::vector<std::size_t> order(campaign.runs.size());
@@ -484,7 +485,7 @@ std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const 
     JointPath before;
     std::vector<std::vector<LawSample>> samples(order.size());
     for (const std::size_t r : order) {
-        const Track track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
+        const SmoothedRun track(campaign.specimen, campaign.runs[r], scales, base_m[r]);
         samples[r] = Balance(campaign.specimen, scales, track, friction, before).samples(static_cast<int>(r));
     }
     return samples;

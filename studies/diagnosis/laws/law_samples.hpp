@@ -14,7 +14,7 @@
 /// No contact stiffness and no damping enters, and no simulation: nothing here is chaotic, and the noise is known.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <vector>
 
@@ -67,7 +67,7 @@ struct JointPath {
 /// @param base_m (runs)(nt) the base displacement to be used; an inner one empty: not known
 /// @param friction that the sliding law is written with; what the true one differs by is left to be fitted
 /// @return (runs)
-std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const TrackScales& scales,
+std::vector<std::vector<LawSample>> law_samples(const Campaign& campaign, const CampaignScales& scales,
                                                 const std::vector<std::vector<double>>& base_m, double friction);
 
 /// Friction that the sliding law is written with: the nominal one, 0.7 where the specimen states none.

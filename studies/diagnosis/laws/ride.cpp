@@ -45,7 +45,7 @@ double riding_limit(const Specimen& s, std::size_t lowest)
 /// What is seen of a run, at the spacing of the scales; without the parts in which it rides.
 /// @param block the lowest one; the table is taken instead where the cameras see it
 Ride seen_ride(const MeasuredRun& run, std::size_t index, const Specimen& s, bool table, std::size_t block,
-               const TrackScales& scales)
+               const CampaignScales& scales)
 {
     const SeenMotion& seen = table ? run.table : run.blocks;
     const double dt = scales.spacing_s;
@@ -84,7 +84,7 @@ Ride seen_ride(const MeasuredRun& run, std::size_t index, const Specimen& s, boo
 
 /// (samples) whether the base and what is seen are known there, and a block neither slips nor rocks.
 /// @param limit acceleration below which a block rides [m/s2]
-std::vector<char> riding(const Ride& ride, bool table, double limit, const TrackScales& scales)
+std::vector<char> riding(const Ride& ride, bool table, double limit, const CampaignScales& scales)
 {
     const LocalCubic& wide = scales.widths.back();
     const std::size_t n = ride.base.size();
@@ -161,7 +161,7 @@ std::vector<double> base_displacement(const MeasuredRun& run)
     return u;
 }
 
-Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales)
+Prepared prepare_rides(const Campaign& campaign, const CampaignScales& scales)
 {
     const Specimen& s = campaign.specimen;
     Prepared out;

@@ -3,7 +3,7 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/robust_fit.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ struct Ride {
     }
 
     /// Takes the base motion at a later time.
-    void shift(double by_s, const TrackScales& scales)
+    void shift(double by_s, const CampaignScales& scales)
     {
         std::vector<double> time(base.size());
         for (std::size_t i = 0; i < time.size(); ++i)
@@ -77,7 +77,7 @@ struct Prepared {
 };
 
 /// Finds the rides of a campaign.
-Prepared prepare_rides(const Campaign& campaign, const TrackScales& scales);
+Prepared prepare_rides(const Campaign& campaign, const CampaignScales& scales);
 
 /// Regression of what is seen in all rides, with an offset of its own for each stretch. Values that are not finite
 /// were not seen.

@@ -168,7 +168,7 @@ struct Sums {
     }
 };
 
-Sums sums_of(const Campaign& campaign, const TrackScales& scales, const std::vector<std::vector<double>>& base_m,
+Sums sums_of(const Campaign& campaign, const CampaignScales& scales, const std::vector<std::vector<double>>& base_m,
              const Plan& plan)
 {
     const Specimen& s = campaign.specimen;
@@ -370,7 +370,7 @@ std::vector<StatisticLabel> descriptor_labels(const Campaign&)
     return labels;
 }
 
-CampaignStatistics statistics_of(const Campaign& campaign, const TrackScales& scales,
+CampaignStatistics statistics_of(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m)
 {
     const Plan plan = plan_of(campaign);

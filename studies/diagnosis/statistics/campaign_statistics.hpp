@@ -31,7 +31,7 @@
 /// (`joint_sums.hpp`).
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <cstddef>
 #include <string>
@@ -61,7 +61,7 @@ std::vector<StatisticLabel> statistic_labels(const Campaign& campaign);
 std::vector<StatisticLabel> descriptor_labels(const Campaign& campaign);
 
 /// @param base_m (runs)(nt) the base displacement to be used, as in `balance_evidence`; an inner one empty: not known
-CampaignStatistics statistics_of(const Campaign& campaign, const TrackScales& scales,
+CampaignStatistics statistics_of(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m);
 
 // ---- A campaign's statistics with fewer numbers: means over motions, by joint; medians over joints, by kind.

@@ -28,7 +28,7 @@ void turn(CoarsePose& pose)
 
 } // namespace
 
-CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
+CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const CampaignScales& scales,
                      const std::vector<double>& base_m)
 {
     CoarseRun out;

@@ -5,7 +5,7 @@
 /// A smoothing that follows every impact is not needed for path integrals, and costs a hundred times as much.
 
 #include "ensemble/model/campaign.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -32,7 +32,7 @@ struct CoarseRun {
 
 /// @param base_m (nt) displacement of the base at the samples; empty: not known
 /// @return no bins where the blocks were not seen
-CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
+CoarseRun coarse_run(const Specimen& specimen, const MeasuredRun& run, const CampaignScales& scales,
                      const std::vector<double>& base_m);
 
 /// Where the faces of a joint touch, or would.

@@ -145,7 +145,7 @@ double rms_of(const std::vector<Ride>& rides)
 class BaseRides {
 public:
     /// @param pitch of the table that was found; 0: none [rad s2/m]
-    BaseRides(const TrackScales& scales, double pitch, Prepared& prepared)
+    BaseRides(const CampaignScales& scales, double pitch, Prepared& prepared)
         : scales_(scales), pitch_(pitch), rides_(prepared.rides)
     {
     }
@@ -176,7 +176,7 @@ private:
     /// @param gain_too the gain is fitted beside it; else it is 1
     Distorted with_distortion(bool gain_too) const;
 
-    const TrackScales& scales_;
+    const CampaignScales& scales_;
     double pitch_;
     std::vector<Ride>& rides_;
 };
@@ -326,8 +326,8 @@ void cannot_test_base(const std::string& why, DirectResult& out)
         out.base_tests.push_back(cannot(name, why));
 }
 
-void test_base(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, Prepared& prepared,
-               DirectResult& out)
+void test_base(const Campaign& campaign, const CampaignScales& scales, const DirectThresholds& limits,
+               Prepared& prepared, DirectResult& out)
 {
     std::size_t samples = 0;
     for (const Ride& ride : prepared.rides)
@@ -358,7 +358,7 @@ void test_base(const Campaign& campaign, const TrackScales& scales, const Direct
     judge_gain(base, prepared.what, narrower * limits.gain, limits.sds, out);
 }
 
-void correct_bases(const Campaign& campaign, const TrackScales& scales, DirectResult& out)
+void correct_bases(const Campaign& campaign, const CampaignScales& scales, DirectResult& out)
 {
     const bool distorted = out.distortion.ratio != 0;
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
@@ -432,7 +432,7 @@ DirectResult uncorrected(const Campaign& campaign)
 
 } // namespace
 
-DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits)
+DirectResult direct_tests(const Campaign& campaign, const CampaignScales& scales, const DirectThresholds& limits)
 {
     DirectResult out = uncorrected(campaign);
     Prepared prepared = prepare_rides(campaign, scales);
@@ -443,7 +443,7 @@ DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, c
     return out;
 }
 
-DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scales, const DirectResult& shown)
+DirectResult apply_corrections(const Campaign& campaign, const CampaignScales& scales, const DirectResult& shown)
 {
     DirectResult out = uncorrected(campaign);
     out.found = shown.found;

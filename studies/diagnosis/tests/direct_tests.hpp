@@ -9,7 +9,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/diagnosis/laws/balance_fit.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <string>
 #include <vector>
@@ -73,9 +73,9 @@ struct DirectResult {
 };
 
 /// What other runs of the specimen showed, applied to these.
-DirectResult apply_corrections(const Campaign& campaign, const TrackScales& scales, const DirectResult& shown);
+DirectResult apply_corrections(const Campaign& campaign, const CampaignScales& scales, const DirectResult& shown);
 
-DirectResult direct_tests(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits = {});
+DirectResult direct_tests(const Campaign& campaign, const CampaignScales& scales, const DirectThresholds& limits = {});
 
 // ---- How direct tests report their findings.
 

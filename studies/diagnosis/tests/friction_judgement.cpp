@@ -86,7 +86,7 @@ void decide(FrictionJudgement& j)
 
 } // namespace
 
-FrictionJudgement judge_friction(const Specimen& specimen, const TrackScales& scales,
+FrictionJudgement judge_friction(const Specimen& specimen, const CampaignScales& scales,
                                  const std::vector<LawSample>& samples, double friction, int runs)
 {
     FrictionJudgement j;
@@ -127,10 +127,10 @@ FrictionJudgement judge_friction(const Specimen& specimen, const TrackScales& sc
     return j;
 }
 
-FrictionJudgement judge_friction(const Campaign& campaign, const TrackScales& scales,
+FrictionJudgement judge_friction(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m)
 {
-    TrackScales slow = scales;
+    CampaignScales slow = scales;
     slow.slip_m_s *= slow_part;
     const auto judged_with = [&](double friction) {
         std::vector<LawSample> all;
@@ -148,7 +148,7 @@ FrictionJudgement judge_friction(const Campaign& campaign)
 {
     FrictionJudgement unknown;
     try {
-        const TrackScales scales = track_scales(campaign);
+        const CampaignScales scales = campaign_scales(campaign);
         return judge_friction(campaign, scales, direct_tests(campaign, scales).base_m);
     } catch (const InputError& error) {
         unknown.note = error.what();

@@ -15,7 +15,7 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "studies/diagnosis/laws/law_samples.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -40,7 +40,7 @@ struct FrictionJudgement {
 };
 
 /// @param base_m (runs)(nt) the base displacement to be used (`DirectResult`); empty: not known
-FrictionJudgement judge_friction(const Campaign& campaign, const TrackScales& scales,
+FrictionJudgement judge_friction(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m);
 
 /// The same by itself: with the direct tests of base and sensors before it. What cannot be judged (no rotations,
@@ -48,7 +48,7 @@ FrictionJudgement judge_friction(const Campaign& campaign, const TrackScales& sc
 FrictionJudgement judge_friction(const Campaign& campaign);
 
 /// From the samples of all runs, which were written with `friction`.
-FrictionJudgement judge_friction(const Specimen& specimen, const TrackScales& scales,
+FrictionJudgement judge_friction(const Specimen& specimen, const CampaignScales& scales,
                                  const std::vector<LawSample>& samples, double friction, int runs);
 
 } // namespace stylobate

@@ -20,7 +20,7 @@ double sample_of(const std::vector<double>& series, std::size_t i)
 /// Rotations of the blocks of a run, [block][sample]; NaN where a block or one below it has left its bed.
 using Rotations = std::vector<std::vector<double>>;
 
-Rotations rotations_of(const MeasuredRun& run, int blocks, const TrackScales& scales, std::size_t samples)
+Rotations rotations_of(const MeasuredRun& run, int blocks, const CampaignScales& scales, std::size_t samples)
 {
     const double noise = run.blocks.theta_rad.noise_sd.value_or(scales.noise_rad) * scales.rates.noise(0);
     const double most = std::max(leans_below * scales.rotation_rad, leans_noise * noise);
@@ -65,7 +65,7 @@ double pitch_of(const std::vector<double>& slope, const std::vector<double>& wei
 /// The pitch of a column, of all runs or without one of them.
 class ColumnPitch {
 public:
-    ColumnPitch(const Campaign& campaign, const TrackScales& scales, const Prepared& prepared)
+    ColumnPitch(const Campaign& campaign, const CampaignScales& scales, const Prepared& prepared)
         : prepared_(prepared), lean_(lean_of_beds(campaign.specimen))
     {
         for (const Ride& ride : prepared.rides)
@@ -163,7 +163,7 @@ std::vector<double> lean_of_beds(const Specimen& s)
     return lean;
 }
 
-PitchFit fit_pitch(const Campaign& campaign, const TrackScales& scales, const Prepared& prepared)
+PitchFit fit_pitch(const Campaign& campaign, const CampaignScales& scales, const Prepared& prepared)
 {
     PitchFit out;
     out.seen =

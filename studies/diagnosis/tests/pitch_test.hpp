@@ -24,7 +24,7 @@ struct PitchFit {
 };
 
 /// @param prepared rides of the campaign
-PitchFit fit_pitch(const Campaign& campaign, const TrackScales& scales, const Prepared& prepared);
+PitchFit fit_pitch(const Campaign& campaign, const CampaignScales& scales, const Prepared& prepared);
 
 /// (n_block) L_b of a column, from bottom to top; empty if the blocks are no single column.
 std::vector<double> lean_of_beds(const Specimen& specimen);

@@ -1,7 +1,6 @@
 #include "studies/diagnosis/tests/rest_tests.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
-#include "ensemble/tracking/following_score.hpp"
 #include "io/measured/measured_noise.hpp"
 #include "studies/diagnosis/tests/direct_tests.hpp"
 
@@ -40,7 +39,7 @@ void judge(const std::vector<double>& upper, const std::vector<double>* lower, d
 ///
 /// @param place (blocks)(runs) from where it should be
 /// @param samples of which each of these is the mean (harmonic mean over the runs)
-void test_places(const Specimen& s, bool table, const TrackScales& scales, const DirectThresholds& limits,
+void test_places(const Specimen& s, bool table, const CampaignScales& scales, const DirectThresholds& limits,
                  const std::vector<std::vector<double>>& place, double samples, DirectResult& out)
 {
     const std::size_t n = place.size(), runs = place.front().size();
@@ -114,7 +113,8 @@ bool sees_table(const Campaign& campaign)
                        [](const MeasuredRun& run) { return !run.table.x_m.empty(); });
 }
 
-void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out)
+void test_rest(const Campaign& campaign, const CampaignScales& scales, const DirectThresholds& limits,
+               DirectResult& out)
 {
     const Specimen& s = campaign.specimen;
     const auto n = static_cast<std::size_t>(s.blocks());

@@ -10,6 +10,7 @@ bool sees_table(const Campaign& campaign);
 
 /// Adds the tests of every joint, from the means of each run over the time before its base moves (at least 20 samples),
 /// and what they found.
-void test_rest(const Campaign& campaign, const TrackScales& scales, const DirectThresholds& limits, DirectResult& out);
+void test_rest(const Campaign& campaign, const CampaignScales& scales, const DirectThresholds& limits,
+               DirectResult& out);
 
 } // namespace stylobate

@@ -44,7 +44,7 @@ std::vector<double> seen_smooth(const LocalCubic& smoothing, const std::vector<d
 
 /// Height of the table under the lowest corner of what is seen, against that at rest; NaN where it is not known.
 std::vector<double> table_height(const Specimen& s, const MeasuredRun& run, const Ride& ride, const Prepared& prepared,
-                                 const TrackScales& scales, double pitch_rad_s2_m)
+                                 const CampaignScales& scales, double pitch_rad_s2_m)
 {
     std::vector<double> height = ride.y;
     const double missing = std::numeric_limits<double>::quiet_NaN();
@@ -127,7 +127,8 @@ Lines lines_of(std::vector<double> series, double noise, const std::vector<doubl
 }
 
 /// The line that stands out of most motions.
-void find_line(const Campaign& campaign, const std::vector<Ride>& rides, const TrackScales& scales, VerticalMotion& out)
+void find_line(const Campaign& campaign, const std::vector<Ride>& rides, const CampaignScales& scales,
+               VerticalMotion& out)
 {
     double longest = 0;
     for (const Ride& ride : rides)
@@ -193,7 +194,7 @@ void find_line(const Campaign& campaign, const std::vector<Ride>& rides, const T
 }
 
 /// The common motion while everything rides.
-void ride_along(const Prepared& prepared, const TrackScales& scales, VerticalMotion& out)
+void ride_along(const Prepared& prepared, const CampaignScales& scales, VerticalMotion& out)
 {
     double square = 0, noise = 0;
     for (const Ride& ride : prepared.rides) {
@@ -231,7 +232,7 @@ void ride_along(const Prepared& prepared, const TrackScales& scales, VerticalMot
 
 } // namespace
 
-VerticalMotion vertical_motion(const Campaign& campaign, const Prepared& prepared, const TrackScales& scales,
+VerticalMotion vertical_motion(const Campaign& campaign, const Prepared& prepared, const CampaignScales& scales,
                                double pitch_rad_s2_m)
 {
     VerticalMotion out;

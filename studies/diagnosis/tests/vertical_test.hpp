@@ -24,7 +24,7 @@ struct VerticalMotion {
 };
 
 /// @param pitch_rad_s2_m what the table turns by for each m/s2 of the base
-VerticalMotion vertical_motion(const Campaign& campaign, const Prepared& prepared, const TrackScales& scales,
+VerticalMotion vertical_motion(const Campaign& campaign, const Prepared& prepared, const CampaignScales& scales,
                                double pitch_rad_s2_m);
 
 } // namespace stylobate

@@ -50,7 +50,7 @@ const JointPaths paths_of_two = paths(2);
 TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
 {
     const Specimen& s = campaign().specimen;
-    const TrackScales scales = track_scales(campaign());
+    const CampaignScales scales = campaign_scales(campaign());
     const std::vector<CandidateCause> causes =
         candidate_causes(s, scales, paths({{0.01, 0.0}, {0.5, 0.0}}, 4), 0.6, 1e8);
     const double speed = std::sqrt(9.81 * 0.058); // of two drums of 29 mm
@@ -141,7 +141,7 @@ TEST(JointPaths, AddUpFromRunToRunAndWearGoesOnWithThem)
     Campaign shaken = measure({.runs = 1, .drums = 2, .friction = 0.3, .pga_m_s2 = 6, .strong_s = 1});
     shaken.specimen.friction_nominal = 0.3;
     shaken.runs.resize(3, shaken.runs.front());
-    const TrackScales scales = track_scales(shaken);
+    const CampaignScales scales = campaign_scales(shaken);
     const VirtualLaboratory laboratory(shaken);
     const JointPaths found = joint_paths(shaken, scales, laboratory.base_m);
     ASSERT_EQ(found.before.size(), 3U);
@@ -223,7 +223,7 @@ TEST(EnsemblePlan, CountsAreInProportionToTheNulls)
 TEST(EnsemblePlan, EachCauseHasSizesFromWeakToStrong)
 {
     const std::vector<CandidateCause> causes =
-        candidate_causes(campaign().specimen, track_scales(campaign()), paths_of_two, 0.6, 1e8);
+        candidate_causes(campaign().specimen, campaign_scales(campaign()), paths_of_two, 0.6, 1e8);
     const EnsemblePlan plan;
     std::map<int, std::vector<double>> sizes;
     std::map<int, std::set<std::uint64_t>> parents;
@@ -301,7 +301,7 @@ TEST(Nearness, TheNearestCampaignsOfEachAreCounted)
 
 SimulatedCampaign as_shown(const Campaign& measured, const std::vector<std::vector<double>>& base_m)
 {
-    const TrackScales scales = track_scales(measured);
+    const CampaignScales scales = campaign_scales(measured);
     return {.numbers = statistics_of(measured, scales, base_m),
             .scores = balance_scores(fit_balance(measured, scales, base_m), score_plan(measured.specimen, scales))};
 }
@@ -320,7 +320,7 @@ private:
 TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
 {
     const Study study = default_study(campaign());
-    const TrackScales scales = track_scales(campaign());
+    const CampaignScales scales = campaign_scales(campaign());
     std::vector<CandidateCause> causes = candidate_causes(campaign().specimen, scales, paths_of_two, 0.6, 1e8);
     causes.resize(3);
     EnsemblePlan plan;
@@ -407,7 +407,7 @@ std::pair<double, double> distances_from_law(const HealthyLaw& truth, const Ense
     HealthyScatter scatter;
     scatter.laws = {truth};
     const Study study = default_study(lively());
-    const TrackScales scales = track_scales(lively());
+    const CampaignScales scales = campaign_scales(lively());
     const VirtualCampaigns made =
         virtual_campaigns(VirtualLaboratory(lively()), study, 77, 1, 1, scatter, {}, {best_isa(), 2}, observer);
     const SimulatedCampaign shown = as_shown(made.campaigns.front(), made.base_m);
@@ -460,7 +460,7 @@ EnsembleDiagnosis diagnosed(const std::vector<SizedCause>& acting)
         virtual_campaigns(VirtualLaboratory(lively()), study, 78, 1, 1, scatter, {acting}, {best_isa(), 2}, observer);
     const Campaign& campaign = made.campaigns.front();
     return ensemble_diagnosis(
-        campaign, study, track_scales(campaign), {}, made.base_m, plan, {}, {best_isa(), 2},
+        campaign, study, campaign_scales(campaign), {}, made.base_m, plan, {}, {best_isa(), 2},
         [](std::uint64_t, std::uint64_t) {}, observer);
 }
 

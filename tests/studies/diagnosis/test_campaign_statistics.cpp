@@ -30,7 +30,7 @@ CampaignStatistics statistics(const Campaign& campaign)
     std::vector<std::vector<double>> base;
     for (const MeasuredRun& run : campaign.runs)
         base.push_back(run.base_displacement_m.values);
-    const CampaignStatistics all = statistics_of(campaign, track_scales(campaign), base);
+    const CampaignStatistics all = statistics_of(campaign, campaign_scales(campaign), base);
     EXPECT_EQ(all.values.size(), statistic_labels(campaign).size());
     EXPECT_EQ(all.descriptors.size(), descriptor_labels(campaign).size());
     return all;
@@ -76,7 +76,7 @@ Campaign swinging(int seconds, double noise_m, double noise_rad, unsigned seed)
 double path_of(const Campaign& campaign)
 {
     const Specimen& s = campaign.specimen;
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const MeasuredRun& run = campaign.runs.front();
     const CoarseRun coarse = coarse_run(s, run, scales, run.base_displacement_m.values);
     const JointFaces faces = joint_faces(s, 0);
@@ -386,7 +386,7 @@ TEST(CampaignStatistics, WhatIsNotSeenIsMissing)
 {
     Campaign campaign = swinging(2, 0, 0, 1);
     MeasuredRun& run = campaign.runs.front();
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const auto slip_path = [&](const std::vector<std::vector<double>>& base) {
         return statistics_of(campaign, scales, base).values.front();
     };

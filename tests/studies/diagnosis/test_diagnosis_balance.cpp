@@ -17,7 +17,7 @@ BalanceEvidence evidence_of(const Campaign& campaign)
     std::vector<std::vector<double>> base;
     for (const MeasuredRun& run : campaign.runs)
         base.push_back(run.base_displacement_m.values);
-    return balance_evidence(campaign, track_scales(campaign), base);
+    return balance_evidence(campaign, campaign_scales(campaign), base);
 }
 
 std::string listed(const BalanceEvidence& evidence)
@@ -223,7 +223,8 @@ TEST(BalanceFit, WhatIsGivenIsNotFoundAgain)
     std::vector<std::vector<double>> base;
     for (const MeasuredRun& run : campaign.runs)
         base.push_back(run.base_displacement_m.values);
-    const BalanceEvidence left = balance_evidence(campaign, track_scales(campaign), base, {first.causes.front().cause});
+    const BalanceEvidence left =
+        balance_evidence(campaign, campaign_scales(campaign), base, {first.causes.front().cause});
     for (const CauseFit& fit : left.causes)
         EXPECT_LT(fit.gain, 6) << listed(left);
 }
@@ -366,7 +367,7 @@ ForceTest beyond_all(std::size_t variants)
 EnsembleDiagnosis beyond_healthy(const Campaign& campaign, double unit = 1, double null = 0.5)
 {
     EnsembleDiagnosis ensemble;
-    ensemble.scored = score_plan(campaign.specimen, track_scales(campaign));
+    ensemble.scored = score_plan(campaign.specimen, campaign_scales(campaign));
     ensemble.listed = beyond_all(ensemble.scored.causes.size());
     ensemble.listed.unit.assign(ensemble.scored.causes.size(), unit);
     ensemble.forces = beyond_all(ensemble.scored.structures.size());

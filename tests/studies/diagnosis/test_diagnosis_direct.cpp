@@ -121,7 +121,7 @@ Campaign campaign_with(const Wrong& wrong, unsigned seed, bool table)
 
 DirectResult tested(const Campaign& campaign)
 {
-    return direct_tests(campaign, track_scales(campaign));
+    return direct_tests(campaign, campaign_scales(campaign));
 }
 
 const DataTest* test_of(const DirectResult& result, const std::string& name)
@@ -224,7 +224,7 @@ TEST(DirectTestsAlone, RidesThatSeeTheMiddleOfTheMotionTellAGainFromAThirdHarmon
         campaign.specimen.friction_nominal = friction;
         DirectThresholds limits;
         limits.alone = alone;
-        return direct_tests(campaign, track_scales(campaign), limits);
+        return direct_tests(campaign, campaign_scales(campaign), limits);
     };
     const double never = 1e9, usual = DirectThresholds{}.alone;
     const Wrong harmonic{.cube = 0.06}, gain{.gain = 1.08};
@@ -365,7 +365,7 @@ TEST_P(DirectTests, TheBaseDoesNotGoAlongWithABlockThatWasPutBesideItsPlace)
     const DirectResult result = tested(campaign);
     ASSERT_EQ(result.found.size(), 1u) << found_in(result);
     EXPECT_EQ(result.found.front().cause.place, "block 0");
-    const DirectResult again = apply_corrections(campaign, track_scales(campaign), result);
+    const DirectResult again = apply_corrections(campaign, campaign_scales(campaign), result);
     for (const DirectResult* each : {&result, &again}) {
         double base = 0; // before it moves, on the mean over the runs: 0 by the table
         for (const std::vector<double>& run : each->base_m)
@@ -452,7 +452,7 @@ void expect_not_judged(const DirectResult& result, const std::vector<std::string
 TEST(DirectTestsMissing, WithoutBaseMotion)
 {
     Campaign campaign = campaign_with({.gain = 1.05}, 1, false);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     for (MeasuredRun& run : campaign.runs)
         run.base_displacement_m = {};
     const DirectResult result = direct_tests(campaign, scales);
@@ -466,7 +466,7 @@ TEST(DirectTestsMissing, WithoutBaseMotion)
 TEST(DirectTestsMissing, WithoutRotations)
 {
     Campaign campaign = campaign_with({.gain = 1.05}, 1, false);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     for (MeasuredRun& run : campaign.runs)
         run.blocks.theta_rad = {};
     const DirectResult result = direct_tests(campaign, scales);
@@ -478,7 +478,7 @@ TEST(DirectTestsMissing, WithoutRotations)
 TEST(DirectTestsMissing, WithoutHeights)
 {
     Campaign campaign = campaign_with({}, 1, false);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     for (MeasuredRun& run : campaign.runs) {
         run.blocks.y_m = {};
     }

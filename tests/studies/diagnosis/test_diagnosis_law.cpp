@@ -14,7 +14,7 @@ namespace {
 std::vector<LawSample> samples_of(const Campaign& campaign, double friction)
 {
     const std::vector<std::vector<double>> base = {campaign.runs.front().base_displacement_m.values};
-    return law_samples(campaign, track_scales(campaign), base, friction).front();
+    return law_samples(campaign, campaign_scales(campaign), base, friction).front();
 }
 
 Campaign campaign_of(const Specimen& specimen, int samples, const std::function<Pose(int, int)>& pose)

@@ -11,7 +11,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/diagnosis/decision/pipeline.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 #include "studies/diagnosis/tests/cause_model.hpp"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
 {
     const Specimen specimen = GetParam() ? small_colonnade() : sample_specimen();
     const SpecimenStructure built = build_specimen(specimen);
-    TrackScales scales;
+    CampaignScales scales;
     scales.time_s = 0.1;
     std::set<std::string> mechanisms;
     std::vector<Cause> causes = balance_causes(specimen, scales);

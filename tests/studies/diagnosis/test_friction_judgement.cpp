@@ -38,7 +38,7 @@ FrictionJudgement judged(const Campaign& campaign)
     std::vector<std::vector<double>> base;
     for (const MeasuredRun& run : campaign.runs)
         base.push_back(run.base_displacement_m.values);
-    return judge_friction(campaign, track_scales(campaign), base);
+    return judge_friction(campaign, campaign_scales(campaign), base);
 }
 
 /// Windows of slides in which the balance says these frictions, without noise.
@@ -124,7 +124,7 @@ TEST(FrictionJudgement, TheErrorIsAJackknifeOverSlides)
     campaign.specimen = specimen;
     campaign.runs.push_back(formula_run(
         specimen, 100, [&](int b, int) { return at_rest(specimen, b); }, camera_m, camera_rad, 1));
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const FrictionJudgement j = judge_friction(specimen, scales, samples_of(slides, 20, 0.5), 0.5, 6);
     EXPECT_EQ(j.windows, 120u);
     EXPECT_EQ(j.slides, 6u);

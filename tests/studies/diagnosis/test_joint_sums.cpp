@@ -177,7 +177,7 @@ MeasuredRun moving(std::size_t samples)
 
 TEST(CoarseRun, BinsAreMeansWithTheNoiseOfMeans)
 {
-    TrackScales scales;
+    CampaignScales scales;
     scales.time_s = 0.1; // bins of 4 ms
     scales.noise_m = 2e-3;
     scales.noise_rad = 4e-3;
@@ -195,7 +195,7 @@ TEST(CoarseRun, BinsAreMeansWithTheNoiseOfMeans)
 
 TEST(CoarseRun, NothingIsUsedAfterACollapseLessOneTimeScale)
 {
-    TrackScales scales;
+    CampaignScales scales;
     scales.time_s = 0.1;
     MeasuredRun run = moving(1000);
     const auto usable = [&] {

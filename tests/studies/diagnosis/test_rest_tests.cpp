@@ -47,7 +47,7 @@ Campaign still(const std::array<OfRuns, 3>& place_m, const std::array<OfRuns, 3>
 
 DirectResult tested_at_rest(const Campaign& campaign, double noise_m = 1e-9, double noise_rad = 1e-9)
 {
-    TrackScales scales;
+    CampaignScales scales;
     scales.noise_m = noise_m;
     scales.noise_rad = noise_rad;
     DirectResult out;

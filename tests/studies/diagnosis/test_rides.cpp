@@ -76,7 +76,7 @@ TEST(FitPitch, OfAColumnHasTheJackknifesDeviationToo)
     s.rest_x_m = {0, 0, 0};
     s.rest_y_m = {0.05, 0.15, 0.25};
     s.joints = {{-1, 0}, {0, 1}, {1, 2}};
-    TrackScales scales;
+    CampaignScales scales;
     scales.spacing_s = 0.01;
     scales.rotation_rad = 100; // nothing leaves its bed
     scales.noise_rad = 0.02;
@@ -141,7 +141,7 @@ TEST(VerticalMotion, TheDeviationOfALineIsThatOfTheMeanOfTheRuns)
         run.blocks.theta_rad.noise_sd = 1e-6;
         campaign.runs.push_back(run);
     }
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const VerticalMotion found = vertical_motion(campaign, prepare_rides(campaign, scales), scales, 0);
     EXPECT_NEAR(found.line_hz, 9, 0.2);
     // a frequency of the grid lies within a tenth of the width of the line, where its amplitude is 2 % less at the most
@@ -162,7 +162,7 @@ TEST(DirectFindings, AFindingIsBeyondItsThresholdAndItsNoise)
     EXPECT_EQ(fit.gain, 12);
 }
 
-TEST(TrackScales, TheNoiseOfSamplesIsThatOfTheirFourthDifferences)
+TEST(CampaignScales, TheNoiseOfSamplesIsThatOfTheirFourthDifferences)
 {
     // white noise of 1 mm and 3 mrad upon a slow motion; the median of 1.2e4 squares is known to 1.2 % (1 sigma), as
     // neighbouring differences are correlated perhaps to twice that
@@ -178,7 +178,7 @@ TEST(TrackScales, TheNoiseOfSamplesIsThatOfTheirFourthDifferences)
         run.blocks.theta_rad.values.push_back(3e-3 * normal(random));
     }
     campaign.runs.push_back(run);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     EXPECT_NEAR(scales.noise_m, 1e-3, 7e-5);
     EXPECT_NEAR(scales.noise_rad, 3e-3, 2.1e-4);
 }

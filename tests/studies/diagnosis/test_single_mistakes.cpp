@@ -71,7 +71,7 @@ TEST(CoarseRun, NoiseOfABinIsThatOfAMean)
     campaign.specimen = one_block();
     const auto pose = [&](int b, int) { return at_rest(campaign.specimen, b); };
     campaign.runs = {formula_run(campaign.specimen, 2000, pose, 1e-4, 1e-3, 3)};
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const MeasuredRun& run = campaign.runs.front();
     const CoarseRun coarse = coarse_run(campaign.specimen, run, scales, run.base_displacement_m.values);
     const double samples = coarse.spacing_s * formula_rate_hz;

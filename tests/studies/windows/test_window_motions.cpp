@@ -3,7 +3,7 @@
 
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/static_state.hpp"
-#include "ensemble/tracking/following_targets.hpp"
+#include "ensemble/tracking/tracking_targets.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "studies/calibration/calibration.hpp"
 #include "studies/windows/window_motions.hpp"
@@ -126,12 +126,12 @@ Anew simulated_anew(const Campaign& campaign, const MeasuredRun& run, const Mode
                     const WindowMotion& window)
 {
     const SpecimenStructure built = build_specimen(campaign.specimen);
-    const FollowScales scales = follow_scales(0.048, campaign.specimen.gravity_m_s2);
+    const TrackingScales scales = tracking_scales(0.048, campaign.specimen.gravity_m_s2);
     const auto base = std::make_shared<Motion>(base_motion_of(run));
     const std::vector<double> plan_x_m(4, 0);
     Anew anew;
     anew.seen = seen_run(run, *base, built.block, plan_x_m, scales.smoothing_s);
-    FollowJob job;
+    TrackingJob job;
     job.realization = nominal_realization(variant.study, built.structure);
     for (std::size_t i = 1; i < 4; ++i) // 0 is fixed
         job.realization.blocks[i].x_m += anew.seen.standing_x_m[i];

@@ -1,4 +1,4 @@
-#include "ensemble/tracking/following_targets.hpp"
+#include "ensemble/tracking/tracking_targets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Before the base has this part of its largest acceleration a structure stands as it was put.
 constexpr double quiet_part = 0.1;
-// A specimen in fall is not followed from this long before its collapse was noted, in windows.
+// A specimen in fall is not tracked from this long before its collapse was noted, in windows.
 constexpr std::size_t fewest_samples = 10;
 
 /// Displacement of the base at the run's samples, on the cubic that belongs to a linear acceleration.
@@ -80,7 +80,7 @@ void smooth(const std::vector<double>& time, const std::vector<double>& values, 
 
 } // namespace
 
-FollowScales follow_scales(double size_m, double gravity_m_s2)
+TrackingScales tracking_scales(double size_m, double gravity_m_s2)
 {
     const double time = std::sqrt(size_m / gravity_m_s2) / std::sqrt(0.048 / 9.81); // 1 for drums of 48 mm
     return {0.008 * time, 60 / std::pow(time, 0.53), 0.2 * time, 0.02 * time};

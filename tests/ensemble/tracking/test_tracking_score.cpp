@@ -1,7 +1,7 @@
 /// The score of free windows against closed forms, and what cameras saw as the model sees it.
 
 #include "ensemble/numerics/quantiles.hpp"
-#include "ensemble/tracking/following_score.hpp"
+#include "ensemble/tracking/tracking_score.hpp"
 
 #include <gtest/gtest.h>
 
@@ -181,7 +181,7 @@ TEST(FollowingTargets, WhatWasNotSeenIsNotScored)
 
 TEST(FollowingTargets, ScalesGoWithThePendulumTime)
 {
-    const FollowScales small = follow_scales(0.048, 9.81), large = follow_scales(1.5, 9.81);
+    const TrackingScales small = tracking_scales(0.048, 9.81), large = tracking_scales(1.5, 9.81);
     EXPECT_NEAR(small.window_s, 0.2, 1e-9);
     EXPECT_NEAR(small.nudge_rad_s, 60, 1e-9);
     EXPECT_NEAR(large.window_s / small.window_s, std::sqrt(1.5 / 0.048), 1e-9);

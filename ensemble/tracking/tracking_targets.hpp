@@ -3,7 +3,7 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/motion.hpp"
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 
 #include <array>
 #include <cstddef>
@@ -35,7 +35,7 @@ struct SeenRun {
 };
 
 /// How long and how strongly, for a specimen of this size: all times go with the pendulum time sqrt(size / g).
-struct FollowScales {
+struct TrackingScales {
     double smoothing_s = 0; ///< half width of the smoothing
     double nudge_rad_s = 0; ///< w
     double window_s = 0;    ///< length of a free window
@@ -47,12 +47,12 @@ struct FollowScales {
 /// rad/s,
 ///        1.1 s, 0.11 s. (The nudging grows more slowly than 1 / time as drums shrink: their noise is larger in
 ///        comparison.)
-FollowScales follow_scales(double size_m, double gravity_m_s2);
+TrackingScales tracking_scales(double size_m, double gravity_m_s2);
 
 /// @param base      the base motion that drives the model, from the run's first sample on
 /// @param order     (blocks of the specimen) their places in the realization
 /// @param plan_x_m  (blocks of the realization) where they stand in the plan
-/// @return a run without any block in it (`blocks` == 0) where nothing was measured that the model could follow
+/// @return a run without any block in it (`blocks` == 0) where nothing was measured that the model could track
 SeenRun seen_run(const MeasuredRun& run, const Motion& base, const std::vector<int>& order,
                  const std::vector<double>& plan_x_m, double smoothing_s);
 

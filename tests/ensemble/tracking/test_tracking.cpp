@@ -3,7 +3,7 @@
 
 #include "ensemble/engine/lanes.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ void add_bits(const Readings& readings, Bits& bits)
             bits.push_back(std::bit_cast<std::uint64_t>(value));
 }
 
-Bits bits_of(const FollowResult& result)
+Bits bits_of(const TrackingResult& result)
 {
     Bits bits;
     for (const Readings& window : result.windows)
@@ -104,34 +104,34 @@ Bits bits_of(const FollowResult& result)
     return bits;
 }
 
-std::vector<FollowResult> run(const std::vector<FollowJob>& jobs, const RunOptions& options = {best_isa(), 1})
+std::vector<TrackingResult> run(const std::vector<TrackingJob>& jobs, const RunOptions& options = {best_isa(), 1})
 {
     Observer observer;
-    const FollowReport report = follow(jobs, options, observer);
+    const TrackingReport report = track(jobs, options, observer);
     EXPECT_TRUE(report.complete);
     return report.results;
 }
 
-FollowJob alone(const Study& study, std::uint64_t index)
+TrackingJob alone(const Study& study, std::uint64_t index)
 {
-    FollowJob job;
+    TrackingJob job;
     job.realization = Sampler(study, nullptr).realization(index);
     return job;
 }
 
 /// Jobs of different steps, targets and lengths; each is nudged towards what another realization did.
-std::vector<FollowJob> mixed_jobs(int count)
+std::vector<TrackingJob> mixed_jobs(int count)
 {
     const Study study = noise_study();
     const Sampler sampler(study, nullptr);
     const auto seen_at = times(0, 1.8, 0.002);
-    std::vector<FollowJob> jobs;
-    FollowJob truth = alone(study, 0);
+    std::vector<TrackingJob> jobs;
+    TrackingJob truth = alone(study, 0);
     truth.watched_s = seen_at;
     const std::shared_ptr<Targets> targets =
         targets_of(run({truth}).front().watched, *seen_at, truth.realization.blocks.size());
     for (int i = 0; i < count; ++i) {
-        FollowJob job = alone(study, 0);
+        TrackingJob job = alone(study, 0);
         for (Joint& joint : job.realization.joints) {
             joint.friction *= 1 + 0.05 * i;
             joint.normal_stiffness_n_m2 *= 1 + 0.3 * i;
@@ -154,13 +154,13 @@ public:
 
 TEST(Following, AFreeWindowIsTheContinuedRunBitByBit)
 {
-    FollowJob job = alone(noise_study(7), 3);
+    TrackingJob job = alone(noise_study(7), 3);
     job.windows = windows_every(0.31, 5, 0.2);
     auto watched = std::make_shared<std::vector<double>>();
     for (const FreeWindow& window : *job.windows)
         watched->insert(watched->end(), window.times_s.begin(), window.times_s.end());
     job.watched_s = watched;
-    const FollowResult result = run({job}).front();
+    const TrackingResult result = run({job}).front();
     Bits together;
     Readings joined;
     for (const Readings& window : result.windows) {
@@ -181,11 +181,11 @@ TEST(Following, AFreeWindowIsTheContinuedRunBitByBit)
 TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
 {
     const Study study = noise_study();
-    FollowJob job = alone(study, 1);
+    TrackingJob job = alone(study, 1);
     const double dt = job.realization.step_s;
     constexpr int apart = 7; // steps: in the middle of what `follow` does at a time, and at its ends
     job.watched_s = times(apart * dt, 150 * chunk_steps * dt, apart * dt);
-    const FollowResult result = run({job}).front();
+    const TrackingResult result = run({job}).front();
     LaneSet lanes(study, nullptr, kernels(Isa::scalar), job.realization);
     lanes.load(0, job.realization);
     const std::size_t blocks = job.realization.blocks.size();
@@ -233,18 +233,18 @@ TEST(Following, EveryStepOfARunCanBeReadAfterwards)
 }
 
 /// Each job by itself or among the others, in any lane: the same bits.
-void expect_same_everywhere(const std::vector<FollowJob>& jobs)
+void expect_same_everywhere(const std::vector<TrackingJob>& jobs)
 {
     std::vector<Bits> want;
-    for (const FollowJob& job : jobs)
+    for (const TrackingJob& job : jobs)
         want.push_back(bits_of(run({job}, {Isa::scalar, 1}).front())); // each by itself
     for (const Isa isa : usable_isas())
         for (const int threads : {1, 3}) {
-            const std::vector<FollowResult> got = run(jobs, {isa, threads});
+            const std::vector<TrackingResult> got = run(jobs, {isa, threads});
             for (std::size_t i = 0; i < jobs.size(); ++i)
                 EXPECT_EQ(bits_of(got[i]), want[i]) << "job " << i << ", " << to_string(isa) << ", " << threads;
         }
-    const std::vector<FollowResult> reversed = run({jobs.rbegin(), jobs.rend()});
+    const std::vector<TrackingResult> reversed = run({jobs.rbegin(), jobs.rend()});
     for (std::size_t i = 0; i < jobs.size(); ++i)
         EXPECT_EQ(bits_of(reversed[jobs.size() - 1 - i]), want[i]) << "job " << i;
 }
@@ -256,7 +256,7 @@ TEST(Following, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
 
 TEST(Following, NorDoTheyOnATableThatPitches)
 {
-    std::vector<FollowJob> jobs = mixed_jobs(11);
+    std::vector<TrackingJob> jobs = mixed_jobs(11);
     for (std::size_t i = 0; i < jobs.size(); i += 2)
         jobs[i].realization.base.pitch_rad_s2_m = 1e-3;
     expect_same_everywhere(jobs);
@@ -268,7 +268,7 @@ TEST(Following, ThePullIsADampedOscillator)
     Study study = noise_study();
     study.structure = equal_column(2, 1, 0.048, 0.029, 0.048, 0.1355);
     study.perturbations.clear();
-    FollowJob job = alone(study, 0);
+    TrackingJob job = alone(study, 0);
     job.realization.motion = still();
     job.realization.joints.front().friction = 0;
     auto targets = std::make_shared<Targets>();
@@ -281,7 +281,7 @@ TEST(Following, ThePullIsADampedOscillator)
     job.targets = targets;
     job.nudge_rad_s = 20;
     job.watched_s = times(0.01, 0.4, 0.01);
-    const FollowResult result = run({job}).front();
+    const TrackingResult result = run({job}).front();
     const double w = 20, z = 0.7, wd = w * std::sqrt(1 - z * z);
     for (std::size_t k = 0; k < job.watched_s->size(); ++k) {
         const double t = (*job.watched_s)[k];
@@ -298,7 +298,7 @@ TEST(Following, ReadsAlongTheLaboratoryWhereTheBaseTurns)
     Study study = noise_study(0.5);
     study.contact.normal_stiffness_n_m2 = 1e9;
     study.contact.tangential_stiffness_n_m = 4.8e7;
-    FollowJob job = alone(study, 0);
+    TrackingJob job = alone(study, 0);
     auto motion = std::make_shared<Motion>();
     motion->dt_s = 0.005;
     const auto acceleration = [](double t) { return 0.25 * (1 - std::cos(2 * std::numbers::pi * t)); };
@@ -309,7 +309,7 @@ TEST(Following, ReadsAlongTheLaboratoryWhereTheBaseTurns)
     job.realization.motion = motion;
     job.realization.base.pitch_rad_s2_m = 0.01;
     job.watched_s = times(0.1, 0.9, 0.013);
-    const FollowResult result = run({job}).front();
+    const TrackingResult result = run({job}).front();
     for (std::size_t k = 0; k < job.watched_s->size(); ++k) {
         const double phi = 0.01 * acceleration((*job.watched_s)[k]); // up to 5 mrad
         for (std::size_t b = 1; b < 4; ++b) {
@@ -321,14 +321,14 @@ TEST(Following, ReadsAlongTheLaboratoryWhereTheBaseTurns)
 
 TEST(Following, HowOftenThePullIsSetMakesNoDifference)
 {
-    std::vector<FollowJob> often = mixed_jobs(2), seldom = often;
-    for (FollowJob* job : {&often[0], &often[1]}) {
+    std::vector<TrackingJob> often = mixed_jobs(2), seldom = often;
+    for (TrackingJob* job : {&often[0], &often[1]}) {
         job->nudge_steps = 1;
         job->watched_s = times(0.1, 1.5, 0.05);
     }
-    for (FollowJob* job : {&seldom[0], &seldom[1]})
+    for (TrackingJob* job : {&seldom[0], &seldom[1]})
         job->watched_s = times(0.1, 1.5, 0.05);
-    const std::vector<FollowResult> a = run(often), b = run(seldom);
+    const std::vector<TrackingResult> a = run(often), b = run(seldom);
     for (std::size_t j = 0; j < a.size(); ++j) {
         double x = 0, theta = 0;
         for (std::size_t k = 0; k < a[j].watched.x_m.size(); ++k) {
@@ -345,19 +345,19 @@ TEST(Following, TheObserverTracksWhatAFreeRunLoses)
     // the truth, and a model of another friction and half the stiffness that is nudged along it
     const Study study = noise_study(6);
     const auto seen_at = times(0, 1.8, 0.002);
-    FollowJob truth = alone(study, 2);
+    TrackingJob truth = alone(study, 2);
     truth.watched_s = seen_at;
     const Readings seen = run({truth}).front().watched;
     const std::size_t blocks = truth.realization.blocks.size();
-    FollowJob loose = truth;
+    TrackingJob loose = truth;
     for (Joint& joint : loose.realization.joints) {
         joint.friction *= 0.9;
         joint.normal_stiffness_n_m2 *= 0.5;
     }
-    FollowJob nudged = loose;
+    TrackingJob nudged = loose;
     nudged.targets = targets_of(seen, *seen_at, blocks);
     nudged.nudge_rad_s = 60;
-    const std::vector<FollowResult> results = run({loose, nudged});
+    const std::vector<TrackingResult> results = run({loose, nudged});
     const auto apart = [&](const Readings& r) {
         double sum = 0;
         for (std::size_t k = 0; k < seen.x_m.size(); ++k)
@@ -371,15 +371,15 @@ TEST(Following, TheObserverTracksWhatAFreeRunLoses)
 
 TEST(Following, NothingPullsWhereNothingWasSeen)
 {
-    std::vector<FollowJob> jobs = mixed_jobs(1);
-    FollowJob blind = jobs.front(), none = jobs.front();
+    std::vector<TrackingJob> jobs = mixed_jobs(1);
+    TrackingJob blind = jobs.front(), none = jobs.front();
     auto gone = std::make_shared<Targets>(*jobs.front().targets);
     std::fill(gone->x_m.begin(), gone->x_m.end(), unseen);
     std::fill(gone->theta_rad.begin(), gone->theta_rad.end(), unseen);
     blind.targets = gone;
     none.targets = nullptr;
     // a gap after .5 s, and the same targets cut off there
-    FollowJob gap = jobs.front(), cut = jobs.front();
+    TrackingJob gap = jobs.front(), cut = jobs.front();
     auto gap_targets = std::make_shared<Targets>(*jobs.front().targets);
     auto cut_targets = std::make_shared<Targets>(*jobs.front().targets);
     const std::size_t from = 250 * gap_targets->blocks;
@@ -390,7 +390,7 @@ TEST(Following, NothingPullsWhereNothingWasSeen)
         v->resize(from);
     gap.targets = gap_targets;
     cut.targets = cut_targets;
-    const std::vector<FollowResult> r = run({blind, none, gap, cut, jobs.front()});
+    const std::vector<TrackingResult> r = run({blind, none, gap, cut, jobs.front()});
     EXPECT_EQ(bits_of(r[0]), bits_of(r[1]));
     EXPECT_EQ(bits_of(r[2]), bits_of(r[3]));
     EXPECT_NE(bits_of(r[2]), bits_of(r[4]));
@@ -398,12 +398,12 @@ TEST(Following, NothingPullsWhereNothingWasSeen)
 
 TEST(Following, WhatIsNoLongerFiniteIsNaNAndHurtsNobody)
 {
-    std::vector<FollowJob> jobs = mixed_jobs(9);
+    std::vector<TrackingJob> jobs = mixed_jobs(9);
     std::vector<Bits> want;
-    for (const FollowResult& result : run(jobs))
+    for (const TrackingResult& result : run(jobs))
         want.push_back(bits_of(result));
     jobs[4].realization.joints.front().friction = unseen;
-    const std::vector<FollowResult> got = run(jobs);
+    const std::vector<TrackingResult> got = run(jobs);
     for (std::size_t i = 0; i < jobs.size(); ++i)
         if (i != 4) {
             EXPECT_EQ(bits_of(got[i]), want[i]) << "job " << i;
@@ -419,12 +419,12 @@ TEST(Following, AStoppedRunSaysSo)
 
 TEST(Following, CountsWhatItDid)
 {
-    const std::vector<FollowJob> jobs = mixed_jobs(3);
+    const std::vector<TrackingJob> jobs = mixed_jobs(3);
     Observer observer;
-    const FollowReport report = follow(jobs, {best_isa(), 1}, observer);
+    const TrackingReport report = track(jobs, {best_isa(), 1}, observer);
     EXPECT_EQ(report.windows, 3U * 9U);
     double block_steps = 0; // of three free blocks: the observer up to its last window, and .2 s for each window
-    for (const FollowJob& job : jobs)
+    for (const TrackingJob& job : jobs)
         block_steps += 3 * (job.windows->back().start_s + 9 * 0.2) / job.realization.step_s;
     EXPECT_NEAR(static_cast<double>(report.block_steps), block_steps, 0.01 * block_steps);
     EXPECT_GT(report.occupancy, 0);

@@ -1,4 +1,4 @@
-#include "ensemble/tracking/following_score.hpp"
+#include "ensemble/tracking/tracking_score.hpp"
 
 #include "ensemble/numerics/log_gamma.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"

@@ -1,4 +1,4 @@
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/engine/lanes.hpp"
@@ -22,7 +22,7 @@ constexpr double largest_turn = 0.1; // w x the time between two settings of the
 constexpr std::uint64_t never = ~std::uint64_t{0};
 // Steps that are done at a time where no lane asks for fewer: the trace of them is to stay in the first-level cache.
 constexpr int most_at_once = 16;
-static_assert(most_at_once % follow_beat == 0 && chunk_steps % most_at_once == 0,
+static_assert(most_at_once % tracking_beat == 0 && chunk_steps % most_at_once == 0,
               "a run ends at a beat and in a chunk");
 // States that wait for a lane, at the most: windows then go before further observers.
 constexpr std::size_t most_waiting = 20000;
@@ -51,12 +51,12 @@ Reading reading_at(double time_s, double step_s)
 /// Step at which a window leaves its observer.
 std::uint64_t leaving_step(double start_s, double step_s)
 {
-    return static_cast<std::uint64_t>(std::max(start_s / step_s, 0.0)) / follow_beat * follow_beat;
+    return static_cast<std::uint64_t>(std::max(start_s / step_s, 0.0)) / tracking_beat * tracking_beat;
 }
 
-int nudge_steps(const FollowJob& job)
+int nudge_steps(const TrackingJob& job)
 {
-    int steps = std::min(job.nudge_steps, follow_beat);
+    int steps = std::min(job.nudge_steps, tracking_beat);
     while (steps > 1 && steps * job.realization.step_s * job.nudge_rad_s > largest_turn)
         steps /= 2;
     return steps;
@@ -76,7 +76,7 @@ struct Work {
 };
 
 /// Only the extended step can be nudged.
-Realization followed(Realization realization)
+Realization tracked(Realization realization)
 {
     realization.extended = true;
     return realization;
@@ -85,11 +85,12 @@ Realization followed(Realization realization)
 /// Queue of the legs of jobs that share a structure, and their results.
 class Course {
 public:
-    Course(const std::vector<FollowJob>& jobs, std::vector<std::size_t> mine, FollowReport& report, const Crew& crew)
+    Course(const std::vector<TrackingJob>& jobs, std::vector<std::size_t> mine, TrackingReport& report,
+           const Crew& crew)
         : jobs_(jobs), mine_(std::move(mine)), left_(jobs.size(), 0), report_(report), crew_(crew)
     {
         for (const std::size_t job : mine_) {
-            FollowResult& result = report_.results[job];
+            TrackingResult& result = report_.results[job];
             const std::size_t blocks = jobs[job].realization.blocks.size();
             result.windows.resize(jobs[job].windows ? jobs[job].windows->size() : 0);
             for (std::size_t w = 0; w < result.windows.size(); ++w)
@@ -149,9 +150,9 @@ public:
         const std::lock_guard lock(mutex_);
         return jobs_done_;
     }
-    const std::vector<FollowJob>& jobs() const { return jobs_; }
-    Realization pattern() const { return followed(jobs_[mine_.front()].realization); }
-    FollowResult& result(std::size_t job) { return report_.results[job]; }
+    const std::vector<TrackingJob>& jobs() const { return jobs_; }
+    Realization pattern() const { return tracked(jobs_[mine_.front()].realization); }
+    TrackingResult& result(std::size_t job) { return report_.results[job]; }
 
 private:
     static void prepare(Readings& readings, std::size_t values)
@@ -160,14 +161,14 @@ private:
             v->assign(values, std::numeric_limits<double>::quiet_NaN());
     }
 
-    const std::vector<FollowJob>& jobs_;
+    const std::vector<TrackingJob>& jobs_;
     const std::vector<std::size_t> mine_;
     std::size_t next_ = 0;          ///< of `mine_`
     std::deque<Leg> waiting_;       ///< windows
     std::size_t observers_ = 0;     ///< that run
     std::vector<std::size_t> left_; ///< (jobs) legs that are still to end
     std::size_t jobs_done_ = 0;
-    FollowReport& report_;
+    TrackingReport& report_;
     const Crew& crew_;
     std::mutex mutex_;
     std::condition_variable more_;
@@ -208,7 +209,7 @@ public:
                     steps_[lane] += until;
                     events(lane);
                 }
-        } while (phase_ % follow_beat != 0);
+        } while (phase_ % tracking_beat != 0);
         phase_ %= chunk_steps;
     }
 
@@ -216,7 +217,7 @@ public:
     std::uint64_t active_steps() const { return active_steps_; }
 
 private:
-    const FollowJob& job(const Work& work) const { return course_.jobs()[work.leg.job]; }
+    const TrackingJob& job(const Work& work) const { return course_.jobs()[work.leg.job]; }
 
     void begin(std::size_t lane, Leg leg)
     {
@@ -225,16 +226,15 @@ private:
         work.busy = true;
         work.leg = std::move(leg);
         steps_[lane] = work.needed = work.leg.step;
-        const FollowJob& j = job(work);
-        FollowResult& result = course_.result(work.leg.job);
+        const TrackingJob& j = job(work);
+        TrackingResult& result = course_.result(work.leg.job);
         if (work.leg.window < 0) {
-            lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_);
+            lanes_.load_followed(static_cast<int>(lane), tracked(j.realization), phase_);
             work.times = j.watched_s.get();
             work.readings = &result.watched;
             work.nudge_steps = j.targets && j.nudge_rad_s > 0 ? nudge_steps(j) : 0;
         } else {
-            lanes_.load_followed(static_cast<int>(lane), followed(j.realization), phase_, work.leg.state,
-                                 work.leg.step);
+            lanes_.load_followed(static_cast<int>(lane), tracked(j.realization), phase_, work.leg.state, work.leg.step);
             work.times = &(*j.windows)[static_cast<std::size_t>(work.leg.window)].times_s;
             work.readings = &result.windows[static_cast<std::size_t>(work.leg.window)];
         }
@@ -251,7 +251,7 @@ private:
     }
     std::uint64_t next_leaving(const Work& work) const
     {
-        const FollowJob& j = job(work);
+        const TrackingJob& j = job(work);
         return work.leg.window < 0 && j.windows && work.next_window < j.windows->size()
                    ? leaving_step((*j.windows)[work.next_window].start_s, j.realization.step_s)
                    : never;
@@ -331,7 +331,7 @@ private:
 
     void nudge(std::size_t lane)
     {
-        const FollowJob& j = job(work_[lane]);
+        const TrackingJob& j = job(work_[lane]);
         const Targets& t = *j.targets;
         const double dt = j.realization.step_s, w = j.nudge_rad_s;
         const double position = (static_cast<double>(steps_[lane]) * dt - t.start_s) / t.spacing_s;
@@ -364,7 +364,7 @@ private:
     void end(std::size_t lane)
     {
         Work& work = work_[lane];
-        const FollowJob& j = job(work);
+        const TrackingJob& j = job(work);
         const std::size_t lost =
             work.leg.window < 0 && j.windows ? j.windows->size() - work.next_window : 0; // it ended before them
         course_.end(work.leg, j.realization.free_blocks() * (work.needed - work.leg.step), lost);
@@ -381,7 +381,7 @@ private:
 };
 
 /// Whether two jobs may share a bundle.
-bool alike(const FollowJob& a, const FollowJob& b)
+bool alike(const TrackingJob& a, const TrackingJob& b)
 {
     const Realization &r = a.realization, &q = b.realization;
     const auto same_block = [](const Block& m, const Block& n) { return m.fixed == n.fixed; };
@@ -393,9 +393,9 @@ bool alike(const FollowJob& a, const FollowJob& b)
 
 } // namespace
 
-FollowReport follow(const std::vector<FollowJob>& jobs, const RunOptions& options, Observer& observer)
+TrackingReport track(const std::vector<TrackingJob>& jobs, const RunOptions& options, Observer& observer)
 {
-    FollowReport report;
+    TrackingReport report;
     report.results.resize(jobs.size());
     // jobs that can share bundles, in the order of their first ones
     std::vector<std::vector<std::size_t>> groups;

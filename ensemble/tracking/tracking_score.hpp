@@ -6,7 +6,7 @@
 ///
 /// s is known before any model runs; k, one for each block, coordinate and state (rocking or quiet), is fitted.
 
-#include "ensemble/tracking/following_targets.hpp"
+#include "ensemble/tracking/tracking_targets.hpp"
 
 #include <cstddef>
 #include <vector>

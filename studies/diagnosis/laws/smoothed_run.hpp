@@ -16,7 +16,7 @@ enum Component : int { in_x = 0, in_y = 1, in_theta = 2 };
 inline constexpr std::array component_names = {"x", "y", "theta"};
 
 /// What depends on the specimen and its cameras alone.
-struct TrackScales {
+struct CampaignScales {
     double time_s = 0;              ///< sqrt(height / g) of the whole specimen
     double spacing_s = 0;           ///< of the samples
     double noise_m = 0;             ///< of x and y, the larger one
@@ -29,17 +29,17 @@ struct TrackScales {
 
 /// @throws InputError if there is no run with x, y and rotation of the blocks, or the cameras are too slow for the
 ///         specimen: fewer than 12 samples in the time that smoothing may take
-TrackScales track_scales(const Campaign& campaign);
+CampaignScales campaign_scales(const Campaign& campaign);
 
 /// Motion of all blocks at one instant: [coordinate][block].
 using BlockValues = std::array<std::vector<double>, 3>;
 
-class Track {
+class SmoothedRun {
 public:
     /// @param base_m the base's displacement at the samples of the run's own clock (the corrected one); empty: not
     /// known
-    Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
-          const std::vector<double>& base_m);
+    SmoothedRun(const Specimen& specimen, const MeasuredRun& run, const CampaignScales& scales,
+                const std::vector<double>& base_m);
 
     std::size_t samples() const { return time_s_.size(); }
     double time_s(std::size_t i) const { return time_s_[i]; }

@@ -1,4 +1,4 @@
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/diagnosis/laws/smoothed_run.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
@@ -87,10 +87,10 @@ std::vector<double> resampled(const std::vector<double>& time_s, const double* v
     return out;
 }
 
-TrackScales track_scales(const Campaign& campaign)
+CampaignScales campaign_scales(const Campaign& campaign)
 {
     const Specimen& s = campaign.specimen;
-    TrackScales scales;
+    CampaignScales scales;
     double top = 0, bottom = std::numeric_limits<double>::infinity(), width = 0;
     for (std::size_t i = 0; i < s.rest_y_m.size(); ++i) {
         top = std::max(top, s.rest_y_m[i] + s.half_height_m[i]);
@@ -130,8 +130,8 @@ TrackScales track_scales(const Campaign& campaign)
     return scales;
 }
 
-Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales& scales,
-             const std::vector<double>& base_m)
+SmoothedRun::SmoothedRun(const Specimen& specimen, const MeasuredRun& run, const CampaignScales& scales,
+                         const std::vector<double>& base_m)
     : blocks_(specimen.blocks()), widths_(scales.widths)
 {
     const double dt = scales.spacing_s;
@@ -175,7 +175,7 @@ Track::Track(const Specimen& specimen, const MeasuredRun& run, const TrackScales
     }
 }
 
-bool Track::usable(std::size_t i, int margin) const
+bool SmoothedRun::usable(std::size_t i, int margin) const
 {
     const auto m = static_cast<std::size_t>(margin);
     return i >= m && i + m < samples() && bad_before_[i + m + 1] == bad_before_[i - m];

@@ -1,5 +1,5 @@
 #pragma once
-/// Measured motion, followed by the model in lockstep: an observer and the free windows that start from it.
+/// Measured motion, tracked by the model in lockstep: an observer and the free windows that start from it.
 ///
 /// Rocking is chaotic: a free run carries no information on the measurement after a few impacts, and one that is
 /// restarted from measured states has lost its contacts' overlaps and springs, which no camera sees. So the model
@@ -42,22 +42,22 @@ struct Targets {
 
 /// A stretch of time in which the model runs free.
 struct FreeWindow {
-    double start_s = 0;          ///< where it leaves the observer (up to `follow_beat` of its steps before)
+    double start_s = 0;          ///< where it leaves the observer (up to `tracking_beat` of its steps before)
     std::vector<double> times_s; ///< when its blocks are read: ascending, after the start
 };
 
 /// Steps between two times at which a window may leave its observer, and the most between two settings of the nudging.
-inline constexpr int follow_beat = 8;
+inline constexpr int tracking_beat = 8;
 
 /// One parameter set and one run.
-struct FollowJob {
+struct TrackingJob {
     Realization realization; ///< with its own base motion; run by the extended step, even where nothing is extended
     std::shared_ptr<const Targets> targets;                 ///< null: no nudging
     double nudge_rad_s = 0;                                 ///< w
     std::shared_ptr<const std::vector<FreeWindow>> windows; ///< ascending; null: none
     std::shared_ptr<const std::vector<double>> watched_s; ///< when the observer itself is read, ascending; null: never
     int nudge_steps =
-        follow_beat; ///< steps between two settings of the nudging: 1, 2, 4 or 8; fewer where w dt asks for it
+        tracking_beat; ///< steps between two settings of the nudging: 1, 2, 4 or 8; fewer where w dt asks for it
 };
 
 /// Displacements from the reference stack in the frame of the base, (times x blocks) in the order of
@@ -88,24 +88,24 @@ struct SimulationCount {
     }
 };
 
-struct FollowResult {
+struct TrackingResult {
     std::vector<Readings> windows; ///< in the order of the job's
     Readings watched;              ///< of the observer
 };
 
-struct FollowReport {
-    std::vector<FollowResult> results; ///< in the order of the jobs
-    std::uint64_t windows = 0;         ///< that were run
-    std::uint64_t block_steps = 0;     ///< free blocks x steps, observers and windows
-    double seconds = 0;                ///< wall clock
-    double occupancy = 0;              ///< part of the lanes that worked
-    bool complete = false;             ///< false: the observer asked to stop, and results are missing
+struct TrackingReport {
+    std::vector<TrackingResult> results; ///< in the order of the jobs
+    std::uint64_t windows = 0;           ///< that were run
+    std::uint64_t block_steps = 0;       ///< free blocks x steps, observers and windows
+    double seconds = 0;                  ///< wall clock
+    double occupancy = 0;                ///< part of the lanes that worked
+    bool complete = false;               ///< false: the observer asked to stop, and results are missing
 };
 
 /// Runs all jobs. `observer` is given the number of jobs done (`Progress::done` of `total`), and may stop the run.
 ///
 /// @pre every realization has a base motion of its own (`Realization::motion`) and a step
 /// @throws what setting up a realization throws, after all threads have stopped
-FollowReport follow(const std::vector<FollowJob>& jobs, const RunOptions& options, Observer& observer);
+TrackingReport track(const std::vector<TrackingJob>& jobs, const RunOptions& options, Observer& observer);
 
 } // namespace stylobate
