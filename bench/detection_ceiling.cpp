@@ -11,9 +11,9 @@
 
 #include "bench/separation.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "studies/diagnosis/laws/balance_evidence.hpp"
-#include "studies/diagnosis/statistics/campaign_statistics.hpp"
-#include "studies/diagnosis/tests/direct_tests.hpp"
+#include "studies/measured/diagnosis/direct/direct_tests.hpp"
+#include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
+#include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
 #include "tests/hidden/score/detectability.hpp"
 #include "tests/hidden/virtual_campaign.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "io/measured/measured_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/prediction.hpp"
-#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
+#include "studies/measured/diagnosis/prediction.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

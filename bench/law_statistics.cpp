@@ -1,4 +1,4 @@
-/// What the statistics of a campaign (`studies/diagnosis/statistics`) show of healthy contact laws: how many are
+/// What the statistics of a campaign (`studies/measured/diagnosis/evidence`) show of healthy contact laws: how many are
 /// there, how they scatter within one law and between laws, how well the descriptors predict them, and what both cost.
 /// Campaigns with nothing hidden, of the specimen and the motions of a measured one.
 ///
@@ -9,11 +9,11 @@
 #include "io/measured/measured_file.hpp"
 #include "io/tables/markdown.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
-#include "studies/diagnosis/statistics/campaign_statistics.hpp"
-#include "studies/diagnosis/tests/direct_tests.hpp"
-#include "studies/windows/window_comparison.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"
+#include "studies/measured/diagnosis/direct/direct_tests.hpp"
+#include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
+#include "studies/measured/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>

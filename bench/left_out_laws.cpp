@@ -7,9 +7,9 @@
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/decision.hpp"
-#include "studies/windows/window_comparison.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/decision.hpp"
+#include "studies/measured/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

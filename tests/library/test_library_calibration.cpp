@@ -6,7 +6,7 @@
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"
-#include "studies/calibration/calibration_file.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
 
 #include <fmt/format.h>
 

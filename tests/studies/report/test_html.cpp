@@ -3,17 +3,17 @@
 #include "ensemble/model/collapse_criterion.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/calibration/calibration_file.hpp"
-#include "studies/calibration/calibration_page.hpp"
-#include "studies/diagnosis/findings/diagnosis_page.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/calibration/calibration_page.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
 #include "tests/program/json.hpp"
-#include "tests/studies/calibration/calibration_sample.hpp"
-#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+#include "tests/studies/measured/calibration/calibration_sample.hpp"
+#include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
