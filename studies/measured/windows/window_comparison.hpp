@@ -101,7 +101,7 @@ private:
     std::vector<SeenWindow> windows_in(const Run& run, const WindowOptions& options) const;
     WindowCurve measured_curve(const Run& run, std::size_t window, const std::vector<std::size_t>& chosen,
                                FreeWindow& read) const;
-    TrackingReport followed(const std::vector<TrackingJob>& jobs, const RunOptions& options, Observer& observer);
+    TrackingReport tracked(const std::vector<TrackingJob>& jobs, const RunOptions& options, Observer& observer);
 
     StructureSpec structure_;
     std::vector<double> plan_x_m_; ///< (blocks)
