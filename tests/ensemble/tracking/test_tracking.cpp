@@ -152,7 +152,7 @@ public:
 
 } // namespace
 
-TEST(Following, AFreeWindowIsTheContinuedRunBitByBit)
+TEST(Tracking, AFreeWindowIsTheContinuedRunBitByBit)
 {
     TrackingJob job = alone(noise_study(7), 3);
     job.windows = windows_every(0.31, 5, 0.2);
@@ -178,7 +178,7 @@ TEST(Following, AFreeWindowIsTheContinuedRunBitByBit)
     EXPECT_GT(largest, 0.01) << "nothing rocks: the test says nothing";
 }
 
-TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
+TEST(Tracking, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
 {
     const Study study = noise_study();
     TrackingJob job = alone(study, 1);
@@ -202,7 +202,7 @@ TEST(Following, WithoutPullItIsTheModelAsTheEnsembleRunsIt)
 }
 
 /// What is read of the steps of one run of the kernel is what one run for each of them shows.
-TEST(Following, EveryStepOfARunCanBeReadAfterwards)
+TEST(Tracking, EveryStepOfARunCanBeReadAfterwards)
 {
     const Study study = noise_study();
     Realization r = Sampler(study, nullptr).realization(1);
@@ -249,12 +249,12 @@ void expect_same_everywhere(const std::vector<TrackingJob>& jobs)
         EXPECT_EQ(bits_of(reversed[jobs.size() - 1 - i]), want[i]) << "job " << i;
 }
 
-TEST(Following, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
+TEST(Tracking, LaneNeighboursInstructionSetAndThreadsDoNotMatter)
 {
     expect_same_everywhere(mixed_jobs(11));
 }
 
-TEST(Following, NorDoTheyOnATableThatPitches)
+TEST(Tracking, NorDoTheyOnATableThatPitches)
 {
     std::vector<TrackingJob> jobs = mixed_jobs(11);
     for (std::size_t i = 0; i < jobs.size(); i += 2)
@@ -262,7 +262,7 @@ TEST(Following, NorDoTheyOnATableThatPitches)
     expect_same_everywhere(jobs);
 }
 
-TEST(Following, ThePullIsADampedOscillator)
+TEST(Tracking, ThePullIsADampedOscillator)
 {
     // One block without friction on a table at rest, 1 mm beside its target: x'' = w2 (1 mm - x) - 1.4 w x'.
     Study study = noise_study();
@@ -292,7 +292,7 @@ TEST(Following, ThePullIsADampedOscillator)
     }
 }
 
-TEST(Following, ReadsAlongTheLaboratoryWhereTheBaseTurns)
+TEST(Tracking, ReadsAlongTheLaboratoryWhereTheBaseTurns)
 {
     // pushed so slowly that nothing rocks: the blocks turn and shift with the base, phi = k U'' about its middle
     Study study = noise_study(0.5);
@@ -319,7 +319,7 @@ TEST(Following, ReadsAlongTheLaboratoryWhereTheBaseTurns)
     }
 }
 
-TEST(Following, HowOftenThePullIsSetMakesNoDifference)
+TEST(Tracking, HowOftenThePullIsSetMakesNoDifference)
 {
     std::vector<TrackingJob> often = mixed_jobs(2), seldom = often;
     for (TrackingJob* job : {&often[0], &often[1]}) {
@@ -340,7 +340,7 @@ TEST(Following, HowOftenThePullIsSetMakesNoDifference)
     }
 }
 
-TEST(Following, TheObserverTracksWhatAFreeRunLoses)
+TEST(Tracking, TheObserverTracksWhatAFreeRunLoses)
 {
     // the truth, and a model of another friction and half the stiffness that is nudged along it
     const Study study = noise_study(6);
@@ -369,7 +369,7 @@ TEST(Following, TheObserverTracksWhatAFreeRunLoses)
     EXPECT_GT(free_apart, 4 * nudged_apart);
 }
 
-TEST(Following, NothingPullsWhereNothingWasSeen)
+TEST(Tracking, NothingPullsWhereNothingWasSeen)
 {
     std::vector<TrackingJob> jobs = mixed_jobs(1);
     TrackingJob blind = jobs.front(), none = jobs.front();
@@ -396,7 +396,7 @@ TEST(Following, NothingPullsWhereNothingWasSeen)
     EXPECT_NE(bits_of(r[2]), bits_of(r[4]));
 }
 
-TEST(Following, WhatIsNoLongerFiniteIsNaNAndHurtsNobody)
+TEST(Tracking, WhatIsNoLongerFiniteIsNaNAndHurtsNobody)
 {
     std::vector<TrackingJob> jobs = mixed_jobs(9);
     std::vector<Bits> want;
@@ -411,13 +411,13 @@ TEST(Following, WhatIsNoLongerFiniteIsNaNAndHurtsNobody)
     EXPECT_TRUE(std::isnan(got[4].windows.back().x_m.back()));
 }
 
-TEST(Following, AStoppedRunSaysSo)
+TEST(Tracking, AStoppedRunSaysSo)
 {
     StopAtOnce observer;
     EXPECT_FALSE(follow(mixed_jobs(12), {Isa::scalar, 2}, observer).complete);
 }
 
-TEST(Following, CountsWhatItDid)
+TEST(Tracking, CountsWhatItDid)
 {
     const std::vector<TrackingJob> jobs = mixed_jobs(3);
     Observer observer;

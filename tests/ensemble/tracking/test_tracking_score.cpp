@@ -51,7 +51,7 @@ Motion pushed_after(double time_s)
 
 } // namespace
 
-TEST(FollowingScore, TheDensityIsStudents)
+TEST(TrackingScore, TheDensityIsStudents)
 {
     // with 4 degrees 3/8 (1 + t2/4)^(-5/2), with 1 Cauchy's
     for (const double t : {0.0, 0.3, -1.7, 12.0, 400.0}) {
@@ -62,7 +62,7 @@ TEST(FollowingScore, TheDensityIsStudents)
         EXPECT_NEAR(student_quantile(student4_probability(t), 4), t, 1e-9);
 }
 
-TEST(FollowingScore, TheScaleIsTheLikeliest)
+TEST(TrackingScore, TheScaleIsTheLikeliest)
 {
     // two residuals a and b > 0: with one of size z alone, k2 = (n + 1) z2 / (n + z2 / k2), so k = z
     EXPECT_NEAR(student_scale({3}, 4), 3, 1e-9);
@@ -84,7 +84,7 @@ TEST(FollowingScore, TheScaleIsTheLikeliest)
     EXPECT_GT(likelihood(k), likelihood(0.998 * k));
 }
 
-TEST(FollowingScore, AWindowIsScoredByItsResiduals)
+TEST(TrackingScore, AWindowIsScoredByItsResiduals)
 {
     std::vector<SeenValue> seen(2);
     seen[0].value = 1.0;
@@ -104,7 +104,7 @@ TEST(FollowingScore, AWindowIsScoredByItsResiduals)
     EXPECT_EQ(residuals(seen, lost, 1, {0.5})[0], 1e4);
 }
 
-TEST(FollowingScore, KindsWithFewResidualsShareTheirScale)
+TEST(TrackingScore, KindsWithFewResidualsShareTheirScale)
 {
     ResidualScales scales(residual_kinds(2));
     SeenValue of_first, of_second;
@@ -119,7 +119,7 @@ TEST(FollowingScore, KindsWithFewResidualsShareTheirScale)
     EXPECT_EQ(scales.k(1), 1) << "nothing rocked";
 }
 
-TEST(FollowingTargets, AParabolaIsSeenAsItIs)
+TEST(TrackingTargets, AParabolaIsSeenAsItIs)
 {
     // x = 3 t2 - t from where it stood, which is at t = 0; the base is at rest
     const MeasuredRun run = one_block([](double t) { return t < 0.2 ? 0.0 : 3 * (t - 0.2) * (t - 0.2); });
@@ -141,7 +141,7 @@ TEST(FollowingTargets, AParabolaIsSeenAsItIs)
     EXPECT_NEAR(targets.velocity_m_s[2 * 300 + 1], 2.4, 1e-7);
 }
 
-TEST(FollowingTargets, WindowsFollowEachOtherAndEndBeforeACollapse)
+TEST(TrackingTargets, WindowsFollowEachOtherAndEndBeforeACollapse)
 {
     MeasuredRun run = one_block([](double) { return 0.0; });
     run.collapsed = true;
@@ -157,7 +157,7 @@ TEST(FollowingTargets, WindowsFollowEachOtherAndEndBeforeACollapse)
     }
 }
 
-TEST(FollowingTargets, WhatWasNotSeenIsNotScored)
+TEST(TrackingTargets, WhatWasNotSeenIsNotScored)
 {
     MeasuredRun run = one_block([](double t) { return 0.01 * std::sin(20 * t); });
     for (std::size_t k = 100; k < 200; ++k)
@@ -179,7 +179,7 @@ TEST(FollowingTargets, WhatWasNotSeenIsNotScored)
     EXPECT_FALSE(std::isnan(targets_of(seen).x_m[150]));
 }
 
-TEST(FollowingTargets, ScalesGoWithThePendulumTime)
+TEST(TrackingTargets, ScalesGoWithThePendulumTime)
 {
     const TrackingScales small = tracking_scales(0.048, 9.81), large = tracking_scales(1.5, 9.81);
     EXPECT_NEAR(small.window_s, 0.2, 1e-9);
