@@ -142,7 +142,7 @@ std::string candidates_part(const Diagnosis& d)
            wrapped(words, 2) +
            table_of(d.candidates, {"mechanism", "place", "size", "gain", "null", "p", "prob.", "decision"},
                     [](const Candidate& c) {
-                        const auto blank = [](const std::string& words) { return words == "not known" ? "" : words; };
+                        const auto blank = [](const std::string& found) { return found == "not known" ? "" : found; };
                         return Row{c.mechanism,
                                    c.place,
                                    size_words(c),
