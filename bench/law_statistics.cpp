@@ -316,7 +316,7 @@ int main(int argc, char** argv)
     print_steps(campaign, study, draw_laws(family, seed, 0, nulls));
     for (std::size_t k = 0; k < laws.of.size(); ++k)
         if (std::none_of(laws.of[k].values.begin(), laws.of[k].values.end(), [](double v) { return std::isfinite(v); }))
-            fmt::print("Nothing is finite in campaign {}: {}.\n", k, draw_law(family, seed, k).words());
+            fmt::print("Nothing is finite in campaign {}.\n", k);
     print_statistics(labels, laws, repeated, per_law);
     print_contrasts(labels, static_cast<int>(campaign.specimen.joints.size()), laws, repeated, per_law);
     const CampaignScales scales = campaign_scales(campaign);

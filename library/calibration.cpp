@@ -2,7 +2,7 @@
 
 #include "io/keys/words.hpp"
 #include "library/inside.hpp"
-#include "studies/calibration/calibration_text.hpp"
+#include "studies/measured/calibration/calibration_text.hpp"
 
 namespace stylobate::api {
 

@@ -1,9 +1,9 @@
 #include "stylobate/diagnosis.hpp"
 
 #include "library/inside.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_json.hpp"
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/workflow/diagnose.hpp"
 
 namespace stylobate::api {

@@ -7,8 +7,8 @@
 #include "ensemble/model/observer.hpp"
 #include "io/records/record.hpp"
 #include "studies/check/check_report.hpp"
-#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/workflow/calibrate.hpp"
 #include "stylobate/stylobate.hpp"
 

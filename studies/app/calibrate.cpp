@@ -4,8 +4,8 @@
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/app/command.hpp"
-#include "studies/calibration/calibration_text.hpp"
 #include "studies/cluster/together.hpp"
+#include "studies/measured/calibration/calibration_text.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "studies/workflow/output_path.hpp"
 

@@ -4,9 +4,9 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/app/command.hpp"
 #include "studies/cluster/together.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_json.hpp"
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "studies/workflow/output_path.hpp"
 

@@ -2,10 +2,10 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/calibration/calibration_data.hpp"
-#include "studies/calibration/calibration_file.hpp"
-#include "studies/calibration/calibration_text.hpp"
 #include "studies/cluster/together.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/calibration/calibration_text.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/file_kind.hpp"
 

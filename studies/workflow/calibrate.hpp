@@ -1,7 +1,7 @@
 #pragma once
 /// A calibration of measured data, from their file to its results.
 
-#include "studies/calibration/calibration.hpp"
+#include "studies/measured/calibration/calibration.hpp"
 #include "studies/workflow/workflow.hpp"
 
 #include <filesystem>

@@ -2,10 +2,9 @@
 
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/calibration/calibration.hpp"
 #include "studies/cluster/together.hpp"
-#include "studies/diagnosis/findings/fingerprint.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/evidence/smoothed_run.hpp"
 #include "studies/workflow/file_kind.hpp"
 
 namespace stylobate {
@@ -28,7 +27,7 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
                                             request.settings);
         demand_double(study, request.start_name, "a diagnosis");
         how.run = machine.run_options();
-        track_scales(campaign); // refuses data that cannot be diagnosed
+        campaign_scales(campaign); // refuses data that cannot be diagnosed
         if (!how.run.leads())
             return;
         if (request.check_outputs)

@@ -1,7 +1,7 @@
 #pragma once
 /// A diagnosis of a measured campaign, from its file to what the simulation gets wrong.
 
-#include "studies/diagnosis/decision/pipeline.hpp"
+#include "studies/measured/diagnosis/pipeline.hpp"
 #include "studies/workflow/workflow.hpp"
 
 #include <functional>

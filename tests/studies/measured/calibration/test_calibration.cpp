@@ -462,25 +462,17 @@ TEST(CalibrationStatistics, WindowScoresTellAGoodModelFromABadOne)
             scores.push_back(comparison.scores(z, comparison.fit_scales(residuals.front())));
         return scores;
     };
-    const auto scores = scores_of({{"truth", truth, {}, {}}, {"slippery", slippery, {}, {}}});
+    const auto scores = scores_of({{truth}, {slippery}});
     ASSERT_EQ(scores.size(), 2U);
     std::vector<std::size_t> group;
     for (const WindowPlace& place : comparison.windows())
         group.push_back(place.run);
     EXPECT_GT(paired_gain(scores[1], scores[0], group).low, 0);
-    // a change of the realization and of the base motion are taken
-    const auto less = [](const Motion& m) {
-        Motion weaker = m;
-        for (auto* v : {&weaker.acceleration_m_s2, &weaker.velocity_m_s, &weaker.displacement_m})
-            for (double& value : *v)
-                value *= 0.8;
-        return weaker;
-    };
+    // a change of the realization is taken
     const auto worn = [](Realization& r, std::size_t) { r.joints.front().friction *= 0.6; };
-    const auto changed = scores_of({{"truth", truth, {}, {}}, {"weaker", truth, less, {}}, {"worn", truth, {}, worn}});
+    const auto changed = scores_of({{truth}, {truth, worn}});
     EXPECT_EQ(changed[0], scores[0]);
     EXPECT_GT(paired_gain(changed[1], changed[0], group).total, 0);
-    EXPECT_GT(paired_gain(changed[2], changed[0], group).total, 0);
 }
 
 TEST(CalibrationStatistics, APracticeCampaign)

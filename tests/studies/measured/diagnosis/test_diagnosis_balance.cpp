@@ -304,10 +304,11 @@ TEST(BalanceFit, FacesCarryInsideTheirCornersAndNotOutside)
     };
     // inside on both sides is what every contact does a little
     EXPECT_LT(corner_gain(evidence_of(inset_campaign(0.0012))), 3);
-    const BalanceEvidence outside = evidence_of(inset_campaign(-0.0012));
+    const Campaign campaign = inset_campaign(-0.0012);
+    const BalanceEvidence outside = evidence_of(campaign);
     ASSERT_TRUE(outside.fit);
     // the common turning point is at its bound: scores are there, and ask for the other sign
-    for (const Cause& cause : balance_causes(one_block(), outside.scales))
+    for (const Cause& cause : balance_causes(campaign.specimen, campaign_scales(campaign)))
         if (cause.mechanism == "corner_loss" && cause.side.empty()) {
             EXPECT_LT(outside.fit->score(cause), 0);
         }
@@ -319,7 +320,7 @@ TEST(BalanceFit, ScoresAreSignedRootsOfGains)
         const BalanceEvidence evidence = evidence_of(campaign);
         ASSERT_TRUE(evidence.fit);
         int compared = 0;
-        for (const Cause& cause : balance_causes(campaign.specimen, evidence.scales)) {
+        for (const Cause& cause : balance_causes(campaign.specimen, campaign_scales(campaign))) {
             const CauseFit fit = evidence.fit->fit(cause);
             const double score = evidence.fit->score(cause);
             if (std::isnan(score) || fit.gain == 0 || (cause.mechanism == "friction_wear" && cause.fixed > 0))

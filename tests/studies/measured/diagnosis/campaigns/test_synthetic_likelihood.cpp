@@ -294,8 +294,8 @@ TEST(Conformal, RanksByHand)
 
 TEST(Conformal, WeighsByHand)
 {
-    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, {0.5, 0.25, 1}, 1.5), (1 + 0.25 + 1) / (1 + 0.5 + 0.25 + 1));
-    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, {0, 1, 0}, 2.5), 0.5) << "only one campaign is like this one";
+    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, 1.5, {0.5, 0.25, 1}), (1 + 0.25 + 1) / (1 + 0.5 + 0.25 + 1));
+    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, 2.5, {0, 1, 0}), 0.5) << "only one campaign is like this one";
 }
 
 TEST(CalibratedProbability, PoolsWhatFalls)
