@@ -10,6 +10,7 @@
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/words.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
 
