@@ -109,15 +109,37 @@ void KeyReader::refuse_unused(const std::vector<std::string>& used, const std::s
                fmt::format("Remove it. Keys that are used: {}.", fmt::join(used, ", ")));
 }
 
+void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word) const
+{
+    refuse_unused(table.names_where(kind, word), fmt::format("{} = \"{}\"", kind, word));
+}
+
+void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word,
+                              const std::string& todo) const
+{
+    for (const TomlKey* key : table.keys)
+        if (!key->used_where(kind, word) && has(*key))
+            refuse(key->name, fmt::format("is not used by {} = \"{}\"", kind, word), todo);
+}
+
 KeyReader KeyReader::table(std::string_view key) const
 {
     return KeyReader(find(key), full(key), place_);
 }
 
+void KeyReader::check_keys(const TableKey& table) const
+{
+    allow_only(table.names());
+    for (const TomlKey* key : table.keys)
+        for (const std::string& other : key->excludes)
+            if (has(*key) && has(other))
+                refuse(key->name, "and " + other + " exclude each other", "Give one of the two.");
+}
+
 KeyReader KeyReader::table(const TableKey& key) const
 {
     KeyReader keys = table(key.name);
-    keys.allow_only(key.names());
+    keys.check_keys(key);
     return keys;
 }
 
@@ -125,7 +147,7 @@ std::vector<KeyReader> KeyReader::tables(const TableKey& key) const
 {
     std::vector<KeyReader> all = tables(key.name);
     for (const KeyReader& keys : all)
-        keys.allow_only(key.names());
+        keys.check_keys(key);
     return all;
 }
 

@@ -106,6 +106,10 @@ std::string toml_text(const std::vector<double>& values)
 {
     return in_brackets(values, [](double value) { return toml_number(value); });
 }
+std::string toml_text(const std::vector<int>& values)
+{
+    return in_brackets(values, [](int value) { return std::to_string(value); });
+}
 std::string toml_text(const std::vector<std::string>& values)
 {
     return in_brackets(values, [](const std::string& value) { return toml_quoted(value); });
@@ -113,7 +117,8 @@ std::string toml_text(const std::vector<std::string>& values)
 
 TomlKey::TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
     : name(std::move(key)), type(of_type), meaning(std::move(means)), words(std::move(facts.words)),
-      absent(std::move(facts.absent)), used(std::move(facts.used)), example(std::move(facts.example))
+      absent(std::move(facts.absent)), used(std::move(facts.used)), example(std::move(facts.example)),
+      excludes(std::move(facts.excludes)), models(std::move(facts.models))
 {
 }
 
@@ -131,6 +136,20 @@ bool TomlKey::used_where(std::string_view key, std::string_view value) const
         return condition.key != key ||
                std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
     });
+}
+
+bool KeyUse::of(const TomlKey& key) const
+{
+    return std::find(apart.begin(), apart.end(), &key) == apart.end() &&
+           std::all_of(kinds.begin(), kinds.end(),
+                       [&](const auto& kind) { return key.used_where(kind.first, kind.second); });
+}
+
+KeyUse KeyUse::without(std::initializer_list<const TomlKey*> keys) const
+{
+    KeyUse use = *this;
+    use.apart.insert(use.apart.end(), keys.begin(), keys.end());
+    return use;
 }
 
 std::string TomlKey::unit() const
@@ -193,13 +212,8 @@ TextKey::TextKey(std::string key, std::string means, KeyFacts facts)
         type = KeyType::word;
 }
 
-ListKey::ListKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
-    : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
-{
-}
-
 ListKey::ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts)
-    : ListKey(std::move(key), of_type, std::move(means), std::move(facts))
+    : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
 {
     range = allowed;
 }

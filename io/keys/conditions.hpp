@@ -53,4 +53,16 @@ inline Condition of_structures(std::initializer_list<StructureKind> kinds)
     return where("structure.kind", structure_kind_names, kinds);
 }
 
+/// What the kinds of a study let its keys be used for.
+inline KeyUse key_use(const Study& study)
+{
+    KeyUse use{{{"study.kind", word_for(study_kind_names, study.kind)},
+                {"structure.kind", word_for(structure_kind_names, study.structure.kind)},
+                {"contact.form", word_for(contact_form_names, study.contact.form)},
+                {"excitation.kind", word_for(excitation_kind_names, study.excitation.kind)}}};
+    if (study.fragility)
+        use.kinds.emplace("fragility.method", word_for(fragility_method_names, study.fragility->method));
+    return use;
+}
+
 } // namespace stylobate

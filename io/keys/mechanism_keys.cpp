@@ -58,7 +58,7 @@ MechanismKey::MechanismKey(const MechanismRule& rule)
         place.emplace(one, WholeKey::Limits{0, most_places}, "the " + one + " at which it acts, counted from 0",
                       KeyFacts{.absent = usual_words(rule)});
         places.emplace(one + "s", KeyType::wholes, Range{0, static_cast<double>(most_places)},
-                       "several of them, instead", KeyFacts{.absent = usual_words(rule)});
+                       "several of them, instead", KeyFacts{.absent = usual_words(rule), .excludes = {one}});
         keys = {&*place, &*places};
     }
     parameters.reserve(rule.parameters.size());

@@ -66,6 +66,8 @@ std::string use_words(const TomlKey& key)
     std::string text;
     for (const Condition& condition : key.used)
         text += (text.empty() ? "" : ", and ") + condition.key + " = " + listed(condition.values);
+    if (!key.models.empty())
+        text += (text.empty() ? "" : ", and ") + std::string("model = ") + listed(key.models);
     return text;
 }
 

@@ -43,8 +43,8 @@ public:
         std::string about = table.meaning;
         about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
         about += ".";
-        if (!table.used.empty())
-            about += fmt::format(" Used where {}.", use_words(table));
+        if (const std::string use = use_words(table); !use.empty())
+            about += fmt::format(" Used where {}.", use);
         if (!table.needed() && table.type != KeyType::tables)
             about += fmt::format(" If the table is absent: {}.", table.absent);
         paragraph(about);
@@ -59,8 +59,8 @@ public:
         out_ += markdown_head("key | type and range | default | meaning");
         for (const TomlKey* key : table.keys) {
             std::string meaning = key->meaning;
-            if (!key->used.empty())
-                meaning += fmt::format("; used where {}", use_words(*key));
+            if (const std::string use = use_words(*key); !use.empty())
+                meaning += fmt::format("; used where {}", use);
             if (const auto seen = printed_.find(key); seen != printed_.end())
                 meaning += fmt::format(" (keys: see `[{}]`)", seen->second);
             else if (!key->keys.empty())
@@ -112,12 +112,13 @@ public:
 private:
     void quantity(const SpreadKey& key, const std::string& above)
     {
+        const std::string use = use_words(key);
         std::string per;
         for (const std::string& word : key.per.words)
             per += (per.empty() ? "" : ", ") + word;
         out_ += markdown_row("`{}{}` | `{}`{} | {} | {} | {}", above, key.name, key.sd.name,
                              key.relative ? ", `cov`, `sigma_ln`" : "", key.value.text(), per,
-                             key.used.empty() ? key.meaning : key.meaning + "; used where " + use_words(key));
+                             use.empty() ? key.meaning : key.meaning + "; used where " + use);
     }
 
     std::string out_;

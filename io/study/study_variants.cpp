@@ -1,4 +1,4 @@
-#include "io/study/decisions/study_variants.hpp"
+#include "io/study/study_variants.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"

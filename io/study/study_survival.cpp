@@ -1,10 +1,8 @@
-#include "io/study/decisions/study_survival.hpp"
-
 #include "ensemble/estimators/past/mirror_image.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_file.hpp"
 #include "io/keys/survival_keys.hpp"
-#include "io/keys/words.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -116,17 +114,13 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
     if (keys.has(keys_of::rates) != points)
         points ? keys.missing(keys_of::rates.name, "Give the rate of each of intensity_m_s2.")
                : keys.refuse(keys_of::rates.name, "is not used without intensity_m_s2", "Remove it.");
-    if (power) {
-        hazard.k0_per_year = keys.read(keys_of::k0);
-        hazard.k = keys.read(keys_of::k);
-    } else if (points) {
-        hazard.intensity_m_s2 = keys.number_list(keys_of::intensities.name, keys_of::intensities.range);
-        hazard.rate_per_year = keys.number_list(keys_of::rates.name, keys_of::rates.range);
+    keys.read_fields(keys_of::hazard, hazard);
+    if (points)
         check_curve(keys, hazard, keys_of::intensities.name.c_str());
-    } else {
+    if (file) {
         std::filesystem::path path = named;
-        std::error_code error;
-        if (path.is_relative() && std::filesystem::exists(beside / path, error))
+        std::error_code none;
+        if (path.is_relative() && std::filesystem::exists(beside / path, none))
             path = beside / path;
         try {
             const HazardModel curve = read_hazard({path.string()}, "pga_m_s2", site);
@@ -137,16 +131,13 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
             throw what.starts_with("--site ") ? InputError("survival.hazard.site = " + what.substr(7)) : error;
         }
     }
-    hazard.sigma_ln = keys.read(keys_of::sigma_ln);
     return hazard;
 }
 
 /// Structures under one motion, and those that were built alike.
-void read_alike(const KeyReader& keys, const KeyReader& study, std::uint64_t realizations, SurvivalSpec& survival)
+void check_alike(const KeyReader& keys, const KeyReader& study, std::uint64_t realizations,
+                 const SurvivalSpec& survival)
 {
-    survival.per_motion = keys.read(keys_of::per_motion);
-    survival.built = keys.read(keys_of::built);
-    survival.standing = keys.read(keys_of::standing);
     if (realizations % survival.per_motion != 0) {
         const std::uint64_t below = realizations / survival.per_motion * survival.per_motion;
         study.refuse("realizations",
@@ -197,14 +188,8 @@ SurvivalSpec read_survival(const KeyReader& top, const Study& study, const std::
                     "A likelihood over the intensity needs three values at least; eight or more are useful.");
     if (keys.has(keys_of::observed))
         survival.observed = read_observed(keys.table(keys_of::observed), study.structure);
-    survival.prior = keys.read(keys_of::prior);
-    survival.level = keys.read(keys_of::level);
-    survival.events = static_cast<int>(keys.read(keys_of::events));
-    survival.pause_s = keys.maybe(keys_of::pause);
-    survival.monuments = keys.read(keys_of::monuments);
-    survival.structure = keys.read(keys_of::structure);
-    read_alike(keys, top.table("study"), study.realizations, survival);
-    survival.stands_for_years = keys.maybe(keys_of::stands_for);
+    keys.read_fields(keys_of::table, survival);
+    check_alike(keys, top.table("study"), study.realizations, survival);
     if (keys.has(keys_of::hazard))
         survival.hazard = read_rates(keys.table(keys_of::hazard), beside);
     if (survival.stands_for_years && !survival.hazard)

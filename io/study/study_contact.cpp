@@ -1,10 +1,9 @@
-#include "io/study/study_rigid.hpp"
-
 #include "ensemble/model/structure.hpp"
 #include "io/keys/contact_keys.hpp"
 #include "io/keys/mechanism_keys.hpp"
 #include "io/keys/run_keys.hpp"
 #include "io/keys/structure_keys.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -40,6 +39,29 @@ bool is_supported(Mechanism mechanism)
 }
 
 } // namespace
+
+ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, const ChosenContact& chosen)
+{
+    using namespace contact_keys;
+    ContactSpec c;
+    c.form = chosen.form ? *chosen.form : keys.read(form);
+    const char* word = word_for(contact_form_names, c.form);
+    keys.refuse_unused(table, "contact.form", word);
+    const KeyUse use{{{"contact.form", word}}};
+    keys.read_fields(table, c, chosen.stiffness_n_m2 ? use.without({&normal_stiffness}) : use);
+    if (c.form == ContactForm::rigid) {
+        c.normal_damping_ratio = c.tangential_damping_ratio = 0;
+        return c;
+    }
+    c.normal_stiffness_n_m2 = chosen.stiffness_n_m2.value_or(c.normal_stiffness_n_m2);
+    double widest = 0;
+    for (const DrumSpec& drum : structure.columns[0].drums)
+        widest = std::max(widest, drum.width_m);
+    // as stiff along the bed as across it: K_T is the axial stiffness K_N B of the full bed
+    if (!keys.has(tangential_stiffness))
+        c.tangential_stiffness_n_m = c.normal_stiffness_n_m2 * widest;
+    return c;
+}
 
 void refuse_restitution(const KeyReader& top)
 {
