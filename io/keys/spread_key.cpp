@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 namespace stylobate {
@@ -134,42 +133,33 @@ std::vector<std::string> SpreadKey::names_for(DistributionKind kind) const
 const SpreadKey& spread_key(Quantity quantity)
 {
     static const auto all = [] {
-        std::array<std::unique_ptr<SpreadKey>, quantity_count> made;
+        std::vector<std::unique_ptr<SpreadKey>> made;
         for (int i = 0; i < quantity_count; ++i)
-            made[static_cast<std::size_t>(i)] = make(static_cast<Quantity>(i));
+            made.push_back(make(static_cast<Quantity>(i)));
         return made;
     }();
     return *all[static_cast<std::size_t>(quantity)];
 }
 
-const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter)
-{
-    static const auto all = [] {
-        std::vector<std::vector<std::unique_ptr<SpreadKey>>> made;
-        for (const MechanismRule& rule : mechanism_rules()) {
-            made.emplace_back();
-            for (const MechanismParameter& p : rule.parameters)
-                made.back().push_back(make(rule, p));
-        }
-        return made;
-    }();
-    return *all[static_cast<std::size_t>(mechanism)][parameter];
-}
-
 const TableKey& perturbed_parameters(Mechanism mechanism)
 {
+    static std::vector<std::unique_ptr<SpreadKey>> keys;
     static const std::vector<TableKey> tables = [] {
         std::vector<TableKey> made;
         for (const MechanismRule& rule : mechanism_rules()) {
-            std::vector<const TomlKey*> keys;
-            for (std::size_t i = 0; i < rule.parameters.size(); ++i)
-                keys.push_back(&spread_key(rule.mechanism, i));
-            made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::move(keys),
+            made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::vector<const TomlKey*>{},
                               KeyFacts{.absent = "not perturbed"});
+            for (const MechanismParameter& parameter : rule.parameters)
+                made.back().keys.push_back(keys.emplace_back(make(rule, parameter)).get());
         }
         return made;
     }();
     return tables[static_cast<std::size_t>(mechanism)];
+}
+
+const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter)
+{
+    return static_cast<const SpreadKey&>(*perturbed_parameters(mechanism).keys[parameter]);
 }
 
 const TableKey& perturbed_mechanisms()

@@ -1,7 +1,5 @@
-#include "studies/reference/study_schema.hpp"
-
 #include "io/keys/study_tables.hpp"
-#include "studies/reference/key_words.hpp"
+#include "studies/reference/study_reference.hpp"
 #include "studies/report/json.hpp"
 
 #include <fmt/format.h>

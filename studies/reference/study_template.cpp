@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/conditions.hpp"
 #include "io/keys/study_tables.hpp"
-#include "studies/reference/key_words.hpp"
+#include "studies/reference/study_reference.hpp"
 
 #include <fmt/format.h>
 
