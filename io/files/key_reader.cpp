@@ -200,6 +200,16 @@ std::optional<double> KeyReader::maybe_number(std::string_view key, const Range&
     return has(key) ? std::optional<double>(number(key, range)) : std::nullopt;
 }
 
+const TomlValue& KeyReader::need_list(std::string_view key, const std::string& todo) const
+{
+    const TomlValue& value = need(key, todo);
+    if (value.type != TomlValue::Type::array)
+        refuse(key, fmt::format("is {}, not a list", value.type_name()), todo);
+    if (value.entries.empty())
+        refuse(key, "is empty", todo);
+    return value;
+}
+
 std::vector<double> KeyReader::check_list(std::string_view key, const Range& range, const std::string& todo) const
 {
     std::vector<double> numbers;
@@ -217,11 +227,7 @@ std::vector<double> KeyReader::check_list(std::string_view key, const Range& ran
 std::vector<double> KeyReader::number_list(std::string_view key, const Range& range) const
 {
     const auto todo = fmt::format("Give numbers in {}: {} = [NUMBER, ...]. {}", range.text(), key, range.hint);
-    const TomlValue& value = need(key, todo);
-    if (value.type != TomlValue::Type::array || value.entries.empty())
-        refuse(key,
-               value.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", value.type_name()),
-               todo);
+    need_list(key, todo);
     return check_list(key, range, todo);
 }
 
@@ -263,12 +269,9 @@ std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, s
     std::vector<std::uint64_t> all;
     if (!has(key))
         return all;
-    const TomlValue& list = *find(key);
-    if (list.type != TomlValue::Type::array || list.entries.empty())
-        refuse(key,
-               list.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", list.type_name()),
-               fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint));
-    for (const TomlValue& entry : list.entries) {
+    const std::string todo =
+        fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint);
+    for (const TomlValue& entry : need_list(key, todo).entries) {
         const std::optional<std::uint64_t> value = whole_number(entry);
         if (!value || *value < low || *value > high)
             refuse(key, fmt::format("contains {}, which is not a whole number in [{}, {}]", entry.shown(), low, high),

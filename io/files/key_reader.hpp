@@ -157,6 +157,8 @@ private:
     std::string full(std::string_view key) const;
     /// The value of a key that must be there.
     const TomlValue& need(std::string_view key, const std::string& todo) const;
+    /// A list that must be there and have an entry.
+    const TomlValue& need_list(std::string_view key, const std::string& todo) const;
     double check(std::string_view key, const TomlValue& value, const Range& range) const;
     std::vector<double> check_list(std::string_view key, const Range& range, const std::string& todo) const;
 

@@ -173,13 +173,6 @@ NumberKey::NumberKey(std::string key, const Range& allowed, std::string means, K
     range = allowed;
 }
 
-NumberKey::NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts)
-    : NumberKey(std::move(key), allowed, std::move(means), std::move(facts))
-{
-    absent_value = without;
-    set_default(toml_text(without));
-}
-
 WholeKey::WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts)
     : TomlKey(std::move(key), KeyType::whole, std::move(means), std::move(facts)), low(allowed.low), high(allowed.high),
       hint(std::move(allowed.hint))
@@ -187,21 +180,8 @@ WholeKey::WholeKey(std::string key, Limits allowed, std::string means, KeyFacts 
     range = {static_cast<double>(low), static_cast<double>(high)};
 }
 
-WholeKey::WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts)
-    : WholeKey(std::move(key), std::move(allowed), std::move(means), std::move(facts))
-{
-    absent_value = without;
-    set_default(toml_text(without));
-}
-
-BooleanKey::BooleanKey(std::string key, bool without, std::string means, KeyFacts facts)
-    : TomlKey(std::move(key), KeyType::boolean, std::move(means), std::move(facts)), absent_value(without)
-{
-    set_default(toml_text(without));
-}
-
-BooleanKey::BooleanKey(std::string key, const char* means, KeyFacts facts)
-    : TomlKey(std::move(key), KeyType::boolean, means, std::move(facts))
+BooleanKey::BooleanKey(std::string key, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::boolean, std::move(means), std::move(facts))
 {
 }
 
@@ -216,13 +196,6 @@ ListKey::ListKey(std::string key, KeyType of_type, const Range& allowed, std::st
     : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
 {
     range = allowed;
-}
-
-ListKey::ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
-                 KeyFacts facts)
-    : ListKey(std::move(key), KeyType::numbers, allowed, std::move(means), std::move(facts))
-{
-    set_default(toml_text(without));
 }
 
 TableKey::TableKey(std::string key, std::string means, std::vector<const TomlKey*> of_table, KeyFacts facts,

@@ -151,17 +151,29 @@ protected:
     TomlKey& operator=(const TomlKey&) = default;
     TomlKey& operator=(TomlKey&&) = default;
     void set_default(std::string toml);
-    /// Fills `member`, whose initial value is the default unless there is another one.
-    template <class Key, class S, class M>
-    static void bind(Key& key, M S::*member, bool needed)
+    /// @param from the member that the key fills, whose initial value is the default unless there is another one; or a
+    ///             default
+    template <class Key, class From>
+    static void begin(Key& key, const From& from, bool needed)
     {
-        key.field = field_of<Key>(member);
-        if constexpr (!requires(M value) { value.has_value(); })
-            if (!needed && key.absent.empty()) {
-                if constexpr (requires { key.absent_value; })
-                    key.absent_value = static_cast<typename Key::Value>(S{}.*member);
-                key.set_default(key_text(key, S{}.*member).value_or(""));
-            }
+        if constexpr (std::is_member_object_pointer_v<From>)
+            key.field = field_of<Key>(from);
+        if (const auto text = key_text(key, initial(from)); text && !needed)
+            key.set_default(*text);
+        if constexpr (requires { key.absent_value = static_cast<typename Key::Value>(initial(from)); })
+            if (key.absent_is_value || !std::is_member_object_pointer_v<From>)
+                key.absent_value = static_cast<typename Key::Value>(initial(from));
+    }
+
+    template <class S, class M>
+    static M initial(M S::*member)
+    {
+        return S{}.*member;
+    }
+    template <class Value>
+    static const Value& initial(const Value& value)
+    {
+        return value;
     }
 };
 
@@ -201,17 +213,18 @@ std::optional<std::string> key_text(const Key& key, const Value& value)
         return toml_text(value);
 }
 
+// A key is made from its name, the member that it fills or its default (or neither), what is allowed, and its meaning.
+
 struct NumberKey : TomlKey {
     using Value = double;
     std::optional<double> absent_value;
 
     NumberKey(std::string key, const Range& allowed, std::string means, KeyFacts facts = {});
-    NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts = {});
-    template <class S, class M>
-    NumberKey(std::string key, M S::*member, const Range& allowed, std::string means, const KeyFacts& facts = {})
+    template <class From>
+    NumberKey(std::string key, From from, const Range& allowed, std::string means, const KeyFacts& facts = {})
         : NumberKey(std::move(key), allowed, std::move(means), facts)
     {
-        bind(*this, member, facts.needed);
+        begin(*this, from, facts.needed);
     }
 };
 
@@ -226,12 +239,11 @@ struct WholeKey : TomlKey {
         std::string hint = {};
     };
     WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts = {});
-    WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts = {});
-    template <class S, class M>
-    WholeKey(std::string key, M S::*member, Limits allowed, std::string means, const KeyFacts& facts = {})
+    template <class From>
+    WholeKey(std::string key, From from, Limits allowed, std::string means, const KeyFacts& facts = {})
         : WholeKey(std::move(key), std::move(allowed), std::move(means), facts)
     {
-        bind(*this, member, facts.needed);
+        begin(*this, from, facts.needed);
     }
 };
 
@@ -239,14 +251,12 @@ struct BooleanKey : TomlKey {
     using Value = bool;
     std::optional<bool> absent_value;
 
-    BooleanKey(std::string key, bool without, std::string means, KeyFacts facts = {});
-    /// @param facts what applies where it is absent
-    BooleanKey(std::string key, const char* means, KeyFacts facts);
-    template <class S>
-    BooleanKey(std::string key, bool S::*member, std::string means, KeyFacts facts = {})
-        : BooleanKey(std::move(key), S{}.*member, std::move(means), std::move(facts))
+    BooleanKey(std::string key, std::string means, KeyFacts facts);
+    template <class From>
+    BooleanKey(std::string key, From from, std::string means, const KeyFacts& facts = {})
+        : BooleanKey(std::move(key), std::move(means), facts)
     {
-        bind(*this, member, false);
+        begin(*this, from, false);
     }
 };
 
@@ -256,6 +266,13 @@ struct WordKey : TomlKey {
     std::vector<Name<Enum>> names;
     std::optional<Enum> absent_value;
 
+    template <class From, class List>
+    requires std::is_same_v<From, Enum> || std::is_member_object_pointer_v<From>
+    WordKey(std::string key, From from, const List& allowed, std::string means, const KeyFacts& facts = {})
+        : WordKey(std::move(key), allowed, std::move(means), facts)
+    {
+        begin(*this, from, facts.needed);
+    }
     template <class List>
     WordKey(std::string key, const List& allowed, std::string means, KeyFacts facts = {})
         : TomlKey(std::move(key), KeyType::word, std::move(means), std::move(facts)),
@@ -263,19 +280,6 @@ struct WordKey : TomlKey {
     {
         for (const Name<Enum>& each : names)
             words.emplace_back(each.word);
-    }
-    template <class List>
-    WordKey(std::string key, const List& allowed, Enum without, std::string means, KeyFacts facts = {})
-        : WordKey(std::move(key), allowed, std::move(means), std::move(facts))
-    {
-        absent_value = without;
-        set_default(toml_quoted(word_for(names, without)));
-    }
-    template <class S, class List>
-    WordKey(std::string key, Enum S::*member, const List& allowed, std::string means, const KeyFacts& facts = {})
-        : WordKey(std::move(key), allowed, std::move(means), facts)
-    {
-        bind(*this, member, facts.needed);
     }
 };
 
@@ -286,26 +290,24 @@ struct TextKey : TomlKey {
     TextKey(std::string key, std::string S::*member, std::string means, KeyFacts facts = {})
         : TextKey(std::move(key), std::move(means), std::move(facts))
     {
-        bind(*this, member, true);
+        begin(*this, member, true);
     }
 };
 
 /// A list of numbers, an interval or a list of strings.
 struct ListKey : TomlKey {
     ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts = {});
-    ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
-            KeyFacts facts = {});
-    template <class S, class Entry>
-    ListKey(std::string key, std::vector<Entry> S::*member, const Range& allowed, std::string means,
-            KeyFacts facts = {})
-        : ListKey(std::move(key),
-                  std::is_same_v<Entry, double>        ? KeyType::numbers
-                  : std::is_same_v<Entry, std::string> ? KeyType::texts
-                                                       : KeyType::wholes,
-                  allowed, std::move(means), std::move(facts))
+    template <class From>
+    ListKey(std::string key, const From& from, const Range& allowed, std::string means, KeyFacts facts = {})
+        : ListKey(std::move(key), type_of(initial(from)), allowed, std::move(means), std::move(facts))
     {
-        bind(*this, member, false);
+        begin(*this, from, false);
     }
+
+private:
+    static KeyType type_of(const std::vector<double>&) { return KeyType::numbers; }
+    static KeyType type_of(const std::vector<int>&) { return KeyType::wholes; }
+    static KeyType type_of(const std::vector<std::string>&) { return KeyType::texts; }
 };
 
 /// A table, or a list of tables, with its keys.

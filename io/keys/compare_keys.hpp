@@ -31,11 +31,11 @@ inline const TextKey hazard("hazard",
                             "study file, or a power law such as \"k0=1e-4,k=2.5,measure=pga_g\", as `stylobate risk` "
                             "takes it; the annual frequency of the limit state is then to be smallest",
                             {.absent = "the probability is to be smallest"});
-inline const WholeKey budget("budget", {1, most_realizations, "Realizations of the whole search."}, 20000,
+inline const WholeKey budget("budget", 20000, {1, most_realizations, "Realizations of the whole search."},
                              "realizations of the whole search; each point runs those of the study");
 inline const NumberKey from("from", any_number, "smallest value");
 inline const NumberKey to("to", any_number, "largest value");
-inline const WordKey<Spacing> spacing("spacing", spacing_names, Spacing::linear,
+inline const WordKey<Spacing> spacing("spacing", Spacing::linear, spacing_names,
                                       "equal steps are equal differences, or equal ratios");
 inline const TableKey any("KEY", "a number of the study to choose, in quotes where it has dots; one to three of them",
                           {&from, &to, &spacing}, {.absent = "nothing to choose"}, KeyType::named);

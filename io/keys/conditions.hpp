@@ -8,12 +8,14 @@
 
 namespace stylobate {
 
+/// Where the key has one of these words.
 template <class List, class Enum>
-Condition where(const char* key, const List& names, std::initializer_list<Enum> values)
+Condition where(const char* key, const List& names, std::initializer_list<Enum> values, bool wanted = true)
 {
     Condition condition{key, {}};
-    for (const Enum value : values)
-        condition.values.emplace_back(word_for(names, value));
+    for (const auto& name : names)
+        if ((std::find(values.begin(), values.end(), name.value) != values.end()) == wanted)
+            condition.values.emplace_back(name.word);
     return condition;
 }
 
@@ -21,36 +23,28 @@ inline Condition in_studies(std::initializer_list<StudyKind> kinds)
 {
     return where("study.kind", study_kind_names, kinds);
 }
-
-/// All kinds but these.
 inline Condition not_in_studies(std::initializer_list<StudyKind> kinds)
 {
-    Condition condition{"study.kind", {}};
-    for (const Name<StudyKind>& name : study_kind_names)
-        if (std::find(kinds.begin(), kinds.end(), name.value) == kinds.end())
-            condition.values.emplace_back(name.word);
-    return condition;
-}
-
-inline Condition with_forms(std::initializer_list<ContactForm> forms)
-{
-    return where("contact.form", contact_form_names, forms);
-}
-
-/// Forms whose contacts yield: what has springs, dashpots and a step that must resolve their vibration.
-inline Condition compliant()
-{
-    return with_forms({ContactForm::area, ContactForm::two_corner, ContactForm::points});
+    return where("study.kind", study_kind_names, kinds, false);
 }
 
 inline Condition for_motions(std::initializer_list<ExcitationKind> kinds)
 {
     return where("excitation.kind", excitation_kind_names, kinds);
 }
-
-inline Condition of_structures(std::initializer_list<StructureKind> kinds)
+inline Condition not_for_motions(std::initializer_list<ExcitationKind> kinds)
 {
-    return where("structure.kind", structure_kind_names, kinds);
+    return where("excitation.kind", excitation_kind_names, kinds, false);
+}
+
+inline Condition with_rigid_contacts()
+{
+    return where("contact.form", contact_form_names, {ContactForm::rigid});
+}
+/// Forms whose contacts yield: what has springs, dashpots and a step that must resolve their vibration.
+inline Condition compliant()
+{
+    return where("contact.form", contact_form_names, {ContactForm::rigid}, false);
 }
 
 /// What the kinds of a study let its keys be used for.

@@ -50,12 +50,12 @@ inline const NumberKey friction("friction", &ContactSpec::friction, friction_ran
 
 inline const NumberKey restitution("restitution", &ContactSpec::restitution, restitution_range,
                                    "what an impact gives back: a part of the velocity or of the impulse",
-                                   {.used = {with_forms({ContactForm::rigid})}});
+                                   {.used = {with_rigid_contacts()}});
 inline const WordKey<RestitutionLaw> restitution_law(
     "restitution_law", &ContactSpec::restitution_law, restitution_law_names,
     "whether an end that meets its face parts again with the part of its closing velocity (Newton), or every end "
     "gives back the part of the impulse with which the impact compresses it (Poisson)",
-    {.used = {with_forms({ContactForm::rigid})}});
+    {.used = {with_rigid_contacts()}});
 
 inline const TableKey table("contact", "the joints between blocks",
                             {&normal_stiffness, &tangential_stiffness, &normal_damping_ratio, &normal_damping,

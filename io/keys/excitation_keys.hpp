@@ -10,14 +10,10 @@ namespace stylobate::excitation_keys {
 using Motion = ExcitationKind;
 
 inline const Condition with_frequency =
-    for_motions({Motion::harmonic, Motion::half_sine, Motion::full_sine, Motion::ricker, Motion::pulse, Motion::tapered,
-                 Motion::noise}); // of one value
-inline const Condition synthetic = for_motions({Motion::harmonic, Motion::half_sine, Motion::full_sine, Motion::ricker,
-                                                Motion::pulse, Motion::tapered, Motion::sweep, Motion::noise});
+    not_for_motions({Motion::none, Motion::sweep, Motion::record, Motion::table}); // of one value
+inline const Condition synthetic = not_for_motions({Motion::none, Motion::record, Motion::table});
 inline const Condition sampled = for_motions({Motion::record, Motion::table});
-inline const Condition moving =
-    for_motions({Motion::harmonic, Motion::half_sine, Motion::full_sine, Motion::ricker, Motion::pulse, Motion::tapered,
-                 Motion::sweep, Motion::noise, Motion::record, Motion::table});
+inline const Condition moving = not_for_motions({Motion::none});
 inline const Condition no_axes = not_in_studies({StudyKind::surface, StudyKind::survival});
 inline const Condition one_motion = not_in_studies({StudyKind::surface, StudyKind::fragility, StudyKind::survival});
 inline const Condition no_list = not_in_studies({StudyKind::fragility});

@@ -51,18 +51,18 @@ inline const Range move_range{0, 10, false, "Lengths are in metres; at most a qu
 /// From far below any difference that a hand or a survey could find, up to one that both can.
 inline const std::vector<double> usual_moves_m = {1e-12, 1e-9, 1e-6, 1e-3};
 
-inline const ListKey moves("moves_m", move_range, usual_moves_m,
+inline const ListKey moves("moves_m", usual_moves_m, move_range,
                            "displacements of one drum to the right, ascending, a replica for each; at most a quarter "
                            "of the drum's width, and of the default those that are");
 inline const WholeKey block("block", &TwinsSpec::block,
                             {0, 199, "A free drum, counted from 0, column by column from the bottom."},
                             "the drum that is displaced, counted from 0, column by column from the bottom",
                             {.absent = "the uppermost drum of the first column"});
-inline const NumberKey step_ratio("step_ratio",
+inline const NumberKey step_ratio("step_ratio", 0.8,
                                   {0.01, 1, false,
                                    "A fraction of the realization's own step; 1: no replicas with another step.",
                                    from_percent},
-                                  0.8, "a replica with this fraction of the realization's own step; 1: none");
+                                  "a replica with this fraction of the realization's own step; 1: none");
 inline const BooleanKey precision("precision", "a replica in single precision",
                                   {.absent = "true where single precision supports the model, else false"});
 inline const BooleanKey forms("forms", true, "replicas with the other contact forms");

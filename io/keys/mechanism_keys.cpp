@@ -66,7 +66,7 @@ MechanismKey::MechanismKey(const MechanismRule& rule)
         if (p.role == ParameterRole::needed)
             parameters.emplace_back(p.key(), range_of(p), p.says, facts_of(rule, p));
         else
-            parameters.emplace_back(p.key(), range_of(p), p.neutral, p.says, facts_of(rule, p));
+            parameters.emplace_back(p.key(), p.neutral, range_of(p), p.says, facts_of(rule, p));
     for (const NumberKey& parameter : parameters)
         keys.push_back(&parameter);
     if (rule.mechanism == Mechanism::vertical_motion)

@@ -101,7 +101,7 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
          {.absent = quality.turns ? "2 pi" : "needed for a uniform distribution"}),
       min("min", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
       max("max", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
-      per("per", quality.allowed, quality.allowed.front().value, "whether each has its own value, or all the same")
+      per("per", quality.allowed.front().value, quality.allowed, "whether each has its own value, or all the same")
 {
     keys = {&distribution, &sd};
     if (relative)

@@ -43,7 +43,7 @@ inline const NumberKey bed_normal_damping(
 inline const NumberKey bed_tangential_damping("tangential_damping_ratio", &BedSpec::tangential_damping_ratio,
                                               damping_ratio_range, "tangential dashpot of that bed",
                                               {.absent = "contact.tangential_damping_ratio"});
-inline const WholeKey count("count", {1, most_blocks, "Equal drums, one on the other."}, 1, "number of equal drums");
+inline const WholeKey count("count", 1, {1, most_blocks, "Equal drums, one on the other."}, "number of equal drums");
 
 // of a column, and of all columns
 
@@ -83,10 +83,12 @@ inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gra
 
 // of a colonnade
 
-inline const KeyFacts of_colonnade{.used = {of_structures({StructureKind::colonnade})}};
+inline const KeyFacts of_colonnade{.used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})}};
 inline KeyFacts colonnade_facts(const char* absent, const char* example = "")
 {
-    return {.absent = absent, .used = {of_structures({StructureKind::colonnade})}, .example = example};
+    return {.absent = absent,
+            .used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})},
+            .example = example};
 }
 
 inline const WholeKey columns("columns", {2, most_columns, "Or give column_list = [ { x_m = ... }, ... ]."},
@@ -121,7 +123,7 @@ inline const TableKey epistyles("epistyles", "the epistyles one by one from the 
                                  &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
                                  &bed_restitution, &bed_normal_damping, &bed_tangential_damping},
                                 colonnade_facts("equal pieces over all columns"), KeyType::tables);
-inline const WholeKey epistyle_bays("epistyle_bays", {1, most_columns - 1, "Bays that one piece spans, or \"all\"."}, 1,
+inline const WholeKey epistyle_bays("epistyle_bays", 1, {1, most_columns - 1, "Bays that one piece spans, or \"all\"."},
                                     "number of bays that each piece spans",
                                     {.used = of_colonnade.used, .words = {"all"}});
 inline const NumberKey
