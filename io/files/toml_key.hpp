@@ -253,6 +253,7 @@ struct BooleanKey : TomlKey {
 
     BooleanKey(std::string key, std::string means, KeyFacts facts);
     template <class From>
+    requires std::is_same_v<From, bool> || std::is_member_object_pointer_v<From>
     BooleanKey(std::string key, From from, std::string means, const KeyFacts& facts = {})
         : BooleanKey(std::move(key), std::move(means), facts)
     {

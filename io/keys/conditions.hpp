@@ -10,11 +10,20 @@ namespace stylobate {
 
 /// Where the key has one of these words.
 template <class List, class Enum>
-Condition where(const char* key, const List& names, std::initializer_list<Enum> values, bool wanted = true)
+Condition where(const char* key, const List& names, std::initializer_list<Enum> values)
+{
+    Condition condition{key, {}};
+    for (const Enum value : values)
+        condition.values.emplace_back(word_for(names, value));
+    return condition;
+}
+/// Where it has another one.
+template <class List, class Enum>
+Condition where_not(const char* key, const List& names, std::initializer_list<Enum> values)
 {
     Condition condition{key, {}};
     for (const auto& name : names)
-        if ((std::find(values.begin(), values.end(), name.value) != values.end()) == wanted)
+        if (std::find(values.begin(), values.end(), name.value) == values.end())
             condition.values.emplace_back(name.word);
     return condition;
 }
@@ -25,7 +34,7 @@ inline Condition in_studies(std::initializer_list<StudyKind> kinds)
 }
 inline Condition not_in_studies(std::initializer_list<StudyKind> kinds)
 {
-    return where("study.kind", study_kind_names, kinds, false);
+    return where_not("study.kind", study_kind_names, kinds);
 }
 
 inline Condition for_motions(std::initializer_list<ExcitationKind> kinds)
@@ -34,7 +43,7 @@ inline Condition for_motions(std::initializer_list<ExcitationKind> kinds)
 }
 inline Condition not_for_motions(std::initializer_list<ExcitationKind> kinds)
 {
-    return where("excitation.kind", excitation_kind_names, kinds, false);
+    return where_not("excitation.kind", excitation_kind_names, kinds);
 }
 
 inline Condition with_rigid_contacts()
@@ -44,7 +53,7 @@ inline Condition with_rigid_contacts()
 /// Forms whose contacts yield: what has springs, dashpots and a step that must resolve their vibration.
 inline Condition compliant()
 {
-    return where("contact.form", contact_form_names, {ContactForm::rigid}, false);
+    return where_not("contact.form", contact_form_names, {ContactForm::rigid});
 }
 
 /// What the kinds of a study let its keys be used for.
