@@ -54,7 +54,7 @@ struct Name {
 
 /// Words for the enumerators of an enumeration, in their order.
 template <class Enum, class... Words>
-constexpr auto words_of(Words... words)
+constexpr auto word_list(Words... words)
 {
     int next = 0;
     return std::array{Name<Enum>{words, static_cast<Enum>(next++)}...};
