@@ -7,7 +7,7 @@
 #include "ensemble/device/slots.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/run/executor.hpp"
-#include "ensemble/statics/rigid_step.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 /// Measured motion followed in lockstep against one at a time: the same jobs, code and results, by lanes in a register.
 
 #include "bench/scenes.hpp"
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 /// Sixty-four parameter sets of the specimen along what one of them did under an earthquake of two seconds, with nine
 /// free windows each.
-std::vector<FollowJob> jobs()
+std::vector<TrackingJob> jobs()
 {
     Study study = rocking_column(5);
     study.contact.normal_stiffness_n_m2 = 1e7;
@@ -26,14 +26,14 @@ std::vector<FollowJob> jobs()
     study.excitation.decay_s = 0.2;
     study.perturbations.clear();
     const Sampler sampler(study, nullptr);
-    FollowJob job;
+    TrackingJob job;
     job.realization = sampler.realization(0);
     auto times = std::make_shared<std::vector<double>>();
     for (int i = 0; i <= 1000; ++i)
         times->push_back(0.002 * i);
     job.watched_s = times;
     Observer observer;
-    const Readings seen = follow({job}, {best_isa(), 1}, observer).results.front().watched;
+    const Readings seen = track({job}, {best_isa(), 1}, observer).results.front().watched;
     auto targets = std::make_shared<Targets>();
     targets->spacing_s = 0.002;
     targets->blocks = job.realization.blocks.size();
@@ -53,7 +53,7 @@ std::vector<FollowJob> jobs()
     job.targets = targets;
     job.windows = windows;
     job.nudge_rad_s = 60;
-    std::vector<FollowJob> all(64, job);
+    std::vector<TrackingJob> all(64, job);
     for (std::size_t i = 0; i < all.size(); ++i)
         for (Joint& joint : all[i].realization.joints)
             joint.friction *= 0.7 + 0.01 * static_cast<double>(i);
@@ -62,12 +62,12 @@ std::vector<FollowJob> jobs()
 
 void following(benchmark::State& state, Isa isa)
 {
-    const std::vector<FollowJob> all = jobs();
+    const std::vector<TrackingJob> all = jobs();
     Observer observer;
-    FollowReport report;
+    TrackingReport report;
     double seconds = 0, block_steps = 0;
     for (auto _ : state) {
-        report = follow(all, {isa, 1}, observer);
+        report = track(all, {isa, 1}, observer);
         seconds += report.seconds;
         block_steps += static_cast<double>(report.block_steps);
     }
@@ -78,12 +78,12 @@ void following(benchmark::State& state, Isa isa)
 /// The ratio in one run: both take turns, so that what else the machine does hits them alike.
 void following_ratio(benchmark::State& state)
 {
-    const std::vector<FollowJob> all = jobs();
+    const std::vector<TrackingJob> all = jobs();
     Observer observer;
     double alone = 0, lockstep = 0;
     for (auto _ : state) {
-        lockstep += follow(all, {best_isa(), 1}, observer).seconds;
-        alone += follow(all, {Isa::scalar, 1}, observer).seconds;
+        lockstep += track(all, {best_isa(), 1}, observer).seconds;
+        alone += track(all, {Isa::scalar, 1}, observer).seconds;
     }
     state.counters["speedup"] = alone / lockstep;
     state.counters["lanes"] = kernels(best_isa()).lanes;

@@ -5,9 +5,9 @@
 /// Outcomes are drawn from curves that are known (`tests/ensemble/estimators/fragility_truth.hpp`); no mechanics.
 /// `scripts/coverage.sh` writes the tables into docs/fragility_statistics.md.
 
+#include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility/lack_of_fit.hpp"
-#include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "io/tables/markdown.hpp"

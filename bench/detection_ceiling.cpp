@@ -11,10 +11,9 @@
 
 #include "bench/separation.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "studies/diagnosis/statistics/balance_scores.hpp"
-#include "studies/diagnosis/statistics/campaign_statistics.hpp"
-#include "studies/diagnosis/statistics/summaries.hpp"
-#include "studies/diagnosis/tests/direct_tests.hpp"
+#include "studies/measured/diagnosis/direct/direct_tests.hpp"
+#include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
+#include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
 #include "tests/hidden/score/detectability.hpp"
 #include "tests/hidden/virtual_campaign.hpp"
 
@@ -35,7 +34,7 @@ constexpr std::array elsewhere = {"table_pitch", "vertical_motion", "harmonic_di
 /// The numbers that the diagnosis takes from a campaign whose base motion is right.
 Eigen::RowVectorXd numbers_of(const Campaign& campaign)
 {
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     const DirectResult base = apply_corrections(campaign, scales, {});
     const Summary joints = over_motions(statistic_labels(campaign));
     std::vector<double> row = means(joints, statistics_of(campaign, scales, base.base_m).values);

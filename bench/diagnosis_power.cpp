@@ -6,9 +6,9 @@
 
 #include "io/measured/measured_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/prediction.hpp"
-#include "studies/diagnosis/ensemble_fit/ensemble_diagnosis.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
+#include "studies/measured/diagnosis/prediction.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ int main(int argc, char** argv)
     Observer observer;
     for (const std::string& file : files) {
         const Campaign measured = read_campaign(file);
-        const TrackScales scales = track_scales(measured);
+        const CampaignScales scales = campaign_scales(measured);
         const DirectResult direct = direct_tests(measured, scales);
         EnsemblePlan plan = EnsemblePlan::with(nulls);
         plan.seed = seed;

@@ -1,4 +1,4 @@
-/// What the statistics of a campaign (`studies/diagnosis/statistics`) show of healthy contact laws: how many are
+/// What the statistics of a campaign (`studies/measured/diagnosis/evidence`) show of healthy contact laws: how many are
 /// there, how they scatter within one law and between laws, how well the descriptors predict them, and what both cost.
 /// Campaigns with nothing hidden, of the specimen and the motions of a measured one.
 ///
@@ -9,11 +9,11 @@
 #include "io/measured/measured_file.hpp"
 #include "io/tables/markdown.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/ensemble_fit/virtual_campaign.hpp"
-#include "studies/diagnosis/statistics/campaign_statistics.hpp"
-#include "studies/diagnosis/tests/direct_tests.hpp"
-#include "studies/windows/window_comparison.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"
+#include "studies/measured/diagnosis/direct/direct_tests.hpp"
+#include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
+#include "studies/measured/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>
@@ -38,6 +38,14 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+std::vector<HealthyLaw> draw_laws(const LawFamily& family, std::uint64_t seed, std::uint64_t first, std::uint64_t count)
+{
+    std::vector<HealthyLaw> laws;
+    for (std::uint64_t n = 0; n < count; ++n)
+        laws.push_back(draw_law(family, seed, first + n));
+    return laws;
+}
+
 /// Campaigns with the laws given, and their statistics.
 Rows rows_of(const Campaign& measured, const Study& study, std::uint64_t seed, std::uint64_t first,
              const std::vector<HealthyLaw>& laws, const RunOptions& run)
@@ -45,7 +53,7 @@ Rows rows_of(const Campaign& measured, const Study& study, std::uint64_t seed, s
     constexpr std::size_t together = 8;
     Rows rows;
     Observer observer;
-    const TrackScales scales = track_scales(measured);
+    const CampaignScales scales = campaign_scales(measured);
     const VirtualLaboratory laboratory(measured);
     for (std::size_t k = 0; k < laws.size(); k += together) {
         HealthyScatter scatter;
@@ -308,10 +316,10 @@ int main(int argc, char** argv)
     print_steps(campaign, study, draw_laws(family, seed, 0, nulls));
     for (std::size_t k = 0; k < laws.of.size(); ++k)
         if (std::none_of(laws.of[k].values.begin(), laws.of[k].values.end(), [](double v) { return std::isfinite(v); }))
-            fmt::print("Nothing is finite in campaign {}: {}.\n", k, draw_law(family, seed, k).words());
+            fmt::print("Nothing is finite in campaign {}.\n", k);
     print_statistics(labels, laws, repeated, per_law);
     print_contrasts(labels, static_cast<int>(campaign.specimen.joints.size()), laws, repeated, per_law);
-    const TrackScales scales = track_scales(campaign);
+    const CampaignScales scales = campaign_scales(campaign);
     print_descriptors(descriptor_labels(campaign), laws, repeated, per_law,
                       statistics_of(campaign, scales, direct_tests(campaign, scales).base_m));
     return 0;

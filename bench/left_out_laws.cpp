@@ -7,9 +7,9 @@
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/decision.hpp"
-#include "studies/windows/window_comparison.hpp"
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/diagnosis/decision.hpp"
+#include "studies/measured/windows/window_comparison.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,14 +30,16 @@ std::vector<Part> parts_of(const LawFamily& family)
 {
     std::vector<Part> parts = {{"none", family, family}};
     for (const ContactForm form : family.forms) {
-        LawFamily truth = family;
-        truth.forms = {form};
-        parts.push_back({word_for(contact_form_names, form), truth, family.without(form)});
+        Part part{word_for(contact_form_names, form), family, family};
+        part.truth.forms = {form};
+        std::erase(part.without.forms, form);
+        parts.push_back(part);
     }
     for (const DampingKind kind : family.kinds) {
-        LawFamily truth = family;
-        truth.kinds = {kind};
-        parts.push_back({fmt::format("{} damping", to_string(kind)), truth, family.without(kind)});
+        Part part{fmt::format("{} damping", to_string(kind)), family, family};
+        part.truth.kinds = {kind};
+        std::erase(part.without.kinds, kind);
+        parts.push_back(part);
     }
     return parts;
 }
@@ -48,7 +50,7 @@ Campaign healthy_campaign(const Campaign& like, const Study& study, const LawFam
 {
     Observer observer;
     HealthyScatter scatter;
-    scatter.laws = draw_laws(family, seed, number, 1);
+    scatter.laws = {draw_law(family, seed, number)};
     VirtualCampaigns made =
         virtual_campaigns(VirtualLaboratory(like), study, seed, number, 1, scatter, {}, run, observer);
     base_m = std::move(made.base_m);
@@ -85,7 +87,7 @@ int main(int argc, char** argv)
         for (std::uint64_t i = 0; i < campaigns; ++i) {
             std::vector<std::vector<double>> base_m;
             const Campaign campaign = healthy_campaign(like, study, part.truth, 1000 + seed, number++, run, base_m);
-            const TrackScales scales = track_scales(campaign);
+            const CampaignScales scales = campaign_scales(campaign);
             EnsemblePlan plan;
             plan.family = part.without;
             const EnsembleDiagnosis found = ensemble_diagnosis(

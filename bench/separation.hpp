@@ -4,7 +4,7 @@
 /// shrunk correlation, each campaign judged by a fit that has not seen it.
 
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "studies/diagnosis/likelihood/law_adjustment.hpp"
+#include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
 
 #include <Eigen/Dense>
 

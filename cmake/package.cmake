@@ -48,7 +48,7 @@ stylobate_package(development libstylobate-dev libdevel
 "C++ library of ensembles of multi-drum columns
 The library behind the program stylobate, for other C++20 programs: a static
 library, twelve headers that need the standard's only, a CMake package
-(find_package(stylobate)), and three programs as examples.")
+(find_package(stylobate)), and five programs as examples.")
 # What the static library is linked with (cmake/stylobateConfig.cmake.in).
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libtbb-dev, libhdf5-dev, libeigen3-dev, libfmt-dev, zlib1g-dev, libpugixml-dev")

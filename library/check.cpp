@@ -2,9 +2,8 @@
 
 #include "io/keys/words.hpp"
 #include "library/inside.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/output_path.hpp"
-#include "studies/check/check_study.hpp"
+#include "studies/workflow/check.hpp"
+#include "studies/workflow/output_path.hpp"
 
 namespace stylobate::api {
 
@@ -14,21 +13,6 @@ Range range_of(const inner::Between& between)
 {
     return {between.low, between.high};
 }
-
-/// Tells how far the pilot is.
-class CheckTeller : public Asked {
-public:
-    explicit CheckTeller(const CheckOptions& options) : Asked(options.go_on), tell_(options.tell) {}
-
-    void progress(const inner::Progress& p) override
-    {
-        if (tell_)
-            tell_(inner::progress_line(p));
-    }
-
-private:
-    const std::function<void(const std::string&)>& tell_;
-};
 
 } // namespace
 
@@ -159,16 +143,11 @@ std::optional<Check> check(const Experiment& experiment, const CheckOptions& opt
 {
     return translated([&]() -> std::optional<Check> {
         const auto& given = Inside::of(experiment);
-        inner::StudyCheck check(given.loaded, given.name,
-                                {.pilot = options.pilot,
-                                 .trial_seconds = options.trial_seconds,
-                                 .law_seconds = options.law_seconds,
-                                 .stage = options.tell},
-                                run_options(options.threads, options.simd));
-        CheckTeller teller(options);
-        std::optional<inner::CheckReport> report;
-        if (check.draw_realizations(teller))
-            report = check.run(teller);
+        Teller teller(options);
+        std::optional<inner::CheckReport> report = inner::check_study(
+            given.loaded, given.name,
+            {.pilot = options.pilot, .trial_seconds = options.trial_seconds, .law_seconds = options.law_seconds},
+            machine_of(options), teller);
         if (!report)
             return {};
         return Inside::make<Check>({std::move(*report)});

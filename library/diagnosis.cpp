@@ -1,16 +1,10 @@
 #include "stylobate/diagnosis.hpp"
 
-#include "io/measured/measured_file.hpp"
-#include "io/study/study_file.hpp"
 #include "library/inside.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/calibration/calibration.hpp"
-#include "studies/diagnosis/decision/pipeline.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_json.hpp"
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
-#include "studies/diagnosis/findings/fingerprint.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/workflow/diagnose.hpp"
 
 namespace stylobate::api {
 
@@ -73,26 +67,17 @@ void Diagnosis::write(const std::filesystem::path& file) const
 
 std::optional<Diagnosis> diagnose(const std::filesystem::path& measured, const DiagnosisOptions& options)
 {
-    Asked observer(options.go_on);
     return translated([&]() -> std::optional<Diagnosis> {
-        inner::check_kind(measured.string(), "diagnose");
-        const inner::Campaign campaign = inner::read_campaign(measured);
-        inner::track_scales(campaign); // refuses what cannot be diagnosed, before any work
-        const inner::Study study = options.study ? Inside::of(*options.study).study : inner::default_study(campaign);
-        inner::demand_double(study, "study", "a diagnosis");
-        inner::DiagnosisOptions how;
-        how.seed = options.seed;
-        how.plan = inner::EnsemblePlan::with(options.nulls);
-        how.cache = options.cache;
-        how.run = run_options(options.threads, options.simd);
-        const auto tell = [&](const std::string& line) {
-            if (options.tell)
-                options.tell(line);
-        };
-        std::optional<inner::Diagnosis> found = inner::diagnose(campaign, study, how, tell, observer);
+        inner::DiagnosisRequest request{.measured = measured.string()};
+        if (options.study)
+            request.start = Inside::of(*options.study).study;
+        request.nulls = options.nulls;
+        request.seed = options.seed;
+        request.cache = options.cache;
+        Teller teller(options);
+        std::optional<inner::Diagnosis> found = inner::diagnose_measured(request, machine_of(options), teller);
         if (!found)
             return {};
-        found->measured_fingerprint = inner::fingerprint(measured);
         return Inside::make<Diagnosis>({std::move(*found)});
     });
 }

@@ -6,10 +6,10 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/records/record.hpp"
-#include "studies/calibration/calibration.hpp"
 #include "studies/check/check_report.hpp"
-#include "studies/diagnosis/findings/diagnosis.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
+#include "studies/workflow/calibrate.hpp"
 #include "stylobate/stylobate.hpp"
 
 #include <filesystem>
@@ -48,10 +48,11 @@ struct Diagnosis::Data {
 };
 
 struct Calibration::Data {
-    inner::Calibration calibration;
-    inner::Study start;
+    inner::CalibrationEnd end;
     std::filesystem::path measured;
     std::vector<CalibratedForm> forms;
+
+    const inner::Calibration& calibration() const { return end.found; }
 };
 
 struct Check::Data {
@@ -73,10 +74,27 @@ struct Inside {
     static Result run(const Experiment& experiment, const RunOptions& options);
 };
 
-/// Polls `go_on` of the caller during long work; a stop is permanent.
-class Asked : public inner::Observer {
+/// Tells the caller of long work each line through `tell`, and polls `go_on`; a stop is permanent.
+class Teller : public inner::WorkObserver {
 public:
-    explicit Asked(const std::function<bool()>& go_on) : go_on_(go_on) {}
+    /// @param options with `tell` and `go_on`
+    template <class Options>
+    explicit Teller(const Options& options) : tell_(options.tell), go_on_(options.go_on)
+    {
+    }
+
+    void note(const std::string& line) override
+    {
+        if (tell_)
+            tell_(line);
+    }
+    void stage(const std::string& line) override { note(line); }
+    void progress(const inner::Progress& p) override { note(inner::progress_line(p)); }
+    void counted(const std::string& line, const inner::Progress& p) override
+    {
+        if (std::exchange(done_, p.done) != p.done)
+            note(line);
+    }
     bool stop_requested() override
     {
         stopped_ = stopped_ || (go_on_ && !go_on_());
@@ -84,13 +102,18 @@ public:
     }
 
 private:
+    const std::function<void(const std::string&)>& tell_;
     const std::function<bool()>& go_on_;
+    std::optional<std::uint64_t> done_;
     bool stopped_ = false;
 };
 
-/// Where and how to run. @param threads, simd as in `RunOptions`
-/// @throws inner::InputError if this machine lacks the instruction set
-inner::RunOptions run_options(int threads, const std::string& simd);
+/// Where to compute. @param options with `threads` and `simd`
+template <class Options>
+inner::Machine machine_of(const Options& options)
+{
+    return {.threads = options.threads, .simd = options.simd};
+}
 
 /// Calls f; the engine's error comes out as the library's.
 template <class F>

@@ -3,8 +3,8 @@
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
-#include "studies/app/run_report.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
+#include "studies/workflow/run_report.hpp"
 
 #include <fmt/format.h>
 
@@ -91,8 +91,9 @@ std::uint64_t Result::invalid() const
 
 std::string Result::too_many_invalid() const
 {
-    return data_->complete ? inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name)
-                           : std::string();
+    if (!data_->complete)
+        return {};
+    return inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name).value_or("");
 }
 
 std::vector<std::string> Result::warnings() const

@@ -2,11 +2,7 @@
 
 #include "library/inside.hpp"
 #include "library/results.hpp"
-#include "studies/app/command.hpp"
-#include "studies/kinds/single/single_kind.hpp"
-#include "studies/results/kinds.hpp"
-#include "studies/results/run_store.hpp"
-#include "studies/results/run_study.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -16,9 +12,9 @@ namespace stylobate::api {
 namespace {
 
 /// Tells the caller of a run, who may stop it.
-class Teller : public inner::Observer {
+class RunTeller : public inner::Observer {
 public:
-    explicit Teller(const std::function<bool(const Progress&)>& tell) : tell_(tell) {}
+    explicit RunTeller(const std::function<bool(const Progress&)>& tell) : tell_(tell) {}
 
     void progress(const inner::Progress& p) override
     {
@@ -34,44 +30,38 @@ private:
     bool stopped_ = false;
 };
 
+/// The rows of a run in memory.
+struct KeptRows {
+    std::unordered_map<std::uint64_t, inner::State> states;
+    std::vector<inner::ResultRow> rows;
+};
+
 /// Keeps the rows in memory, or gives them away where the study keeps none.
 class MemoryStore : public inner::RunStore {
 public:
     /// @param away empty: they are kept
-    explicit MemoryStore(std::function<void(const inner::ResultRow&)> away) : away_(std::move(away)) {}
+    MemoryStore(KeptRows& kept, std::function<void(const inner::ResultRow&)> away) : kept_(kept), away_(std::move(away))
+    {
+    }
 
     std::optional<inner::State> state(std::uint64_t index) const override
     {
-        const auto found = states_.find(index);
-        return found == states_.end() ? std::nullopt : std::optional(found->second);
+        const auto found = kept_.states.find(index);
+        return found == kept_.states.end() ? std::nullopt : std::optional(found->second);
     }
-    void give_to(inner::Kind&) const override {}
     void add(const inner::ResultRow& row) override
     {
         if (away_)
             return away_(row);
-        states_.emplace(row.index, row.outcome.state);
-        rows_.push_back(row);
+        kept_.states.emplace(row.index, row.outcome.state);
+        kept_.rows.push_back(row);
     }
     using RunStore::add;
-    void add(const inner::Trajectory&) override {}
-    void finish(const inner::Kind&) override {}
-    void flush() override {}
-
-    const std::vector<inner::ResultRow>& rows() const { return rows_; }
+    bool keeps_trajectories() const override { return false; }
 
 private:
+    KeptRows& kept_;
     std::function<void(const inner::ResultRow&)> away_;
-    std::unordered_map<std::uint64_t, inner::State> states_;
-    std::vector<inner::ResultRow> rows_;
-};
-
-/// Realizations of a single study without their trajectories: no reason to step them one by one.
-class SingleAtOnce : public inner::SingleKind {
-public:
-    using SingleKind::SingleKind;
-    std::string prepare(const inner::Experiment&, const std::string&) override { return {}; }
-    bool plan(inner::Rounds& rounds) override { return rounds.run({.fair = true}); }
 };
 
 inner::Table table_of(const std::vector<inner::Table>& tables, const std::string& name)
@@ -82,41 +72,28 @@ inner::Table table_of(const std::vector<inner::Table>& tables, const std::string
 
 } // namespace
 
-inner::RunOptions run_options(int threads, const std::string& simd)
-{
-    inner::CommonOptions options;
-    options.threads = threads;
-    options.simd = simd;
-    return options.run_options();
-}
-
 Result Inside::run(const Experiment& experiment, const RunOptions& options)
 {
     const inner::LoadedStudy& loaded = of(experiment).loaded;
-    const inner::Study& study = loaded.study();
-    const inner::ResultHeader header = loaded.result_header();
-    Result::Data data(header, study, "the result");
-    const std::unique_ptr<inner::Kind> kind = study.kind == inner::StudyKind::single
-                                                  ? std::make_unique<SingleAtOnce>(study, header)
-                                                  : inner::make_kind(study, header);
-    kind->prepare(loaded.experiment(), "study");
-    inner::check_realizations(loaded.sampler(), *kind);
-    MemoryStore store(header.has_rows() ? std::function<void(const inner::ResultRow&)>()
-                                        : [&](const inner::ResultRow& row) { data.add(row); });
-    Teller teller(options.progress);
-    const inner::StudyRun ran =
-        inner::run_study(loaded.experiment(), *kind, store, run_options(options.threads, options.simd), teller);
-    data.complete = ran.complete;
-    if (!ran.complete && header.has_rows())
-        data.count_the_first([&](std::uint64_t index) { return store.state(index).has_value(); });
-    for (const inner::ResultRow& row : store.rows())
+    inner::StudyRun study(loaded, loaded.result_header(), "study", "");
+    const inner::ResultHeader& header = study.header();
+    Result::Data data(header, study.study(), "the result");
+    study.check_drawn();
+    KeptRows kept;
+    study.open(std::make_unique<MemoryStore>(
+        kept, header.has_rows() ? std::function<void(const inner::ResultRow&)>()
+                                : [&](const inner::ResultRow& row) { data.add(row); }));
+    RunTeller teller(options.progress);
+    data.complete = study.run(machine_of(options).run_options(), teller).complete;
+    if (!data.complete && header.has_rows())
+        data.count_the_first([&](std::uint64_t index) { return kept.states.contains(index); });
+    for (const inner::ResultRow& row : kept.rows)
         data.add(row);
-    if (!ran.complete) {
+    if (!data.complete) {
         data.finish();
     } else {
-        kind->conclude();
-        const std::vector<inner::Table> tables = kind->tables();
-        data.finish(kind->surface(), table_of(tables, "rare"), table_of(tables, "fragility"));
+        const std::vector<inner::Table> tables = study.kind().tables();
+        data.finish(study.kind().surface(), table_of(tables, "rare"), table_of(tables, "fragility"));
     }
     return make<Result>(std::move(data));
 }
@@ -130,24 +107,11 @@ Result run_to_file(const Experiment& experiment, const std::filesystem::path& fi
 {
     translated([&] {
         const inner::LoadedStudy& loaded = Inside::of(experiment).loaded;
-        const inner::ResultHeader header = loaded.result_header();
-        const std::unique_ptr<inner::Kind> kind = inner::make_kind(loaded.study(), header);
-        kind->prepare(loaded.experiment(), "study");
-        const inner::RunOptions how = run_options(options.threads, options.simd);
-        const bool found = std::filesystem::exists(file);
-        if (!found) // else it has been done before the file was made
-            inner::check_realizations(loaded.sampler(), *kind);
-        else if (inner::ResultWriter::is_finished(file, header))
-            return;
-        const std::unique_ptr<inner::RunStore> store = inner::open_store(file.string(), header, found);
-        store->give_to(*kind);
-        Teller teller(options.progress);
-        if (inner::run_study(loaded.experiment(), *kind, *store, how, teller).complete) {
-            kind->conclude();
-            store->finish(*kind);
-        } else {
-            store->flush();
-        }
+        inner::StudyRun study(loaded, loaded.result_header(), "study", file.string());
+        const inner::RunOptions how = machine_of(options).run_options();
+        study.check_drawn();
+        RunTeller teller(options.progress);
+        study.run(how, teller);
     });
     return Result::from_file(file);
 }

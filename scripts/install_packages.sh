@@ -16,6 +16,7 @@ packages=(
     libpugixml-dev                                      # fragility functions in NRML
     gnuplot-nox fonts-dejavu-core                       # pictures
     libgtest-dev libbenchmark-dev python3-jsonschema    # tests, benchmarks
+    nlohmann-json3-dev                                  # what tests read of what the program prints
 )
 for_tests=(
     pybind11-dev python3-dev python3-numpy              # the Python module

@@ -6,7 +6,7 @@
 #include "ensemble/run/executor.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 #include "studies/version.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <limits>
 #include <stdexcept>

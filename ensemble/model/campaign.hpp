@@ -63,6 +63,19 @@ struct MeasuredRun {
     std::string base_clock;        ///< empty: the cameras'
     SeenMotion table;              ///< (nt) the table, seen by the same cameras
     SeenMotion blocks;             ///< (nt x n_block)
+
+    /// Whether the motion of the base is known.
+    bool has_base() const { return !base_acceleration_m_s2.empty() || !base_displacement_m.empty(); }
+    /// Whether x, y and rotation of the blocks were measured.
+    bool has_blocks() const
+    {
+        return !blocks.x_m.empty() && !blocks.y_m.empty() && !blocks.theta_rad.empty() && time_s.size() > 1;
+    }
+    /// When it collapsed; nothing where it did not, or that is not known.
+    std::optional<double> fell_at_s() const
+    {
+        return collapsed.value_or(false) && collapse_time_s >= 0 ? std::optional(collapse_time_s) : std::nullopt;
+    }
 };
 
 /// The specimen as planned. Blocks and joints are counted from 0.

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace stylobate {
@@ -19,6 +20,13 @@ struct MeasuredOutcome {
     int motion_id = 0;                    ///< rows with the same one had one motion
     int repeat = 0;                       ///< which of them, from 0
     bool fell = false;
+
+    /// What a motion is known by: rows in which it is equal repeat one motion.
+    auto motion() const
+    {
+        return std::tuple(motion_file, amplitude_m.value_or(0), frequency_hz.value_or(0), pga_m_s2.value_or(0),
+                          pgv_over_pga_s.value_or(0));
+    }
 };
 
 struct OutcomeTable {

@@ -1,17 +1,18 @@
 #include "ensemble/motion/shaking.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
-#include "ensemble/motion/repeated_motion.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace stylobate {
 
@@ -222,6 +223,25 @@ void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& 
             realization.pga_m_s2 = record_pga_m_s2_;
         break;
     }
+}
+
+Motion repeated_motion(std::span<const Motion> events, double pause_s)
+{
+    assert(!events.empty() && "a past without an event has no motion");
+    const Motion& first = events.front();
+    const auto pause = static_cast<std::size_t>(std::ceil(pause_s / first.dt_s));
+    std::vector<double> acceleration;
+    for (const Motion& event : events) {
+        assert(event.dt_s == first.dt_s && "events have one spacing of samples");
+        if (!acceleration.empty())
+            acceleration.resize(acceleration.size() + pause);
+        acceleration.insert(acceleration.end(), event.acceleration_m_s2.begin(), event.acceleration_m_s2.end());
+    }
+    Motion motion = motion_of(std::move(acceleration), first.dt_s);
+    motion.pga_m_s2 = first.pga_m_s2; // by which it is scaled
+    motion.predominant_frequency_hz = first.predominant_frequency_hz;
+    motion.source = first.source;
+    return motion;
 }
 
 } // namespace stylobate

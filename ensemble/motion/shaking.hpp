@@ -8,6 +8,7 @@
 #include "ensemble/motion/distortion.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace stylobate {
@@ -54,5 +55,14 @@ private:
     std::vector<double>
         mean_peak_; ///< noise with the PGA of the mean: of unit noise, a surface's frequency by frequency
 };
+
+/// Several events in succession as one motion: what the first has displaced the next one finds so. All events of a
+/// realization have its frequency and its PGA. Noise is drawn anew for each; any other motion is the same again.
+/// Between the end of one and the begin of the next the ground is at rest, or moves on at the velocity that the first
+/// has left it, for a pause in which the structure comes to rest (own choice of a history: a past of n equally strong
+/// events). The accelerations stand one after the other, with `pause_s` of rest after each but the last; all samples
+/// have the spacing of the first motion.
+/// @pre at least one motion; all have the same spacing
+Motion repeated_motion(std::span<const Motion> events, double pause_s);
 
 } // namespace stylobate

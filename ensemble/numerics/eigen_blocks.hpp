@@ -1,5 +1,5 @@
 #pragma once
-/// The same bits on every processor: Eigen sums the products of larger matrices in blocks whose sizes follow the caches
+/// Equal bits on every processor: Eigen sums the products of larger matrices in blocks whose sizes follow the caches
 /// of the machine, and the order of a sum decides its last digits. Programs that link a file that includes this have
 /// the same blocks everywhere.
 

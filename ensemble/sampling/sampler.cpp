@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/statics/bed.hpp"
-#include "ensemble/statics/rigid_step.hpp"
+#include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
 
 #include <fmt/format.h>
@@ -14,41 +14,16 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 namespace stylobate {
 namespace {
 
-Stream stream_of(Quantity quantity)
-{
-    switch (quantity) {
-    case Quantity::friction:
-        return Stream::friction;
-    case Quantity::normal_stiffness:
-        return Stream::normal_stiffness;
-    case Quantity::tangential_stiffness:
-        return Stream::tangential_stiffness;
-    case Quantity::damping_ratio:
-        return Stream::damping_ratio;
-    case Quantity::drum_width:
-        return Stream::drum_width;
-    case Quantity::drum_height:
-        return Stream::drum_height;
-    case Quantity::drum_offset:
-        return Stream::drum_offset;
-    case Quantity::density:
-        return Stream::density;
-    case Quantity::tilt:
-        return Stream::tilt;
-    case Quantity::phase:
-        return Stream::phase;
-    case Quantity::pulse_frequency:
-        return Stream::pulse_frequency;
-    case Quantity::pulse_gamma:
-        return Stream::pulse_gamma;
-    }
-    throw std::invalid_argument("a quantity that is not in the enumeration");
-}
+/// In the order of `Quantity`.
+constexpr std::array streams = {Stream::friction,      Stream::normal_stiffness, Stream::tangential_stiffness,
+                                Stream::damping_ratio, Stream::drum_width,       Stream::drum_height,
+                                Stream::drum_offset,   Stream::density,          Stream::tilt,
+                                Stream::phase,         Stream::pulse_frequency,  Stream::pulse_gamma};
+static_assert(streams.size() == quantity_count);
 
 /// Quantities of which a value below 0 means nothing.
 bool is_positive(Quantity quantity)
@@ -122,7 +97,10 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
             about.pop_back(); // what meets elsewhere keeps its nominal value
         if (is_positive(quantity))
             perturbation.min = std::max(perturbation.min.value_or(0), quantity == Quantity::pulse_gamma ? 1.0 : 0.0);
-        Drawn drawn{quantity, stream_of(quantity), perturbation.per == Per::structure ? 1 : about.size(), {}};
+        Drawn drawn{quantity,
+                    streams[static_cast<std::size_t>(quantity)],
+                    perturbation.per == Per::structure ? 1 : about.size(),
+                    {}};
         for (const double value : about)
             drawn.distributions.emplace_back(perturbation, value);
         for (std::size_t i = 0; i < drawn.draws; ++i)

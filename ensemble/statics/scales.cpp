@@ -6,6 +6,16 @@
 
 namespace stylobate {
 
+namespace {
+
+// For `usual_accuracy`, which the worst cell of `stylobate_rigid_limit --steps` reaches just so: of 1 / p, p2 = 3 g /
+// (4 R) the rocking frequency of the smallest free block.
+constexpr double part_of_rocking = 1.0 / 120;
+// Of a period of the shaking.
+constexpr double part_of_period = 1.0 / 400;
+
+} // namespace
+
 Scales scales_of(const Realization& r)
 {
     Scales s;
@@ -44,6 +54,17 @@ Scales scales_of(const Realization& r)
         s.barrier_j = std::min(s.barrier_j, mass * r.gravity_m_s2 * (std::hypot(foot.half_width_m, height) - height));
     }
     return s;
+}
+
+double rigid_step_s(const Realization& r, double accuracy)
+{
+    const double part = accuracy / usual_accuracy;
+    double smallest = 1e300;
+    for (const Block& block : r.blocks)
+        if (!block.fixed)
+            smallest = std::min(smallest, std::hypot(block.half_width_m, block.half_height_m));
+    const double rocking_s = part * part_of_rocking * std::sqrt(4 * smallest / (3 * r.gravity_m_s2));
+    return r.frequency_hz > 0 ? std::min(rocking_s, part * part_of_period / r.frequency_hz) : rocking_s;
 }
 
 } // namespace stylobate

@@ -7,14 +7,19 @@
 ///
 /// SI units throughout; the unit is a part of each name. docs/library.md describes how to build against it.
 
+#include "stylobate/answer.hpp"
 #include "stylobate/calibration.hpp"
 #include "stylobate/check.hpp"
+#include "stylobate/compare.hpp"
 #include "stylobate/diagnosis.hpp"
 #include "stylobate/error.hpp"
 #include "stylobate/experiment.hpp"
 #include "stylobate/fragility.hpp"
+#include "stylobate/past.hpp"
 #include "stylobate/record.hpp"
+#include "stylobate/report.hpp"
 #include "stylobate/result.hpp"
+#include "stylobate/risk.hpp"
 #include "stylobate/run.hpp"
 #include "stylobate/study.hpp"
 #include "stylobate/surface.hpp"

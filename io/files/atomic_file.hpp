@@ -47,4 +47,26 @@ void make_folder(const std::filesystem::path& folder);
 /// One text as a file, whole or not at all. @throws InputError as above
 void write_whole(const std::filesystem::path& file, std::string_view content);
 
+/// Filled under another name beside its target, and renamed by `commit`. Without a commit nothing remains.
+class AtomicFolder {
+public:
+    /// @throws InputError if the folder above is missing or cannot be written, or if the target is a file or holds
+    /// files
+    explicit AtomicFolder(std::filesystem::path folder);
+    ~AtomicFolder();
+    AtomicFolder(const AtomicFolder&) = delete;
+    AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+    /// @throws InputError if it cannot be written (full disk)
+    void write(const std::string& name, std::string_view content);
+    /// @throws InputError if the target holds files by now
+    void commit();
+
+private:
+    [[noreturn]] void fail(const std::string& reason) const;
+
+    std::filesystem::path folder_;
+    std::filesystem::path temporary_; ///< empty: committed
+};
+
 } // namespace stylobate

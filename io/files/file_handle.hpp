@@ -78,8 +78,8 @@ private:
 void rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Replaces the file of the new name in one step, and makes the folder remember it.
 void rename_over(const std::filesystem::path& from, const std::filesystem::path& to);
-/// The same where `ours` is the file to be replaced. Another one that has taken its place is left alone, and the new
-/// file gets the name `to`.rescued.
+/// Replaces the file of the new name in one step, where it is `ours`. Another one that has taken its place is left
+/// alone, and the new file gets the name `to`.rescued.
 /// @throws InputError that states this
 void rename_over(const std::filesystem::path& from, const std::filesystem::path& to, const FileHandle& ours);
 

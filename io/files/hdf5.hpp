@@ -115,6 +115,14 @@ std::string read_any_text(hid_t object, const std::string& name);
 void write_real(hid_t object, const std::string& name, double value);
 void write_integer(hid_t object, const std::string& name, std::int32_t value);
 
+/// The type of a file from the attributes of its root, for readers that do not know its layout.
+struct Label {
+    std::string format; ///< "stylobate-diagnosis"; empty: none, or not to be read
+    std::string kind;
+};
+/// A file that may be damaged is to be checked before, by its seal.
+Label label_of(const std::filesystem::path& file);
+
 /// An enumeration stored in one byte.
 Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members);
 

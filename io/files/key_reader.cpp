@@ -109,15 +109,37 @@ void KeyReader::refuse_unused(const std::vector<std::string>& used, const std::s
                fmt::format("Remove it. Keys that are used: {}.", fmt::join(used, ", ")));
 }
 
+void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word) const
+{
+    refuse_unused(table.names_where(kind, word), fmt::format("{} = \"{}\"", kind, word));
+}
+
+void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word,
+                              const std::string& todo) const
+{
+    for (const TomlKey* key : table.keys)
+        if (!key->used_where(kind, word) && has(*key))
+            refuse(key->name, fmt::format("is not used by {} = \"{}\"", kind, word), todo);
+}
+
 KeyReader KeyReader::table(std::string_view key) const
 {
     return KeyReader(find(key), full(key), place_);
 }
 
+void KeyReader::check_keys(const TableKey& table) const
+{
+    allow_only(table.names());
+    for (const TomlKey* key : table.keys)
+        for (const std::string& other : key->excludes)
+            if (has(*key) && has(other))
+                refuse(key->name, "and " + other + " exclude each other", "Give one of the two.");
+}
+
 KeyReader KeyReader::table(const TableKey& key) const
 {
     KeyReader keys = table(key.name);
-    keys.allow_only(key.names());
+    keys.check_keys(key);
     return keys;
 }
 
@@ -125,7 +147,7 @@ std::vector<KeyReader> KeyReader::tables(const TableKey& key) const
 {
     std::vector<KeyReader> all = tables(key.name);
     for (const KeyReader& keys : all)
-        keys.allow_only(key.names());
+        keys.check_keys(key);
     return all;
 }
 
@@ -178,6 +200,16 @@ std::optional<double> KeyReader::maybe_number(std::string_view key, const Range&
     return has(key) ? std::optional<double>(number(key, range)) : std::nullopt;
 }
 
+const TomlValue& KeyReader::need_list(std::string_view key, const std::string& todo) const
+{
+    const TomlValue& value = need(key, todo);
+    if (value.type != TomlValue::Type::array)
+        refuse(key, fmt::format("is {}, not a list", value.type_name()), todo);
+    if (value.entries.empty())
+        refuse(key, "is empty", todo);
+    return value;
+}
+
 std::vector<double> KeyReader::check_list(std::string_view key, const Range& range, const std::string& todo) const
 {
     std::vector<double> numbers;
@@ -195,11 +227,7 @@ std::vector<double> KeyReader::check_list(std::string_view key, const Range& ran
 std::vector<double> KeyReader::number_list(std::string_view key, const Range& range) const
 {
     const auto todo = fmt::format("Give numbers in {}: {} = [NUMBER, ...]. {}", range.text(), key, range.hint);
-    const TomlValue& value = need(key, todo);
-    if (value.type != TomlValue::Type::array || value.entries.empty())
-        refuse(key,
-               value.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", value.type_name()),
-               todo);
+    need_list(key, todo);
     return check_list(key, range, todo);
 }
 
@@ -235,24 +263,15 @@ std::uint64_t KeyReader::whole(std::string_view key, std::uint64_t low, std::uin
     refuse(key, "is outside " + range, hint);
 }
 
-std::uint64_t KeyReader::whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
-                                  const std::string& hint) const
-{
-    return has(key) ? whole(key, low, high, hint) : absent;
-}
-
 std::vector<std::uint64_t> KeyReader::whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,
                                                          const std::string& hint) const
 {
     std::vector<std::uint64_t> all;
     if (!has(key))
         return all;
-    const TomlValue& list = *find(key);
-    if (list.type != TomlValue::Type::array || list.entries.empty())
-        refuse(key,
-               list.type == TomlValue::Type::array ? "is empty" : fmt::format("is {}, not a list", list.type_name()),
-               fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint));
-    for (const TomlValue& entry : list.entries) {
+    const std::string todo =
+        fmt::format("Give whole numbers in [{}, {}]: {} = [NUMBER, ...]. {}", low, high, key, hint);
+    for (const TomlValue& entry : need_list(key, todo).entries) {
         const std::optional<std::uint64_t> value = whole_number(entry);
         if (!value || *value < low || *value > high)
             refuse(key, fmt::format("contains {}, which is not a whole number in [{}, {}]", entry.shown(), low, high),

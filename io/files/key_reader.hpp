@@ -46,7 +46,12 @@ public:
     {
         return key.absent_value && !has(key.name) ? *key.absent_value : choice(key.name, key.names);
     }
-    std::string read(const TextKey& key) const { return text(key.name); }
+    /// Of a key with words one of them.
+    std::string read(const TextKey& key) const
+    {
+        return key.words.empty() ? text(key.name) : key.words[word_index(key.name, key.words)];
+    }
+    std::vector<double> read(const ListKey& key) const { return number_list(key.name, key.range); }
     /// The value where the key is given, and else this one.
     template <class Key>
     typename Key::Value read_or(const Key& key, typename Key::Value absent) const
@@ -59,7 +64,22 @@ public:
         return has(key.name) ? std::optional<typename Key::Value>(read(key)) : std::nullopt;
     }
     bool has(const TomlKey& key) const { return has(key.name); }
-    /// A table in this one, perhaps absent; its keys are checked.
+    /// Reads a value that is given or needed; otherwise `value` keeps what it has.
+    template <class Key, class Value>
+    void fill(const Key& key, Value& value) const
+    {
+        if (has(key) || key.needed())
+            value = static_cast<Value>(read(key));
+    }
+    /// Fills the members of a structure by those keys of the table that fill them and that are used.
+    template <class S>
+    void read_fields(const TableKey& table, S& to, const KeyUse& use = {}) const
+    {
+        for (const TomlKey* key : table.keys)
+            if (key->field.read && key->field.of == typeid(S) && use.of(*key))
+                key->field.read(*this, *key, &to);
+    }
+    /// A table in this one, perhaps absent; its keys are checked: known, and none beside one that excludes it.
     KeyReader table(const TableKey& key) const;
     /// The tables of a list, with their keys checked; none if the key is absent.
     std::vector<KeyReader> tables(const TableKey& key) const;
@@ -69,6 +89,11 @@ public:
     /// Refuses known keys other than these; `why` names the setting that does not use them: `excitation.kind =
     /// "record"`.
     void refuse_unused(const std::vector<std::string>& used, const std::string& why) const;
+    /// Refuses keys of this table that KIND = "WORD" does not use.
+    void refuse_unused(const TableKey& table, const std::string& kind, const std::string& word) const;
+    /// The first key, in the table's order, that KIND = "WORD" does not use is refused with advice of its own.
+    void refuse_unused(const TableKey& table, const std::string& kind, const std::string& word,
+                       const std::string& todo) const;
 
     /// A table in this one, perhaps absent.
     KeyReader table(std::string_view key) const;
@@ -89,8 +114,6 @@ public:
     /// A whole number; 1e6 counts as one. @pre high is at most 2^63 - 1
     std::uint64_t whole(std::string_view key, std::uint64_t low, std::uint64_t high,
                         const std::string& hint = {}) const;
-    std::uint64_t whole_or(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t absent,
-                           const std::string& hint = {}) const;
 
     /// Whole numbers in brackets, at least one; none if the key is absent.
     std::vector<std::uint64_t> whole_list_or_none(std::string_view key, std::uint64_t low, std::uint64_t high,
@@ -130,9 +153,12 @@ public:
     const std::string& path() const { return path_; }
 
 private:
+    void check_keys(const TableKey& table) const;
     std::string full(std::string_view key) const;
     /// The value of a key that must be there.
     const TomlValue& need(std::string_view key, const std::string& todo) const;
+    /// A list that must be there and have an entry.
+    const TomlValue& need_list(std::string_view key, const std::string& todo) const;
     double check(std::string_view key, const TomlValue& value, const Range& range) const;
     std::vector<double> check_list(std::string_view key, const Range& range, const std::string& todo) const;
 
@@ -140,5 +166,18 @@ private:
     std::string path_;
     TomlPlace place_;
 };
+
+template <class Key, class S, class M>
+KeyField field_of(M S::*member)
+{
+    KeyField field{typeid(S), {}, [member](const TomlKey& key, const void* from) {
+                       return key_text(static_cast<const Key&>(key), static_cast<const S*>(from)->*member);
+                   }};
+    if constexpr (!std::is_same_v<Key, ListKey> || std::is_same_v<M, std::vector<double>>) // others are checked more
+        field.read = [member](const KeyReader& keys, const TomlKey& key, void* to) {
+            keys.fill(static_cast<const Key&>(key), static_cast<S*>(to)->*member);
+        };
+    return field;
+}
 
 } // namespace stylobate

@@ -106,6 +106,10 @@ std::string toml_text(const std::vector<double>& values)
 {
     return in_brackets(values, [](double value) { return toml_number(value); });
 }
+std::string toml_text(const std::vector<int>& values)
+{
+    return in_brackets(values, [](int value) { return std::to_string(value); });
+}
 std::string toml_text(const std::vector<std::string>& values)
 {
     return in_brackets(values, [](const std::string& value) { return toml_quoted(value); });
@@ -113,7 +117,8 @@ std::string toml_text(const std::vector<std::string>& values)
 
 TomlKey::TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
     : name(std::move(key)), type(of_type), meaning(std::move(means)), words(std::move(facts.words)),
-      absent(std::move(facts.absent)), used(std::move(facts.used)), example(std::move(facts.example))
+      absent(std::move(facts.absent)), used(std::move(facts.used)), example(std::move(facts.example)),
+      excludes(std::move(facts.excludes)), models(std::move(facts.models))
 {
 }
 
@@ -131,6 +136,20 @@ bool TomlKey::used_where(std::string_view key, std::string_view value) const
         return condition.key != key ||
                std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
     });
+}
+
+bool KeyUse::of(const TomlKey& key) const
+{
+    return std::find(apart.begin(), apart.end(), &key) == apart.end() &&
+           std::all_of(kinds.begin(), kinds.end(),
+                       [&](const auto& kind) { return key.used_where(kind.first, kind.second); });
+}
+
+KeyUse KeyUse::without(std::initializer_list<const TomlKey*> keys) const
+{
+    KeyUse use = *this;
+    use.apart.insert(use.apart.end(), keys.begin(), keys.end());
+    return use;
 }
 
 std::string TomlKey::unit() const
@@ -154,13 +173,6 @@ NumberKey::NumberKey(std::string key, const Range& allowed, std::string means, K
     range = allowed;
 }
 
-NumberKey::NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts)
-    : NumberKey(std::move(key), allowed, std::move(means), std::move(facts))
-{
-    absent_value = without;
-    set_default(toml_text(without));
-}
-
 WholeKey::WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts)
     : TomlKey(std::move(key), KeyType::whole, std::move(means), std::move(facts)), low(allowed.low), high(allowed.high),
       hint(std::move(allowed.hint))
@@ -168,21 +180,8 @@ WholeKey::WholeKey(std::string key, Limits allowed, std::string means, KeyFacts 
     range = {static_cast<double>(low), static_cast<double>(high)};
 }
 
-WholeKey::WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts)
-    : WholeKey(std::move(key), std::move(allowed), std::move(means), std::move(facts))
-{
-    absent_value = without;
-    set_default(toml_text(without));
-}
-
-BooleanKey::BooleanKey(std::string key, bool without, std::string means, KeyFacts facts)
-    : TomlKey(std::move(key), KeyType::boolean, std::move(means), std::move(facts)), absent_value(without)
-{
-    set_default(toml_text(without));
-}
-
-BooleanKey::BooleanKey(std::string key, const char* means, KeyFacts facts)
-    : TomlKey(std::move(key), KeyType::boolean, means, std::move(facts))
+BooleanKey::BooleanKey(std::string key, std::string means, KeyFacts facts)
+    : TomlKey(std::move(key), KeyType::boolean, std::move(means), std::move(facts))
 {
 }
 
@@ -193,22 +192,10 @@ TextKey::TextKey(std::string key, std::string means, KeyFacts facts)
         type = KeyType::word;
 }
 
-ListKey::ListKey(std::string key, KeyType of_type, std::string means, KeyFacts facts)
+ListKey::ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts)
     : TomlKey(std::move(key), of_type, std::move(means), std::move(facts))
 {
-}
-
-ListKey::ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts)
-    : ListKey(std::move(key), of_type, std::move(means), std::move(facts))
-{
     range = allowed;
-}
-
-ListKey::ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
-                 KeyFacts facts)
-    : ListKey(std::move(key), KeyType::numbers, allowed, std::move(means), std::move(facts))
-{
-    set_default(toml_text(without));
 }
 
 TableKey::TableKey(std::string key, std::string means, std::vector<const TomlKey*> of_table, KeyFacts facts,

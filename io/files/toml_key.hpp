@@ -1,16 +1,22 @@
 #pragma once
-/// The description of a key of a TOML file: its name, type, range, default and meaning, once. `KeyReader` reads by it,
-/// `toml_text` writes by it, and documentation, schema and templates are made from it (io/keys/).
+/// The description of a key of a TOML file: its name, type, range, default, meaning and the member that it fills, once.
+/// `KeyReader` reads by it, `study_text` writes by it, and documentation, schema and templates are made from it
+/// (io/keys/).
 
 #include "ensemble/numerics/unit_slip.hpp"
 #include "io/files/toml_document.hpp"
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <typeindex>
 #include <vector>
 
 namespace stylobate {
@@ -31,7 +37,7 @@ struct Range {
     std::string text() const;
     /// "Did you mean 0.155 (155 mm) or 1.55 (155 cm)?" of a value outside; empty: in none of those units it is inside.
     std::string meant(double value) const;
-    /// The same as `text` for a message about a value outside: of a range that begins just above 0 it states the least
+    /// The text for a message about a value outside: of a range that begins just above 0 it states the least
     /// value.
     std::string text_for(double value) const;
 
@@ -45,6 +51,14 @@ struct Name {
     const char* word;
     Enum value;
 };
+
+/// Words for the enumerators of an enumeration, in their order.
+template <class Enum, class... Words>
+constexpr auto word_list(Words... words)
+{
+    int next = 0;
+    return std::array{Name<Enum>{words, static_cast<Enum>(next++)}...};
+}
 
 /// The word for a value that its list holds.
 template <class List, class Enum>
@@ -78,14 +92,32 @@ struct Condition {
     std::vector<std::string> values;
 };
 
+class KeyReader;
+struct TomlKey;
+
+/// The member of a structure that a key fills.
+struct KeyField {
+    std::type_index of = typeid(void); ///< the structure
+    /// Reads the value; where the key is absent and not needed, the member keeps what it has.
+    std::function<void(const KeyReader&, const TomlKey&, void*)> read = {};
+    /// The value as TOML; nothing of a member without one.
+    std::function<std::optional<std::string>(const TomlKey&, const void*)> text = {};
+};
+
+template <class Key, class S, class M>
+KeyField field_of(M S::*member); // in key_reader.hpp
+
 /// What only some keys have.
 struct KeyFacts {
+    bool needed = false; ///< must be given where it is used, whatever its member is without it
     /// What applies where the key is absent, if that is no plain value: "K_N times the width of the widest drum".
     std::string absent = {};
     std::vector<Condition> used = {}; ///< all must hold; none: always used
     /// A value to begin with, as TOML, for a file that is written for the user; empty: the default.
     std::string example = {};
-    std::vector<std::string> words = {}; ///< of a number: words that may stand in its place
+    std::vector<std::string> words = {};    ///< of a number: words that may stand in its place
+    std::vector<std::string> excludes = {}; ///< keys of its table in whose place it stands
+    std::vector<std::string> models = {};   ///< models for which it holds; none: all
 };
 
 /// What all descriptions have in common.
@@ -99,7 +131,10 @@ struct TomlKey {
     bool absent_is_value = false;     ///< `absent` is TOML
     std::vector<Condition> used = {}; ///< see `KeyFacts`
     std::string example = {};
-    std::vector<const TomlKey*> keys = {}; ///< of a table
+    std::vector<std::string> excludes = {}; ///< see `KeyFacts`
+    std::vector<std::string> models = {};   ///< see `KeyFacts`
+    std::vector<const TomlKey*> keys = {};  ///< of a table
+    KeyField field = {};
 
     /// Must be given wherever it is used.
     bool needed() const { return absent.empty(); }
@@ -116,6 +151,38 @@ protected:
     TomlKey& operator=(const TomlKey&) = default;
     TomlKey& operator=(TomlKey&&) = default;
     void set_default(std::string toml);
+    /// @param from the member that the key fills, whose initial value is the default unless there is another one; or a
+    ///             default
+    template <class Key, class From>
+    static void begin(Key& key, const From& from, bool needed)
+    {
+        if constexpr (std::is_member_object_pointer_v<From>)
+            key.field = field_of<Key>(from);
+        if (const auto text = key_text(key, initial(from)); text && !needed)
+            key.set_default(*text);
+        if constexpr (requires { key.absent_value = static_cast<typename Key::Value>(initial(from)); })
+            if (key.absent_is_value || !std::is_member_object_pointer_v<From>)
+                key.absent_value = static_cast<typename Key::Value>(initial(from));
+    }
+
+    template <class S, class M>
+    static M initial(M S::*member)
+    {
+        return S{}.*member;
+    }
+    template <class Value>
+    static const Value& initial(const Value& value)
+    {
+        return value;
+    }
+};
+
+/// Which keys of a study are read and written by their fields.
+struct KeyUse {
+    std::map<std::string, std::string> kinds = {}; ///< "excitation.kind" and its word: what conditions depend on
+    std::vector<const TomlKey*> apart = {};        ///< keys that have code of their own
+    bool of(const TomlKey& key) const;
+    KeyUse without(std::initializer_list<const TomlKey*> keys) const;
 };
 
 /// The unit that the name of a quantity ends with: "m/s2" of "pga_m_s2"; empty: none.
@@ -127,14 +194,38 @@ std::string toml_text(bool value);
 std::string toml_text(std::uint64_t value);
 std::string toml_text(const std::string& value);
 std::string toml_text(const std::vector<double>& values);
+std::string toml_text(const std::vector<int>& values);
 std::string toml_text(const std::vector<std::string>& values);
+
+/// The value of a member as TOML; nothing of an empty optional, string or list.
+template <class Key, class Value>
+std::optional<std::string> key_text(const Key& key, const Value& value)
+{
+    if constexpr (requires { value.has_value(); })
+        return value ? key_text(key, *value) : std::nullopt;
+    else if constexpr (std::is_enum_v<Value>)
+        return toml_quoted(word_for(key.names, value));
+    else if constexpr (std::is_same_v<Value, int>)
+        return std::to_string(value);
+    else if constexpr (requires { value.empty(); })
+        return value.empty() ? std::nullopt : std::optional(toml_text(value));
+    else
+        return toml_text(value);
+}
+
+// A key is made from its name, the member that it fills or its default (or neither), what is allowed, and its meaning.
 
 struct NumberKey : TomlKey {
     using Value = double;
     std::optional<double> absent_value;
 
     NumberKey(std::string key, const Range& allowed, std::string means, KeyFacts facts = {});
-    NumberKey(std::string key, const Range& allowed, double without, std::string means, KeyFacts facts = {});
+    template <class From>
+    NumberKey(std::string key, From from, const Range& allowed, std::string means, const KeyFacts& facts = {})
+        : NumberKey(std::move(key), allowed, std::move(means), facts)
+    {
+        begin(*this, from, facts.needed);
+    }
 };
 
 struct WholeKey : TomlKey {
@@ -148,16 +239,26 @@ struct WholeKey : TomlKey {
         std::string hint = {};
     };
     WholeKey(std::string key, Limits allowed, std::string means, KeyFacts facts = {});
-    WholeKey(std::string key, Limits allowed, std::uint64_t without, std::string means, KeyFacts facts = {});
+    template <class From>
+    WholeKey(std::string key, From from, Limits allowed, std::string means, const KeyFacts& facts = {})
+        : WholeKey(std::move(key), std::move(allowed), std::move(means), facts)
+    {
+        begin(*this, from, facts.needed);
+    }
 };
 
 struct BooleanKey : TomlKey {
     using Value = bool;
     std::optional<bool> absent_value;
 
-    BooleanKey(std::string key, bool without, std::string means, KeyFacts facts = {});
-    /// @param facts what applies where it is absent
-    BooleanKey(std::string key, const char* means, KeyFacts facts);
+    BooleanKey(std::string key, std::string means, KeyFacts facts);
+    template <class From>
+    requires std::is_same_v<From, bool> || std::is_member_object_pointer_v<From>
+    BooleanKey(std::string key, From from, std::string means, const KeyFacts& facts = {})
+        : BooleanKey(std::move(key), std::move(means), facts)
+    {
+        begin(*this, from, false);
+    }
 };
 
 template <class Enum>
@@ -166,6 +267,13 @@ struct WordKey : TomlKey {
     std::vector<Name<Enum>> names;
     std::optional<Enum> absent_value;
 
+    template <class From, class List>
+    requires std::is_same_v<From, Enum> || std::is_member_object_pointer_v<From>
+    WordKey(std::string key, From from, const List& allowed, std::string means, const KeyFacts& facts = {})
+        : WordKey(std::move(key), allowed, std::move(means), facts)
+    {
+        begin(*this, from, facts.needed);
+    }
     template <class List>
     WordKey(std::string key, const List& allowed, std::string means, KeyFacts facts = {})
         : TomlKey(std::move(key), KeyType::word, std::move(means), std::move(facts)),
@@ -174,26 +282,33 @@ struct WordKey : TomlKey {
         for (const Name<Enum>& each : names)
             words.emplace_back(each.word);
     }
-    template <class List>
-    WordKey(std::string key, const List& allowed, Enum without, std::string means, KeyFacts facts = {})
-        : WordKey(std::move(key), allowed, std::move(means), std::move(facts))
-    {
-        absent_value = without;
-        set_default(toml_quoted(word_for(names, without)));
-    }
 };
 
 struct TextKey : TomlKey {
     using Value = std::string;
     TextKey(std::string key, std::string means, KeyFacts facts = {});
+    template <class S>
+    TextKey(std::string key, std::string S::*member, std::string means, KeyFacts facts = {})
+        : TextKey(std::move(key), std::move(means), std::move(facts))
+    {
+        begin(*this, member, true);
+    }
 };
 
 /// A list of numbers, an interval or a list of strings.
 struct ListKey : TomlKey {
-    ListKey(std::string key, KeyType of_type, std::string means, KeyFacts facts = {});
     ListKey(std::string key, KeyType of_type, const Range& allowed, std::string means, KeyFacts facts = {});
-    ListKey(std::string key, const Range& allowed, const std::vector<double>& without, std::string means,
-            KeyFacts facts = {});
+    template <class From>
+    ListKey(std::string key, const From& from, const Range& allowed, std::string means, KeyFacts facts = {})
+        : ListKey(std::move(key), type_of(initial(from)), allowed, std::move(means), std::move(facts))
+    {
+        begin(*this, from, false);
+    }
+
+private:
+    static KeyType type_of(const std::vector<double>&) { return KeyType::numbers; }
+    static KeyType type_of(const std::vector<int>&) { return KeyType::wholes; }
+    static KeyType type_of(const std::vector<std::string>&) { return KeyType::texts; }
 };
 
 /// A table, or a list of tables, with its keys.

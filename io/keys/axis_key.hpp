@@ -17,10 +17,10 @@ struct AxisKey : TableKey {
     AxisKey(std::string key, std::string means, const Range& allowed, const Example& to_begin_with,
             std::vector<const TomlKey*> more = {}, KeyFacts facts = {})
         : TableKey(std::move(key), std::move(means), std::move(more), std::move(facts)),
-          from("from", allowed, "first value", {.example = to_begin_with.from}),
-          to("to", allowed, "last value", {.example = to_begin_with.to}),
-          count("count", {1, 1000}, "number of values", {.example = to_begin_with.count}),
-          spacing("spacing", spacing_names, Axis{}.spacing, "equal differences, or equal ratios",
+          from("from", &Axis::from, allowed, "first value", {.needed = true, .example = to_begin_with.from}),
+          to("to", &Axis::to, allowed, "last value", {.needed = true, .example = to_begin_with.to}),
+          count("count", &Axis::count, {1, 1000}, "number of values", {.needed = true, .example = to_begin_with.count}),
+          spacing("spacing", &Axis::spacing, spacing_names, "equal differences, or equal ratios",
                   {.example = to_begin_with.spacing})
     {
         keys.insert(keys.end(), {&from, &to, &count, &spacing});

@@ -58,7 +58,7 @@ MechanismKey::MechanismKey(const MechanismRule& rule)
         place.emplace(one, WholeKey::Limits{0, most_places}, "the " + one + " at which it acts, counted from 0",
                       KeyFacts{.absent = usual_words(rule)});
         places.emplace(one + "s", KeyType::wholes, Range{0, static_cast<double>(most_places)},
-                       "several of them, instead", KeyFacts{.absent = usual_words(rule)});
+                       "several of them, instead", KeyFacts{.absent = usual_words(rule), .excludes = {one}});
         keys = {&*place, &*places};
     }
     parameters.reserve(rule.parameters.size());
@@ -66,7 +66,7 @@ MechanismKey::MechanismKey(const MechanismRule& rule)
         if (p.role == ParameterRole::needed)
             parameters.emplace_back(p.key(), range_of(p), p.says, facts_of(rule, p));
         else
-            parameters.emplace_back(p.key(), range_of(p), p.neutral, p.says, facts_of(rule, p));
+            parameters.emplace_back(p.key(), p.neutral, range_of(p), p.says, facts_of(rule, p));
     for (const NumberKey& parameter : parameters)
         keys.push_back(&parameter);
     if (rule.mechanism == Mechanism::vertical_motion)

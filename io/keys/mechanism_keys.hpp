@@ -12,11 +12,13 @@ namespace stylobate {
 
 namespace vertical_keys {
 
-inline const TextKey file{"file", "record of the vertical motion; excludes `ratio`", {.absent = "by `ratio`"}};
-inline const TextKey component{"component", "which one, where the file has several", {.absent = "the only one"}};
-inline const TextKey unit{
-    "unit", "unit of its acceleration", {.absent = "as in the file", .words = acceleration_units}};
-inline const BooleanKey baseline{"baseline", VerticalSpec{}.baseline, "correct the baseline of the vertical record"};
+inline const TextKey file("file", &VerticalSpec::file, "record of the vertical motion; excludes `ratio`",
+                          {.absent = "by `ratio`"});
+inline const TextKey component("component", &VerticalSpec::component, "which one, where the file has several",
+                               {.absent = "the only one"});
+inline const TextKey unit("unit", &VerticalSpec::unit, "unit of its acceleration",
+                          {.absent = "as in the file", .words = acceleration_units});
+inline const BooleanKey baseline("baseline", &VerticalSpec::baseline, "correct the baseline of the vertical record");
 
 } // namespace vertical_keys
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What the numbers of a study file may be: wide enough for any structure of stone, narrow enough for a slip of units.
 
-#include "io/files/toml_key.hpp"
+#include "io/files/key_reader.hpp"
 
 #include <numbers>
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 namespace stylobate {
@@ -24,78 +23,62 @@ std::vector<Name<DistributionKind>> distributions(bool relative)
     return allowed;
 }
 
-/// A deviation is above 0 and no larger than `high`.
-Range up_to(Range range, double high)
-{
-    range.low = 0;
-    range.high = high;
-    range.open = true;
-    return range;
-}
-
-SpreadKey::Quality quality(const Range& value, Quantity quantity, bool relative, std::vector<Name<Per>> allowed)
-{
-    return {value,    up_to(value, value.high), sd_key(quantity),
-            relative, std::move(allowed),       quantity == Quantity::phase};
-}
-
 std::unique_ptr<SpreadKey> make(Quantity quantity)
 {
-    const auto key = [&](const Range& value, bool relative, std::vector<Name<Per>> allowed, const char* means,
-                         KeyFacts facts = {}) {
+    const auto key = [&](const Range& value, bool relative, const char* sd, std::vector<Name<Per>> allowed,
+                         const char* means, KeyFacts facts = {}) {
         facts.absent = "not perturbed";
-        return std::make_unique<SpreadKey>(to_string(quantity), means,
-                                           quality(value, quantity, relative, std::move(allowed)), std::move(facts));
+        return std::make_unique<SpreadKey>(
+            to_string(quantity), means,
+            SpreadKey::Quality{value, sd, relative, std::move(allowed), quantity == Quantity::phase}, std::move(facts));
     };
     using Motion = ExcitationKind;
     switch (quantity) {
     case Quantity::friction:
-        return key(friction_range, true, {joint, structure}, "coefficient of friction, each joint about its own",
+        return key(friction_range, true, "sd", {joint, structure}, "coefficient of friction, each joint about its own",
                    {.example = "{ distribution = \"normal\", cov = 0.1, min = 0.36, max = 0.84 }"});
     case Quantity::normal_stiffness:
-        return key(normal_stiffness_range, true, {structure, joint}, "K_N, each joint about its own",
+        return key(normal_stiffness_range, true, "sd_n_m2", {structure, joint}, "K_N, each joint about its own",
                    {.used = {compliant()}, .example = "{ distribution = \"lognormal\", sigma_ln = 0.7 }"});
     case Quantity::tangential_stiffness:
-        return key(tangential_stiffness_range, true, {structure, joint}, "K_T, each joint about its own",
+        return key(tangential_stiffness_range, true, "sd_n_m", {structure, joint}, "K_T, each joint about its own",
                    {.used = {compliant()}});
     case Quantity::damping_ratio:
-        return key(damping_ratio_range, true, {structure}, "both damping ratios at once", {.used = {compliant()}});
+        return key(damping_ratio_range, true, "sd", {structure}, "both damping ratios at once",
+                   {.used = {compliant()}});
     case Quantity::drum_width:
-        return key(length_range, true, {block, structure}, "width of each block; of an epistyle its length");
+        return key(length_range, true, "sd_m", {block, structure}, "width of each block; of an epistyle its length");
     case Quantity::drum_height:
-        return key(length_range, true, {block, structure}, "height of each block");
+        return key(length_range, true, "sd_m", {block, structure}, "height of each block");
     case Quantity::drum_offset:
-        return key(structure_keys::offset_range, false, {block}, "displacement of each block from its nominal place");
+        return key(structure_keys::offset_range, false, "sd_m", {block},
+                   "displacement of each block from its nominal place");
     case Quantity::density:
-        return key(density_range, true, {block, structure}, "density of each block at its size");
+        return key(density_range, true, "sd_kg_m3", {block, structure}, "density of each block at its size");
     case Quantity::tilt:
-        return key(tilt_range, false, {structure}, "tilt of the base");
+        return key(tilt_range, false, "sd_rad", {structure}, "tilt of the base");
     case Quantity::phase:
-        return key(phase_range, false, {structure}, "phase of a harmonic, tapered or pulse excitation",
+        return key(phase_range, false, "sd_rad", {structure}, "phase of a harmonic, tapered or pulse excitation",
                    {.used = {for_motions({Motion::harmonic, Motion::tapered, Motion::pulse})},
                     .example = "{ distribution = \"uniform\" }"});
     case Quantity::pulse_frequency:
-        return key(frequency_range, true, {structure}, "frequency of a velocity pulse",
+        return key(frequency_range, true, "sd_hz", {structure}, "frequency of a velocity pulse",
                    {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface, StudyKind::survival})},
                     .example = "{ distribution = \"lognormal\", sigma_ln = 0.4 }"});
     case Quantity::pulse_gamma:
         break;
     }
     return key(
-        gamma_range, true, {structure}, "oscillatory character of a velocity pulse",
+        gamma_range, true, "sd", {structure}, "oscillatory character of a velocity pulse",
         {.used = {for_motions({Motion::pulse})}, .example = "{ distribution = \"uniform\", from = 1.5, to = 3.0 }"});
 }
 
 std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParameter& parameter)
 {
-    SpreadKey::Quality quality;
-    quality.value = range_of(parameter);
-    quality.deviation = {0, parameter.high, true, quality.value.hint};
-    quality.deviation_key = std::string("sd") + parameter.suffix;
-    quality.relative = parameter.low >= 0;
-    quality.allowed = rule.place == MechanismPlace::joint   ? std::vector{joint, structure}
-                      : rule.place == MechanismPlace::block ? std::vector{block, structure}
-                                                            : std::vector{structure};
+    const SpreadKey::Quality quality{range_of(parameter), std::string("sd") + parameter.suffix, parameter.low >= 0,
+                                     rule.place == MechanismPlace::joint   ? std::vector{joint, structure}
+                                     : rule.place == MechanismPlace::block ? std::vector{block, structure}
+                                                                           : std::vector{structure}};
     return std::make_unique<SpreadKey>(parameter.key(), parameter.says, quality, KeyFacts{.absent = "not perturbed"});
 }
 
@@ -105,7 +88,8 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
     : TableKey(std::move(key), std::move(means), {}, std::move(facts)), relative(quality.relative),
       turns(quality.turns), value(quality.value),
       distribution("distribution", distributions(quality.relative), "the distribution", {.example = "\"normal\""}),
-      sd(quality.deviation_key, quality.deviation, "standard deviation of a normal distribution",
+      sd(quality.deviation_key, {0, value.high, true, value.hint, value.slips},
+         "standard deviation of a normal distribution",
          {.absent = quality.relative ? "`cov`" : "needed for a normal distribution", .example = "..."}),
       cov("cov", cov_range, "the same as a fraction of the nominal value",
           {.absent = "`" + quality.deviation_key + "`"}),
@@ -117,7 +101,7 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
          {.absent = quality.turns ? "2 pi" : "needed for a uniform distribution"}),
       min("min", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
       max("max", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
-      per("per", quality.allowed, quality.allowed.front().value, "whether each has its own value, or all the same")
+      per("per", quality.allowed.front().value, quality.allowed, "whether each has its own value, or all the same")
 {
     keys = {&distribution, &sd};
     if (relative)
@@ -149,42 +133,33 @@ std::vector<std::string> SpreadKey::names_for(DistributionKind kind) const
 const SpreadKey& spread_key(Quantity quantity)
 {
     static const auto all = [] {
-        std::array<std::unique_ptr<SpreadKey>, quantity_count> made;
+        std::vector<std::unique_ptr<SpreadKey>> made;
         for (int i = 0; i < quantity_count; ++i)
-            made[static_cast<std::size_t>(i)] = make(static_cast<Quantity>(i));
+            made.push_back(make(static_cast<Quantity>(i)));
         return made;
     }();
     return *all[static_cast<std::size_t>(quantity)];
 }
 
-const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter)
-{
-    static const auto all = [] {
-        std::vector<std::vector<std::unique_ptr<SpreadKey>>> made;
-        for (const MechanismRule& rule : mechanism_rules()) {
-            made.emplace_back();
-            for (const MechanismParameter& p : rule.parameters)
-                made.back().push_back(make(rule, p));
-        }
-        return made;
-    }();
-    return *all[static_cast<std::size_t>(mechanism)][parameter];
-}
-
 const TableKey& perturbed_parameters(Mechanism mechanism)
 {
+    static std::vector<std::unique_ptr<SpreadKey>> keys;
     static const std::vector<TableKey> tables = [] {
         std::vector<TableKey> made;
         for (const MechanismRule& rule : mechanism_rules()) {
-            std::vector<const TomlKey*> keys;
-            for (std::size_t i = 0; i < rule.parameters.size(); ++i)
-                keys.push_back(&spread_key(rule.mechanism, i));
-            made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::move(keys),
+            made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::vector<const TomlKey*>{},
                               KeyFacts{.absent = "not perturbed"});
+            for (const MechanismParameter& parameter : rule.parameters)
+                made.back().keys.push_back(keys.emplace_back(make(rule, parameter)).get());
         }
         return made;
     }();
     return tables[static_cast<std::size_t>(mechanism)];
+}
+
+const SpreadKey& spread_key(Mechanism mechanism, std::size_t parameter)
+{
+    return static_cast<const SpreadKey&>(*perturbed_parameters(mechanism).keys[parameter]);
 }
 
 const TableKey& perturbed_mechanisms()

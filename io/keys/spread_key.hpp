@@ -10,8 +10,7 @@ namespace stylobate {
 struct SpreadKey : TableKey {
     struct Quality {
         Range value;                    ///< what a value may be
-        Range deviation;                ///< what a standard deviation may be
-        std::string deviation_key;      ///< its unit is part of it
+        std::string deviation_key;      ///< of the standard deviation; its unit is part of it
         bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
         std::vector<Name<Per>> allowed; ///< the first is the default
         bool turns = false;             ///< a phase: without ends a uniform one is a full turn

@@ -12,153 +12,136 @@ inline constexpr std::uint64_t most_columns = 50;
 
 // of a drum, a capital or an epistyle
 
-inline const NumberKey width{
-    "width_m", length_range, "width of the block", {.absent = "drum_width_m; of a capital needed", .example = "1.0"}};
-inline const NumberKey height{"height_m",
-                              length_range,
-                              "height of the block",
-                              {.absent = "drum_height_m; of a capital needed", .example = "0.8"}};
-inline const NumberKey mass{
-    "mass_kg", mass_range, "mass of the block; excludes density_kg_m3", {.absent = "from the density"}};
-inline const NumberKey density{"density_kg_m3",
-                               density_range,
-                               "density of the stone; marble has about 2700",
-                               {.absent = "that of the column or of all blocks", .example = "2700"}};
+inline const NumberKey width("width_m", &DrumSpec::width_m, length_range, "width of the block",
+                             {.absent = "drum_width_m; of a capital needed", .example = "1.0"});
+inline const NumberKey height("height_m", &DrumSpec::height_m, length_range, "height of the block",
+                              {.absent = "drum_height_m; of a capital needed", .example = "0.8"});
+inline const NumberKey mass("mass_kg", &DrumSpec::mass_kg, mass_range, "mass of the block; excludes density_kg_m3",
+                            {.absent = "from the density"});
+inline const NumberKey density("density_kg_m3", density_range, "density of the stone; marble has about 2700",
+                               {.absent = "that of the column or of all blocks", .example = "2700"});
 inline const Range offset_range{-length_range.high, length_range.high, false, length_range.hint, length_range.slips};
-inline const NumberKey offset{"offset_m", offset_range, 0.0,
+inline const NumberKey offset("offset_m", &DrumSpec::offset_m, offset_range,
                               "distance of the block's centre from the axis of its column, to the right; no more "
-                              "than its width"};
-inline const NumberKey bed_friction{
-    "friction", friction_range, "coefficient of friction of the bed under the block", {.absent = "contact.friction"}};
-inline const NumberKey bed_normal_stiffness{"normal_stiffness_n_m2",
-                                            normal_stiffness_range,
-                                            "K_N of the bed under the block",
-                                            {.absent = "contact.normal_stiffness_n_m2"}};
-inline const NumberKey bed_tangential_stiffness{"tangential_stiffness_n_m",
-                                                tangential_stiffness_range,
-                                                "K_T of the bed under the block",
-                                                {.absent = "contact.tangential_stiffness_n_m"}};
-inline const NumberKey bed_restitution{"restitution",
-                                       restitution_range,
+                              "than its width");
+inline const NumberKey bed_friction("friction", &BedSpec::friction, friction_range,
+                                    "coefficient of friction of the bed under the block",
+                                    {.absent = "contact.friction"});
+inline const NumberKey bed_normal_stiffness("normal_stiffness_n_m2", &BedSpec::normal_stiffness_n_m2,
+                                            normal_stiffness_range, "K_N of the bed under the block",
+                                            {.absent = "contact.normal_stiffness_n_m2"});
+inline const NumberKey bed_tangential_stiffness("tangential_stiffness_n_m", &BedSpec::tangential_stiffness_n_m,
+                                                tangential_stiffness_range, "K_T of the bed under the block",
+                                                {.absent = "contact.tangential_stiffness_n_m"});
+inline const NumberKey bed_restitution("restitution", &BedSpec::restitution, restitution_range,
                                        "restitution of the bed under the block, of rigid contacts",
-                                       {.absent = "contact.restitution"}};
-inline const NumberKey bed_normal_damping{
-    "normal_damping_ratio",
-    damping_ratio_range,
+                                       {.absent = "contact.restitution"});
+inline const NumberKey bed_normal_damping(
+    "normal_damping_ratio", &BedSpec::normal_damping_ratio, damping_ratio_range,
     "normal dashpot of the bed under the block as a fraction of the critical damping, of a layer in it",
-    {.absent = "contact.normal_damping_ratio"}};
-inline const NumberKey bed_tangential_damping{"tangential_damping_ratio",
-                                              damping_ratio_range,
-                                              "tangential dashpot of that bed",
-                                              {.absent = "contact.tangential_damping_ratio"}};
-inline const WholeKey count{"count", {1, most_blocks, "Equal drums, one on the other."}, 1, "number of equal drums"};
+    {.absent = "contact.normal_damping_ratio"});
+inline const NumberKey bed_tangential_damping("tangential_damping_ratio", &BedSpec::tangential_damping_ratio,
+                                              damping_ratio_range, "tangential dashpot of that bed",
+                                              {.absent = "contact.tangential_damping_ratio"});
+inline const WholeKey count("count", 1, {1, most_blocks, "Equal drums, one on the other."}, "number of equal drums");
 
 // of a column, and of all columns
 
-inline const WholeKey blocks{
-    "blocks",
-    {1, most_blocks, "Drums of the column, including the fixed ones; or give drums = [ { ... }, ... ]."},
-    "number of equal drums, including the fixed ones",
-    {.absent = "the drums of `drums`", .example = "6"}};
-inline const WholeKey fixed_blocks{"fixed_blocks",
+inline const WholeKey
+    blocks("blocks",
+           {1, most_blocks, "Drums of the column, including the fixed ones; or give drums = [ { ... }, ... ]."},
+           "number of equal drums, including the fixed ones", {.absent = "the drums of `drums`", .example = "6"});
+inline const WholeKey fixed_blocks("fixed_blocks", &ColumnSpec::fixed_blocks,
                                    {0, most_blocks - 1, "At least one of the drums must be free."},
-                                   0,
-                                   "number of the lowest blocks that are fixed to the shaking table"};
-inline const TableKey drums{"drums",
-                            "the drums one by one from the bottom, instead of `blocks`",
+                                   "number of the lowest blocks that are fixed to the shaking table");
+inline const TableKey drums("drums", "the drums one by one from the bottom, instead of `blocks`",
                             {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
                              &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping, &bed_tangential_damping,
                              &count},
-                            {.absent = "equal drums"},
-                            KeyType::tables};
-inline const NumberKey drum_width{"drum_width_m",
-                                  length_range,
+                            {.absent = "equal drums"}, KeyType::tables);
+inline const NumberKey drum_width("drum_width_m", &DrumSpec::width_m, length_range,
                                   "width of the drums; with top_width_m of the lowest",
-                                  {.absent = "each of `drums` has its own", .example = "1.0"}};
-inline const NumberKey drum_height{
-    "drum_height_m", length_range, "height of the drums", {.absent = "each of `drums` has its own", .example = "0.8"}};
-inline const NumberKey top_width{"top_width_m",
-                                 length_range,
+                                  {.absent = "each of `drums` has its own", .example = "1.0"});
+inline const NumberKey drum_height("drum_height_m", &DrumSpec::height_m, length_range, "height of the drums",
+                                   {.absent = "each of `drums` has its own", .example = "0.8"});
+inline const NumberKey top_width("top_width_m", length_range,
                                  "width of the highest drum: the drums taper linearly; needs density_kg_m3",
-                                 {.absent = "no taper"}};
-inline const NumberKey depth{"depth_m", length_range, "depth of all blocks, out of the plane", {.example = "1.0"}};
-inline const NumberKey drum_mass{
-    "drum_mass_kg", mass_range, "mass of each drum; excludes density_kg_m3", {.absent = "from density_kg_m3"}};
-inline const NumberKey density_of_all{"density_kg_m3",
-                                      density_range,
+                                 {.absent = "no taper"});
+inline const NumberKey depth("depth_m", &StructureSpec::depth_m, length_range, "depth of all blocks, out of the plane",
+                             {.needed = true, .example = "1.0"});
+inline const NumberKey drum_mass("drum_mass_kg", &DrumSpec::mass_kg, mass_range,
+                                 "mass of each drum; excludes density_kg_m3", {.absent = "from density_kg_m3"});
+inline const NumberKey density_of_all("density_kg_m3", density_range,
                                       "density of all blocks that have no mass and no density of their own",
-                                      {.absent = "masses are given", .example = "2700"}};
-inline const TableKey capital{"capital",
-                              "an additional block on top of the column",
+                                      {.absent = "masses are given", .example = "2700"});
+inline const TableKey capital("capital", "an additional block on top of the column",
                               {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
                                &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping,
                                &bed_tangential_damping},
-                              {.absent = "no capital"}};
-inline const NumberKey gravity{"gravity_m_s2", gravity_range, StructureSpec{}.gravity_m_s2, "acceleration of gravity"};
+                              {.absent = "no capital"});
+inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gravity_range, "acceleration of gravity");
 
 // of a colonnade
 
-inline const KeyFacts of_colonnade{.used = {of_structures({StructureKind::colonnade})}};
+inline const KeyFacts of_colonnade{.used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})}};
 inline KeyFacts colonnade_facts(const char* absent, const char* example = "")
 {
-    return {.absent = absent, .used = {of_structures({StructureKind::colonnade})}, .example = example};
+    return {.absent = absent,
+            .used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})},
+            .example = example};
 }
 
-inline const WholeKey columns{"columns",
-                              {2, most_columns, "Or give column_list = [ { x_m = ... }, ... ]."},
+inline const WholeKey columns("columns", {2, most_columns, "Or give column_list = [ { x_m = ... }, ... ]."},
                               "number of equal columns, about x = 0",
-                              colonnade_facts("the columns of column_list", "2")};
-inline const NumberKey column_spacing{"column_spacing_m", spacing_range, "distance between the axes of columns",
-                                      colonnade_facts("each of column_list has its place", "3.0")};
-inline const NumberKey x{"x_m", position_range, "place of the column's axis", {.example = "0.0"}};
-inline const TableKey column_list{
-    "column_list",
-    "the columns one by one from the left; values that are omitted are those of all "
-    "columns",
-    {&x, &blocks, &fixed_blocks, &drums, &drum_width, &drum_height, &drum_mass, &density_of_all, &top_width, &capital},
-    colonnade_facts("equal columns"),
-    KeyType::tables};
-inline const WholeKey first_column{"first_column",
+                              colonnade_facts("the columns of column_list", "2"));
+inline const NumberKey column_spacing("column_spacing_m", spacing_range, "distance between the axes of columns",
+                                      colonnade_facts("each of column_list has its place", "3.0"));
+inline const NumberKey x("x_m", &ColumnSpec::x_m, position_range, "place of the column's axis",
+                         {.needed = true, .example = "0.0"});
+inline const TableKey column_list("column_list",
+                                  "the columns one by one from the left; values that are omitted are those of all "
+                                  "columns",
+                                  {&x, &blocks, &fixed_blocks, &drums, &drum_width, &drum_height, &drum_mass,
+                                   &density_of_all, &top_width, &capital},
+                                  colonnade_facts("equal columns"), KeyType::tables);
+inline const WholeKey first_column("first_column", &EpistyleSpec::first_column,
                                    {0, most_columns - 1, "Columns are counted from 0, from the left."},
-                                   "the leftmost column on which the piece lies, counted from 0"};
-inline const WholeKey last_column{"last_column",
+                                   "the leftmost column on which the piece lies, counted from 0", {.needed = true});
+inline const WholeKey last_column("last_column", &EpistyleSpec::last_column,
                                   {0, most_columns - 1, "Columns are counted from 0, from the left."},
-                                  "the rightmost column on which the piece lies"};
-inline const NumberKey epistyle_x{"x_m", position_range, "place of its centre", {.absent = "between its columns"}};
-inline const NumberKey length{"length_m", length_range, "length along the colonnade", {.absent = "epistyle_length_m"}};
-inline const NumberKey own_epistyle_height{
-    "height_m", length_range, "height of the piece", {.absent = "epistyle_height_m"}};
-inline const NumberKey seat_friction{
-    "friction", friction_range, "coefficient of friction of its seats", {.absent = "contact.friction"}};
-inline const TableKey epistyles{"epistyles",
-                                "the epistyles one by one from the left; [] for none",
+                                  "the rightmost column on which the piece lies", {.needed = true});
+inline const NumberKey epistyle_x("x_m", &EpistyleSpec::x_m, position_range, "place of its centre",
+                                  {.absent = "between its columns"});
+inline const NumberKey length("length_m", &EpistyleSpec::length_m, length_range, "length along the colonnade",
+                              {.absent = "epistyle_length_m"});
+inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, length_range, "height of the piece",
+                                           {.absent = "epistyle_height_m"});
+inline const NumberKey seat_friction("friction", &BedSpec::friction, friction_range,
+                                     "coefficient of friction of its seats", {.absent = "contact.friction"});
+inline const TableKey epistyles("epistyles", "the epistyles one by one from the left; [] for none",
                                 {&first_column, &last_column, &epistyle_x, &length, &own_epistyle_height, &mass,
                                  &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
                                  &bed_restitution, &bed_normal_damping, &bed_tangential_damping},
-                                colonnade_facts("equal pieces over all columns"),
-                                KeyType::tables};
-inline const WholeKey epistyle_bays{"epistyle_bays",
-                                    {1, most_columns - 1, "Bays that one piece spans, or \"all\"."},
-                                    1,
+                                colonnade_facts("equal pieces over all columns"), KeyType::tables);
+inline const WholeKey epistyle_bays("epistyle_bays", 1, {1, most_columns - 1, "Bays that one piece spans, or \"all\"."},
                                     "number of bays that each piece spans",
-                                    {.used = of_colonnade.used, .words = {"all"}}};
-inline const NumberKey epistyle_length{
-    "epistyle_length_m", length_range, "length of each piece, centred on its bays",
-    colonnade_facts("the pieces meet over the axes of the columns and end flush with the outer faces")};
-inline const NumberKey epistyle_height{"epistyle_height_m", length_range, "height of the epistyles",
-                                       colonnade_facts("the pieces are in `epistyles`", "0.8")};
-inline const NumberKey epistyle_mass{"epistyle_mass_kg", mass_range, "mass of each piece",
-                                     colonnade_facts("from the density")};
-inline const NumberKey epistyle_density{"epistyle_density_kg_m3", density_range, "density of the epistyles",
-                                        colonnade_facts("density_kg_m3")};
+                                    {.used = of_colonnade.used, .words = {"all"}});
+inline const NumberKey
+    epistyle_length("epistyle_length_m", length_range, "length of each piece, centred on its bays",
+                    colonnade_facts("the pieces meet over the axes of the columns and end flush with the outer faces"));
+inline const NumberKey epistyle_height("epistyle_height_m", length_range, "height of the epistyles",
+                                       colonnade_facts("the pieces are in `epistyles`", "0.8"));
+inline const NumberKey epistyle_mass("epistyle_mass_kg", mass_range, "mass of each piece",
+                                     colonnade_facts("from the density"));
+inline const NumberKey epistyle_density("epistyle_density_kg_m3", density_range, "density of the epistyles",
+                                        colonnade_facts("density_kg_m3"));
 
-inline const WordKey<StructureKind> kind{"kind", structure_kind_names, StructureSpec{}.kind,
-                                         "one column, or a colonnade: columns with or without epistyles"};
-inline const TableKey table{
-    "structure",
-    "the columns and epistyles",
+inline const WordKey<StructureKind> kind("kind", &StructureSpec::kind, structure_kind_names,
+                                         "one column, or a colonnade: columns with or without epistyles");
+inline const TableKey table(
+    "structure", "the columns and epistyles",
     {&kind,        &blocks,    &fixed_blocks,   &drums,           &drum_width,      &drum_height,   &top_width,
      &depth,       &drum_mass, &density_of_all, &capital,         &gravity,         &columns,       &column_spacing,
-     &column_list, &epistyles, &epistyle_bays,  &epistyle_length, &epistyle_height, &epistyle_mass, &epistyle_density}};
+     &column_list, &epistyles, &epistyle_bays,  &epistyle_length, &epistyle_height, &epistyle_mass, &epistyle_density});
 
 } // namespace stylobate::structure_keys

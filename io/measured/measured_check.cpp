@@ -1,5 +1,3 @@
-#include "io/measured/measured_check.hpp"
-
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/measured/measured_layout.hpp"
@@ -14,12 +12,6 @@
 
 namespace stylobate {
 namespace {
-
-/// "12 mm", "1.5 m"
-std::string distance(double metres)
-{
-    return std::abs(metres) < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
-}
 
 class Checks {
 public:
@@ -266,7 +258,7 @@ private:
             warn(at(run, "base"),
                  fmt::format("the acceleration integrated twice is {:.3f} of the displacement, with {} left over where "
                              "{} moved: units, gains or clocks of the two sensors differ.",
-                             ratio, distance(left), distance(size)));
+                             ratio, length_words(left), length_words(size)));
     }
 
     /// A constant offset of the acceleration is a parabola between its double integral and the displacement.
@@ -355,7 +347,7 @@ private:
                 note(at(run, name),
                      fmt::format("at rest all blocks have the same offset of {} from their nominal positions: the zero "
                                  "of the cameras{}.",
-                                 distance(common),
+                                 length_words(common),
                                  horizontal
                                      ? " (or of the table's displacement), or the position of the specimen on the base"
                                      : ""));
@@ -364,7 +356,7 @@ private:
                     warn(fmt::format("run {}, {}, block {}", run.name, name, b),
                          fmt::format("at rest it is {} from its nominal position relative to the others, beyond the "
                                      "tolerance of {}: inaccurate placement, a wedge under it, or its marker.",
-                                     distance(off[b] - common), distance(tolerance)));
+                                     length_words(off[b] - common), length_words(tolerance)));
         }
         if (run.blocks.theta_rad.empty())
             return;

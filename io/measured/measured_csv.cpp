@@ -1,5 +1,4 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/files/atomic_file.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/key_reader.hpp"
 #include "io/files/suggest.hpp"
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <system_error>
-#include <unistd.h>
 
 namespace stylobate {
 namespace {
@@ -26,14 +24,6 @@ constexpr const char* format_name = "stylobate-measured";
 constexpr int most = std::numeric_limits<int>::max();
 /// Any number: whether it makes sense is asked where all layouts are checked.
 const Range any = {-1e300, 1e300, false};
-
-/// The key of the noise of a series: "noise_base_acceleration_m_s2".
-std::string noise_key(const SeriesName& name)
-{
-    return fmt::format("noise_{}{}", name.column, name.suffix);
-}
-
-// ---- reading
 
 int whole(const KeyReader& table, const char* key, int absent)
 {
@@ -64,7 +54,7 @@ bool is_number(const TomlValue& value)
 void read_specimen(const KeyReader& table, Campaign& campaign)
 {
     Specimen& specimen = campaign.specimen;
-    std::vector<std::string> known = {"friction_nominal", "base_block_half_width_m", "base_block_top_m", "joints"};
+    std::vector<std::string> known = {"friction_nominal", "base_block_half_width_m", "joints"};
     for (const SpecimenList& list : specimen_lists())
         known.emplace_back(list.name);
     for (const SpecimenNumber& number : specimen_numbers())
@@ -80,7 +70,6 @@ void read_specimen(const KeyReader& table, Campaign& campaign)
         specimen.*number.member = table.number_or(number.name, any, specimen.*number.member);
     specimen.friction_nominal = table.maybe_number("friction_nominal", any);
     specimen.base_block_half_width_m = table.maybe_number("base_block_half_width_m", any);
-    specimen.base_block_top_m = table.number_or("base_block_top_m", any, 0);
     for (const TomlValue& pair : entries(table, "joints")) {
         if (pair.type != TomlValue::Type::array || pair.entries.size() != 2 || !is_number(pair.entries[0]) ||
             !is_number(pair.entries[1]))
@@ -264,7 +253,7 @@ MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& c
     std::vector<std::string> known = {"name",      "motion_id", "repeat",          "kind",        "rate_hz",
                                       "run_order", "collapsed", "collapse_time_s", "base_source", "base_clock"};
     for (const SeriesName& series : series_names())
-        known.push_back(noise_key(series));
+        known.push_back(series.noise_key());
     table.allow_only(known);
     MeasuredRun run;
     run.name = table.text("name");
@@ -284,103 +273,8 @@ MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& c
     run.base_clock = table.text_or_empty("base_clock");
     RunTable(folder / "runs" / (run.name + ".csv"), campaign, run).read();
     for (const SeriesName& series : series_names())
-        series.of(run).noise_sd = table.maybe_number(noise_key(series), any);
+        series.of(run).noise_sd = table.maybe_number(series.noise_key(), any);
     return run;
-}
-
-// ---- writing
-
-std::string list_text(const std::vector<double>& values)
-{
-    std::string text;
-    for (const double value : values)
-        text += (text.empty() ? "" : ", ") + toml_number(value);
-    return "[" + text + "]";
-}
-
-std::string toml_text(const Campaign& campaign)
-{
-    const Specimen& specimen = campaign.specimen;
-    std::string text = fmt::format("[campaign]\nformat = \"{}\"\nformat_version = 1\n", format_name);
-    const auto add = [&](std::string_view key, const std::string& value) {
-        text += fmt::format("{} = {}\n", key, value);
-    };
-    if (!specimen.name.empty())
-        add("specimen", toml_quoted(specimen.name));
-    add("gravity_m_s2", toml_number(specimen.gravity_m_s2));
-    text += "\n[specimen]\n";
-    if (specimen.friction_nominal)
-        add("friction_nominal", toml_number(*specimen.friction_nominal));
-    for (const SpecimenNumber& number : specimen_numbers())
-        add(number.name, toml_number(specimen.*number.member));
-    if (specimen.base_block_half_width_m)
-        add("base_block_half_width_m", toml_number(*specimen.base_block_half_width_m));
-    add("base_block_top_m", toml_number(specimen.base_block_top_m));
-    for (const SpecimenList& list : specimen_lists())
-        if (!(specimen.*list.member).empty())
-            add(list.name, list_text(specimen.*list.member));
-    std::string joints;
-    for (const auto& [lower, upper] : specimen.joints)
-        joints += fmt::format("{}[{}, {}]", joints.empty() ? "" : ", ", lower, upper);
-    if (!joints.empty())
-        add("joints", "[" + joints + "]");
-    for (const MeasuredRun& run : campaign.runs) {
-        text += "\n[[run]]\n";
-        add("name", toml_quoted(run.name));
-        add("motion_id", fmt::format("{}", run.motion_id));
-        add("repeat", fmt::format("{}", run.repeat));
-        if (!run.kind.empty())
-            add("kind", toml_quoted(run.kind));
-        if (run.rate_hz != 0)
-            add("rate_hz", toml_number(run.rate_hz));
-        if (run.run_order)
-            add("run_order", fmt::format("{}", *run.run_order));
-        if (run.collapsed)
-            add("collapsed", *run.collapsed ? "true" : "false");
-        add("collapse_time_s", toml_number(run.collapse_time_s));
-        add("base_source", toml_quoted(to_string(run.base_source)));
-        if (!run.base_clock.empty())
-            add("base_clock", toml_quoted(run.base_clock));
-        for (const SeriesName& series : series_names())
-            if (const auto noise = series.in(run).noise_sd)
-                add(noise_key(series), toml_number(*noise));
-    }
-    return text;
-}
-
-std::string csv_text(const MeasuredRun& run, std::size_t blocks)
-{
-    std::string text = "time_s";
-    std::vector<std::pair<const double*, std::size_t>> columns = {{run.time_s.data(), 1}}; // first value, step
-    for (const SeriesName& name : series_names()) {
-        const Series& series = name.in(run);
-        if (series.empty())
-            continue;
-        if (!name.per_block) {
-            text += fmt::format(",{}{}", name.column, name.suffix);
-            columns.emplace_back(series.values.data(), 1);
-        }
-        for (std::size_t block = 0; name.per_block && block < blocks; ++block) {
-            text += fmt::format(",{}{}{}", name.column, block, name.suffix);
-            columns.emplace_back(series.values.data() + block, blocks);
-        }
-    }
-    text += '\n';
-    for (std::size_t i = 0; i < run.time_s.size(); ++i)
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            const double value = columns[c].first[i * columns[c].second];
-            if (!std::isnan(value))
-                fmt::format_to(std::back_inserter(text), "{}", value); // shortest that reads back as the same double
-            text += c + 1 < columns.size() ? ',' : '\n';
-        }
-    return text;
-}
-
-void write_file(const fs::path& path, const std::string& text)
-{
-    AtomicFile file(path);
-    file.write(text);
-    file.commit();
 }
 
 } // namespace
@@ -416,36 +310,6 @@ Campaign read_measured_csv(const fs::path& folder)
     std::sort(campaign.runs.begin(), campaign.runs.end(),
               [](const MeasuredRun& a, const MeasuredRun& b) { return a.name < b.name; });
     return campaign;
-}
-
-void write_measured_csv(const Campaign& campaign, const fs::path& folder)
-{
-    const auto fail = [&](const std::error_code& error) {
-        if (error)
-            throw InputError(folder.string(), 0,
-                             fmt::format("cannot be made: {}.\n  Name a new folder whose parent exists and can be "
-                                         "written; nothing was written.",
-                                         error.message()));
-    };
-    const fs::path target = folder.filename().empty() ? folder.parent_path() : folder;
-    if (fs::exists(target))
-        throw InputError(folder.string(), 0, "exists already.\n  Name a new folder; nothing was written.");
-    const fs::path making =
-        target.parent_path() / fmt::format(".{}.{}.creating", target.filename().string(), ::getpid());
-    std::error_code error;
-    fs::create_directory(making, error);
-    fail(error);
-    try {
-        fs::create_directory(making / "runs");
-        for (const MeasuredRun& run : campaign.runs)
-            write_file(making / "runs" / (run.name + ".csv"), csv_text(run, block_count(campaign)));
-        write_file(making / toml_name, toml_text(campaign));
-        fs::rename(making, target, error);
-        fail(error);
-    } catch (...) {
-        fs::remove_all(making, error);
-        throw;
-    }
 }
 
 } // namespace stylobate

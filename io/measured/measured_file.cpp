@@ -1,9 +1,17 @@
 #include "io/measured/measured_file.hpp"
 
-#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_layout.hpp"
+#include "io/store/result_seal.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <span>
 #include <system_error>
+#include <vector>
 
 namespace stylobate {
 
@@ -18,15 +26,27 @@ Campaign read_campaign(const std::filesystem::path& path)
     return campaign;
 }
 
-void write_campaign(const Campaign& campaign, const std::filesystem::path& path)
+std::string fingerprint(const std::filesystem::path& path)
 {
-    Campaign copy = campaign;
-    copy.source = path.string();
-    check_shapes(copy);
-    if (path.extension() == ".h5" || path.extension() == ".hdf5")
-        write_measured_hdf5(copy, path);
-    else
-        write_measured_csv(copy, path);
+    std::uint32_t sum = 0;
+    const auto add = [&](const std::filesystem::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+        sum = crc32_of(std::as_bytes(std::span(content)), sum);
+    };
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+        std::vector<std::filesystem::path> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(path, error))
+            if (entry.is_regular_file(error))
+                files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const auto& file : files)
+            add(file);
+    } else {
+        add(path);
+    }
+    return fmt::format("crc32 {:08x}", sum);
 }
 
 } // namespace stylobate

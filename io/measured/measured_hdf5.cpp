@@ -144,7 +144,6 @@ private:
             specimen.*names.member = number(group, names.name).value_or(specimen.*names.member);
         specimen.friction_nominal = number(group, "friction_nominal");
         specimen.base_block_half_width_m = number(group, "base_block_half_width_m");
-        specimen.base_block_top_m = number(group, "base_block_top_m").value_or(0);
         if (!hdf5::exists(group, "joints"))
             return;
         const hdf5::Numbers joints = hdf5::read_numbers(group, "joints");
@@ -304,100 +303,12 @@ void try_in_child(const std::filesystem::path& path, std::uint64_t size)
                          "is damaged: the HDF5 library crashes on it.\n  Use another copy of the file.");
 }
 
-void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
-{
-    const hdf5::Handle group = hdf5::create_group(runs, run.name);
-    hdf5::write_integer(group.id(), "motion_id", run.motion_id);
-    hdf5::write_integer(group.id(), "repeat", run.repeat);
-    if (!run.kind.empty())
-        hdf5::write_text(group.id(), "kind", run.kind);
-    if (run.rate_hz != 0)
-        hdf5::write_real(group.id(), "rate_hz", run.rate_hz);
-    if (run.run_order)
-        hdf5::write_integer(group.id(), "run_order", *run.run_order);
-    if (run.collapsed)
-        hdf5::write_integer(group.id(), "collapsed", *run.collapsed ? 1 : 0);
-    hdf5::write_real(group.id(), "collapse_time_s", run.collapse_time_s);
-    if (run.time_s.empty())
-        return;
-    hdf5::write_array(group.id(), "time_s", run.time_s, {run.time_s.size()}, "s");
-    hdf5::create_group(group.id(), "base");
-    hdf5::create_group(group.id(), "blocks");
-    for (const SeriesName& name : series_names()) {
-        const Series& series = name.in(run);
-        if (series.empty())
-            continue;
-        const hdf5::Dims dims = name.per_block ? hdf5::Dims{run.time_s.size(), blocks} : hdf5::Dims{run.time_s.size()};
-        hdf5::write_array(group.id(), name.path, series.values, dims, name.unit);
-        const hdf5::Handle object = hdf5::open_object(group.id(), name.path);
-        if (series.noise_sd)
-            hdf5::write_real(object.id(), "noise_sd", *series.noise_sd);
-        if (!std::string(name.path).starts_with("base/"))
-            continue;
-        hdf5::write_text(object.id(), "source", to_string(run.base_source));
-        if (!run.base_clock.empty())
-            hdf5::write_text(object.id(), "clock", run.base_clock);
-    }
-}
-
-void write_specimen(hid_t file, const Specimen& specimen)
-{
-    const hdf5::Handle group = hdf5::create_group(file, "specimen");
-    for (const SpecimenNumber& number : specimen_numbers())
-        hdf5::write_real(group.id(), number.name, specimen.*number.member);
-    if (specimen.friction_nominal)
-        hdf5::write_real(group.id(), "friction_nominal", *specimen.friction_nominal);
-    if (specimen.base_block_half_width_m)
-        hdf5::write_real(group.id(), "base_block_half_width_m", *specimen.base_block_half_width_m);
-    hdf5::write_real(group.id(), "base_block_top_m", specimen.base_block_top_m);
-    for (const SpecimenList& list : specimen_lists())
-        if (const std::vector<double>& values = specimen.*list.member; !values.empty())
-            hdf5::write_array(group.id(), list.name, values, {values.size()},
-                              list.dimension == Dimension::mass ? "kg" : "m");
-    std::vector<std::int32_t> joints;
-    for (const auto& [lower, upper] : specimen.joints)
-        joints.insert(joints.end(), {lower, upper});
-    if (!joints.empty())
-        hdf5::write_array(group.id(), "joints", joints, {specimen.joints.size(), 2}, "");
-}
-
 } // namespace
 
 Campaign read_measured_hdf5(const std::filesystem::path& path)
 {
     try_in_child(path, FileHandle::open(path, false).size());
     return read_measured_hdf5_here(path);
-}
-
-void write_measured_hdf5(const Campaign& campaign, const std::filesystem::path& path)
-{
-    const std::filesystem::path making =
-        path.parent_path() / fmt::format(".{}.{}.creating", path.filename().string(), ::getpid());
-    try {
-        hdf5::Handle file = hdf5::create_file(making, 0);
-        hdf5::write_text(file.id(), "format", format_name);
-        hdf5::write_integer(file.id(), "format_version", format_version);
-        if (!campaign.specimen.name.empty())
-            hdf5::write_text(file.id(), "specimen", campaign.specimen.name);
-        hdf5::write_real(file.id(), "gravity_m_s2", campaign.specimen.gravity_m_s2);
-        write_specimen(file.id(), campaign.specimen);
-        {
-            const hdf5::Handle runs = hdf5::create_group(file.id(), "runs");
-            const std::size_t blocks = block_count(campaign);
-            for (const MeasuredRun& run : campaign.runs)
-                write_run(runs.id(), run, blocks);
-        }
-        file.close();
-        rename_over(making, path);
-    } catch (const hdf5::Error& error) {
-        std::error_code ignored;
-        std::filesystem::remove(making, ignored);
-        throw InputError(
-            path.string(), 0,
-            fmt::format("cannot be written: {}.\n  Name a file in a folder that exists, can be written and "
-                        "has room; nothing was written.",
-                        error.what()));
-    }
 }
 
 } // namespace stylobate

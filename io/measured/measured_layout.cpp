@@ -79,6 +79,11 @@ const char* known_units(Dimension dimension)
     return "m/s2, cm/s2, mm/s2, g";
 }
 
+std::string length_words(double metres)
+{
+    return std::abs(metres) < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
+}
+
 double largest_of_series(Dimension dimension)
 {
     return dimension == Dimension::length ? 200 : 1000;
@@ -118,12 +123,13 @@ const std::array<SpecimenList, 6>& specimen_lists()
     return lists;
 }
 
-const std::array<SpecimenNumber, 3>& specimen_numbers()
+const std::array<SpecimenNumber, 4>& specimen_numbers()
 {
-    static const std::array<SpecimenNumber, 3> numbers{{
+    static const std::array<SpecimenNumber, 4> numbers{{
         {"mass_tolerance", &Specimen::mass_tolerance},
         {"width_tolerance", &Specimen::width_tolerance},
         {"placement_tolerance_m", &Specimen::placement_tolerance_m},
+        {"base_block_top_m", &Specimen::base_block_top_m},
     }};
     return numbers;
 }

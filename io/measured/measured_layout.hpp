@@ -24,6 +24,9 @@ std::optional<double> unit_in_si(std::string_view spelling, Dimension dimension)
 /// The units of a dimension, for messages.
 const char* known_units(Dimension dimension);
 
+/// A length for messages: "12 mm", "1.5 m".
+std::string length_words(double metres);
+
 /// One of the series of a run.
 struct SeriesName {
     const char* path;   ///< of the data set in the group of its run
@@ -35,6 +38,8 @@ struct SeriesName {
     Series& (*of)(MeasuredRun&);
 
     const Series& in(const MeasuredRun& run) const { return of(const_cast<MeasuredRun&>(run)); }
+    /// The key of its noise beside the CSV file: "noise_base_acceleration_m_s2".
+    std::string noise_key() const { return std::string("noise_") + column + suffix; }
 };
 const std::array<SeriesName, 8>& series_names();
 
@@ -51,7 +56,7 @@ struct SpecimenNumber {
     const char* name;
     double Specimen::*member;
 };
-const std::array<SpecimenNumber, 3>& specimen_numbers();
+const std::array<SpecimenNumber, 4>& specimen_numbers();
 
 /// The number of blocks of the campaign: from the first entry that gives it.
 std::size_t block_count(const Campaign& campaign);
@@ -66,11 +71,18 @@ const char* to_string(BaseSource source);
 /// @throws InputError
 void check_shapes(Campaign& campaign);
 
+/// Refuses a specimen that cannot be: sizes in another unit, densities that no stone has, blocks that overlap, joints
+/// between what does not touch, a block without a joint. @throws InputError
+void check_specimen(const Campaign& campaign);
+
+/// All checks: the specimen, then run by run clocks, units, missing values, noise, saturation, offsets, rest places and
+/// collapses, then repeats against each other. Adds to the findings of a campaign. @pre its shapes are right
+/// @throws InputError for what cannot be used
+void check_campaign(Campaign& campaign);
+
 Campaign read_measured_hdf5(const std::filesystem::path& file);
 /// The same without the child process that reads the file first, in case the HDF5 library breaks on it.
 Campaign read_measured_hdf5_here(const std::filesystem::path& file);
-void write_measured_hdf5(const Campaign& campaign, const std::filesystem::path& file);
 Campaign read_measured_csv(const std::filesystem::path& folder);
-void write_measured_csv(const Campaign& campaign, const std::filesystem::path& folder);
 
 } // namespace stylobate

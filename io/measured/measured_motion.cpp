@@ -245,8 +245,6 @@ MeasuredMotion smoothed_base_motion(const MeasuredRun& run)
     double white = 0, walk = 0;
     const Process rough = likeliest(problem, false, white), even = likeliest(problem, true, walk);
     const Process process = walk > white ? even : rough;
-    result.smooth_jerk = process.smooth_jerk;
-    result.process_sd = process.sd;
 
     const Smoothed smoothed = kalman::smoothed(problem, process);
     Motion& motion = result.motion;

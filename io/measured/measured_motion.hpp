@@ -25,8 +25,6 @@ struct MeasuredMotion {
     SensorFit displacement;                   ///< m
     SensorFit cameras;                        ///< m, their view of the table
     bool assumed_at_rest = false;             ///< only the acceleration is there: rest at the start, and at a quiet end
-    bool smooth_jerk = false;                 ///< the process: the jerk's rate is white, not the jerk
-    double process_sd = 0; ///< of the jerk [m/s3], or of its change from sample to sample where `smooth_jerk`
 };
 
 /// The most likely motion, given the acceleration with a constant bias, the displacement, and the table as the cameras

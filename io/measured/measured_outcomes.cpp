@@ -4,6 +4,7 @@
 #include "io/files/csv_fields.hpp"
 #include "io/files/suggest.hpp"
 #include "io/measured/measured_layout.hpp"
+#include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <tuple>
 
 namespace stylobate {
 namespace {
@@ -47,9 +47,7 @@ constexpr double largest_ratio_s = 20; ///< of PGV and PGA
 
 std::optional<bool> fell_of(std::string_view word)
 {
-    std::string lower(word);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const std::string lower = lower_case(word);
     for (const char* yes : {"1", "y", "yes", "true", "fell", "collapsed", "overturned", "toppled"})
         if (lower == yes)
             return true;
@@ -165,14 +163,11 @@ public:
     /// Equal motions get one number, and their rows count as its repeats in the order of the file.
     void count_motions()
     {
-        using Motion = std::tuple<std::string, double, double, double, double>;
-        std::map<Motion, int> ids;
+        std::map<decltype(MeasuredOutcome().motion()), int> ids;
         std::map<int, int> repeats;
         for (MeasuredOutcome& row : table_.rows) {
-            const Motion motion{row.motion_file, row.amplitude_m.value_or(0), row.frequency_hz.value_or(0),
-                                row.pga_m_s2.value_or(0), row.pgv_over_pga_s.value_or(0)};
             if (!has_id_)
-                row.motion_id = ids.emplace(motion, static_cast<int>(ids.size())).first->second;
+                row.motion_id = ids.emplace(row.motion(), static_cast<int>(ids.size())).first->second;
             if (!has_repeat_)
                 row.repeat = repeats[row.motion_id]++;
         }

@@ -1,7 +1,6 @@
 /// Whether a specimen can be: sizes, densities, and what touches what.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
@@ -11,12 +10,6 @@
 
 namespace stylobate {
 namespace {
-
-/// "12 mm", "1.5 m"
-std::string distance(double metres)
-{
-    return std::abs(metres) < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
-}
 
 class SpecimenChecks {
 public:
@@ -108,13 +101,13 @@ public:
                 refuse(
                     fmt::format("specimen: joint {}: {} do not touch at rest: the upper one's lower face is {} {} the "
                                 "lower one's upper face.\n  Correct rest_y_m, half_height_m or the joint.",
-                                j, pair, distance(std::abs(gap)), gap > 0 ? "above" : "below"));
+                                j, pair, length_words(std::abs(gap)), gap > 0 ? "above" : "below"));
             const double shared =
                 on_base ? 1 : std::min(edge(lower, 3), edge(upper, 3)) - std::max(edge(lower, 2), edge(upper, 2));
             if (shared <= 0)
                 refuse(fmt::format("specimen: joint {}: {} are beside each other, {} apart.\n  Correct rest_x_m, "
                                    "half_width_m or the joint.",
-                                   j, pair, distance(-shared)));
+                                   j, pair, length_words(-shared)));
         }
         for (std::size_t b = 1; b < n; ++b)
             for (std::size_t a = 0; a < b; ++a) {
@@ -124,7 +117,7 @@ public:
                     refuse(
                         fmt::format("specimen: blocks {} and {} overlap at rest by {}.\n  Correct rest_x_m, rest_y_m "
                                     "or their sizes.",
-                                    a, b, distance(std::min(wide, high))));
+                                    a, b, length_words(std::min(wide, high))));
             }
     }
 

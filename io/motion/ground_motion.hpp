@@ -52,7 +52,7 @@ RockingMeasures rocking_measures(const IntensityMeasures& measures, double half_
 ///      is off (a mean of some per cent of the PGA), it moves by about as much as the line was off.
 ///
 /// Where the study asks for it (`excitation.band_pass_hz`), a band-pass filter comes between 2 and 3
-/// (io/motion/band_pass.hpp: Butterworth of order 4, in the frequency domain, acausal, with padding), and the ends are
+/// (`band_pass`: Butterworth of order 4, in the frequency domain, acausal, with padding), and the ends are
 /// tapered once more, since it rings into them. Without it, what a record has of long-period noise above the order of
 /// the polynomial stays. A permanent displacement of the ground is taken out with the drift, from which it cannot be
 /// distinguished.
@@ -90,5 +90,18 @@ std::vector<double> spectral_acceleration(const Record& record, const std::vecto
                                           double damping_ratio = 0.05);
 std::vector<double> spectral_acceleration(const std::vector<double>& acceleration_m_s2, double dt_s,
                                           const std::vector<double>& periods_s, double damping_ratio = 0.05);
+
+/// Amplitude of what passes at a frequency: a high-pass and a low-pass of Butterworth, each of order 4,
+///
+///   gain = 1 / sqrt(1 + (low / f)^8) / sqrt(1 + (f / high)^8)
+///
+/// so -3 dB at each corner (where they lie apart), and 24 dB an octave outside.
+double band_pass_gain(double frequency_hz, const BandPass& corners);
+
+/// Filters samples in the frequency domain, without a change of phase (acausal): each component is multiplied with
+/// its gain. The samples are set between zeros of 1.5 x order / low on either side, in which the filter rings out
+/// (the length that Converse and Brady, BAP, 1992, give for both sides together), so that no end reaches the other.
+/// What rings beyond the samples is cut off.
+void band_pass(std::vector<double>& samples, double dt_s, const BandPass& corners);
 
 } // namespace stylobate

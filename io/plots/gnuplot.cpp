@@ -5,10 +5,12 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/files/utf8.hpp"
 #include "io/plots/program.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
@@ -57,6 +59,31 @@ Terminal terminal_of(const fs::path& picture, PictureSize size)
                 " background '#ffffff' linewidth 2 fontscale 1\n} else {\n    set terminal png truecolor " + pixels +
                 " linewidth 2\n}\n",
             "\x89PNG"};
+}
+
+/// Tics of a logarithmic axis: 1, 2, 5 of each decade, all digits if that gives fewer than three labels.
+std::string log_tics(char letter, double from, double to)
+{
+    std::string tics;
+    const auto add = [&](std::array<bool, 10> labelled) {
+        int labels = 0;
+        tics.clear();
+        for (int exponent = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, exponent) <= to; ++exponent)
+            for (std::size_t digit = 1; digit <= 9; ++digit) {
+                // From its text, so that 0.3 is 0.3.
+                const double value = std::stod(fmt::format("{}e{}", digit, exponent));
+                if (value < from || value > to)
+                    continue;
+                labels += labelled[digit] ? 1 : 0;
+                tics += labelled[digit] ? fmt::format("{}'{}' {}", tics.empty() ? "" : ", ", value, value)
+                                        : fmt::format("{}'' {} 1", tics.empty() ? "" : ", ", value);
+            }
+        return labels;
+    };
+    if (add({false, true, true, false, false, true, false, false, false, false}) < 3)
+        add({false, true, true, true, true, true, true, true, true, true});
+    // An axis within one digit has no such tic: gnuplot's own then.
+    return tics.empty() ? std::string() : fmt::format("set {}tics ({})\n", letter, tics);
 }
 
 } // namespace
@@ -126,6 +153,28 @@ void run_gnuplot(const std::string& script, PictureSize size, const fs::path& fi
     }
     target.write(picture);
     target.commit();
+}
+
+std::string gnuplot_axis(char letter, const CellAxis& axis)
+{
+    const double from = axis.edges.front(), to = axis.edges.back();
+    const std::string range = fmt::format("set {}range [{}:{}]\n", letter, from, to);
+    return axis.log ? fmt::format("set logscale {}\n", letter) + range + log_tics(letter, from, to) : range;
+}
+
+std::string viridis_colour(double value)
+{
+    const double at = std::clamp(value, 0.0, 1.0) * static_cast<double>(viridis.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
+    const double share = at - static_cast<double>(i);
+    const auto part = [](const char* colour, std::size_t k) { // of "#rrggbb"
+        return static_cast<double>(std::stoi(std::string(colour).substr(1 + 2 * k, 2), nullptr, 16));
+    };
+    std::string mixed = "#";
+    for (std::size_t k = 0; k < 3; ++k)
+        mixed +=
+            fmt::format("{:02x}", std::lround((1 - share) * part(viridis[i], k) + share * part(viridis[i + 1], k)));
+    return mixed;
 }
 
 std::string viridis_palette()

@@ -8,6 +8,8 @@
 
 namespace stylobate {
 
+struct CellAxis;
+
 /// Size of a picture in pixels.
 struct PictureSize {
     int width = 1800;
@@ -17,7 +19,9 @@ struct PictureSize {
 /// viridis (van der Walt and Smith, 2015): even steps look even, to the colour-blind too, and in grey.
 inline constexpr std::array<const char*, 11> viridis{"#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c",
                                                      "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"};
-/// The command that makes it the palette.
+/// The colour at a value in [0, 1], "#rrggbb"; beyond, that of the nearest end.
+std::string viridis_colour(double value);
+/// The command that makes viridis the palette.
 std::string viridis_palette();
 
 /// Where gnuplot is: the program named by the environment variable STYLOBATE_GNUPLOT if that is set, else the first
@@ -31,6 +35,9 @@ std::string gnuplot_text(std::string_view text);
 
 /// Commands for the two lines above a picture: the title (smaller if it is long) and the subtitle.
 std::string gnuplot_heading(std::string_view title, std::string_view subtitle, PictureSize size = {});
+
+/// Commands for the scale, the range (first to last edge) and the tics of an axis.
+std::string gnuplot_axis(char letter, const CellAxis& axis);
 
 /// Runs a script whose terminal and output are set already (UTF-8, no markup in texts) and writes the picture to
 /// `file`, whole or not at all: as SVG or PDF by its file extension, else as PNG. The script and its by-products

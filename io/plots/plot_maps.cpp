@@ -2,7 +2,7 @@
 
 #include "io/plots/contour.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_axis.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ const MapClass* class_of(const std::vector<MapClass>& classes, double value)
 
 /// An edge, and a little more: each cell reaches under its right and upper neighbours, drawn after it, so that no seams
 /// shine through.
-double beyond(const PlotAxis& axis, std::size_t edge)
+double beyond(const CellAxis& axis, std::size_t edge)
 {
     if (edge + 1 == axis.edges.size())
         return axis.edges[edge];
@@ -37,7 +37,7 @@ double beyond(const PlotAxis& axis, std::size_t edge)
 }
 
 /// The cells of a panel: extent, and the colour as a number or as such.
-std::string cells(const MapPicture& picture, const MapPanel& panel, const PlotAxis& f, const PlotAxis& a)
+std::string cells(const MapPicture& picture, const MapPanel& panel, const CellAxis& f, const CellAxis& a)
 {
     std::string data;
     const std::size_t np = picture.pga_m_s2.size();
@@ -58,7 +58,7 @@ std::string cells(const MapPicture& picture, const MapPanel& panel, const PlotAx
 }
 
 /// Lines of the picture's function, through the middles of the cells.
-std::string lines(const MapPicture& picture, const PlotAxis& f, const PlotAxis& a)
+std::string lines(const MapPicture& picture, const CellAxis& f, const CellAxis& a)
 {
     std::vector<double> x, y;
     for (const double value : f.values)
@@ -104,8 +104,8 @@ std::string ends(const MapPanel& panel)
 
 void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
 {
-    const PlotAxis f = make_plot_axis(picture.frequency_hz, "frequency_hz");
-    const PlotAxis a = make_plot_axis(picture.pga_m_s2, "pga_m_s2");
+    const CellAxis f = make_cell_axis(picture.frequency_hz, "frequency_hz");
+    const CellAxis a = make_cell_axis(picture.pga_m_s2, "pga_m_s2");
     const auto columns = static_cast<std::size_t>(picture.columns);
     const std::size_t rows = (picture.panels.size() + columns - 1) / columns;
     const bool boxes = std::any_of(picture.panels.begin(), picture.panels.end(),
@@ -140,7 +140,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
     script += "unset key\nset border 31 linewidth 0.8\nset tics out nomirror font ',16'\nset xtics offset "
               "0,0.4\nset cbtics offset -0.9,0\nset style fill solid 1.0 "
               "noborder\n" +
-              f.commands('x') + a.commands('y');
+              gnuplot_axis('x', f) + gnuplot_axis('y', a);
 
     const double left = 0.075, right = 0.985, top = 0.88, bottom = 0.1;
     const double width = (right - left) / static_cast<double>(columns),
@@ -157,7 +157,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
         script += "set title " + gnuplot_text(panel.title) +
                   fmt::format(" font ',{}' offset 0,-0.7\n", columns > 3 ? 16 : 19);
         script += lowest ? "set xlabel 'frequency [Hz]' font ',17' offset 0,0.9\n" : "unset xlabel\n";
-        script += k % columns == 0 ? a.commands('y') : without_labels(a.commands('y'));
+        script += k % columns == 0 ? gnuplot_axis('y', a) : without_labels(gnuplot_axis('y', a));
         script += k % columns == 0
                       ? "set ylabel 'peak ground acceleration [m/s²]' font ',17' offset 0.8,0\nset format y\n"
                       : "unset ylabel\nset format y ''\n";

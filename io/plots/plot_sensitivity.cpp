@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_axis.hpp"
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +25,7 @@ constexpr std::array<CurveStyle, 6> styles{
 
 std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& frequencies_hz)
 {
-    const PlotAxis axis = make_plot_axis(surface.frequency_hz, "frequency_hz");
+    const CellAxis axis = make_cell_axis(surface.frequency_hz, "frequency_hz");
     const std::size_t count = axis.values.size();
     if (frequencies_hz.size() > styles.size())
         throw InputError(fmt::format("{} frequencies are too many for one picture of slices.\n  Name 1 to {} of them.",
@@ -42,10 +41,7 @@ std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vect
                 fmt::format("--frequency {}: is beyond the frequencies of the surface.\n  Name one from {} "
                             "to {} Hz.",
                             asked, axis.values.front(), axis.values.back()));
-        const auto distance = [&](double value) { return std::abs(axis.scaled(value) - axis.scaled(asked)); };
-        const auto nearest = std::min_element(axis.values.begin(), axis.values.end(),
-                                              [&](double a, double b) { return distance(a) < distance(b); });
-        rows.insert(static_cast<std::size_t>(nearest - axis.values.begin()));
+        rows.insert(axis.nearest(asked));
     }
     return {rows.begin(), rows.end()};
 }
@@ -56,7 +52,7 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
     const std::string below_title =
         describe_realizations(surface) + " · bars and bands: " + describe_interval(surface.interval);
     const std::vector<std::size_t> rows = slice_rows(surface, frequencies_hz);
-    const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
+    const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
     const std::size_t np = pga.values.size();
 
     // Curves that coincide must all be seen: each is thinner than those drawn before it, and its points with their bars
@@ -101,7 +97,7 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
                         k, style.colour, style.point, surface.frequency_hz[rows[k]], 1.4 + thicker * wider);
     }
     const std::string script =
-        data + gnuplot_heading(title, below_title) + pga.commands('x') +
+        data + gnuplot_heading(title, below_title) + gnuplot_axis('x', pga) +
         "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\nset tmargin at screen "
         "0.84\n"
         "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"

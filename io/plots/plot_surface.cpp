@@ -1,20 +1,14 @@
 #include "io/plots/plot_surface.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/contour.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_axis.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <iterator>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace stylobate {
@@ -23,7 +17,7 @@ namespace {
 constexpr std::array<double, 3> contour_levels{0.05, 0.5, 0.95};
 
 /// The nodes of the contour grid along one axis: the cells' centres, and the frame, to which the outer cells reach.
-std::vector<double> contour_nodes(const PlotAxis& axis)
+std::vector<double> contour_nodes(const CellAxis& axis)
 {
     std::vector<double> nodes{0.0};
     for (const double value : axis.values)
@@ -33,7 +27,7 @@ std::vector<double> contour_nodes(const PlotAxis& axis)
 }
 
 /// The contour lines of one level in the unit square.
-std::vector<ContourLine> contours(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a, double level)
+std::vector<ContourLine> contours(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a, double level)
 {
     const std::size_t nf = surface.frequency_hz.size();
     const std::size_t np = surface.pga_m_s2.size();
@@ -83,7 +77,7 @@ ContourPoint label_place(const std::vector<ContourLine>& own, const std::vector<
     return best;
 }
 
-std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a)
+std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a)
 {
     std::vector<SurfaceContour> all;
     for (const double level : contour_levels)
@@ -100,23 +94,30 @@ std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const PlotA
     return all;
 }
 
+/// Lines of the unit square as a data block of gnuplot.
+std::string contour_block(const std::string& name, const std::vector<ContourLine>& lines, const CellAxis& f,
+                          const CellAxis& a)
+{
+    std::string data = fmt::format("${} << EOD\n", name);
+    for (const ContourLine& line : lines) {
+        for (const ContourPoint& p : line)
+            data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
+        data += '\n';
+    }
+    return data + "EOD\n";
+}
+
 struct ContourCommands {
     std::string data;
     std::string labels;
 };
 
-ContourCommands contour_commands(const SurfaceTable& surface, const PlotAxis& f, const PlotAxis& a)
+ContourCommands contour_commands(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a)
 {
     ContourCommands commands;
     const std::vector<SurfaceContour> all = contours_on(surface, f, a);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        commands.data += fmt::format("$contour{} << EOD\n", k);
-        for (const ContourLine& line : all[k].lines) {
-            for (const ContourPoint& p : line)
-                commands.data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
-            commands.data += '\n';
-        }
-        commands.data += "EOD\n";
+        commands.data += contour_block(fmt::format("contour{}", k), all[k].lines, f, a);
         if (!all[k].lines.empty())
             commands.labels +=
                 fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
@@ -126,7 +127,7 @@ ContourCommands contour_commands(const SurfaceTable& surface, const PlotAxis& f,
 }
 
 /// The contour lines 0.5 of the two surfaces of a range, as data blocks $low and $high where there are lines.
-std::string range_commands(const SurfaceTable& surface, const SurfaceRange& range, const PlotAxis& f, const PlotAxis& a)
+std::string range_commands(const SurfaceTable& surface, const SurfaceRange& range, const CellAxis& f, const CellAxis& a)
 {
     std::string data;
     SurfaceTable other = surface;
@@ -135,16 +136,8 @@ std::string range_commands(const SurfaceTable& surface, const SurfaceRange& rang
             throw InputError("the band over contact laws has other cells than the surface: one of the two is not of "
                              "this study");
         other.probability = probability;
-        const std::vector<ContourLine> lines = contours(other, f, a, 0.5);
-        if (lines.empty())
-            return;
-        data += fmt::format("${} << EOD\n", name);
-        for (const ContourLine& line : lines) {
-            for (const ContourPoint& p : line)
-                data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
-            data += '\n';
-        }
-        data += "EOD\n";
+        if (const std::vector<ContourLine> lines = contours(other, f, a, 0.5); !lines.empty())
+            data += contour_block(name, lines, f, a);
     };
     add("low", range.low);
     add("high", range.high);
@@ -165,54 +158,17 @@ std::string subtitle(const SurfaceTable& surface)
 
 std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
 {
-    const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
-    const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
+    const CellAxis frequency = make_cell_axis(surface.frequency_hz, "frequency_hz");
+    const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
     return contours_on(surface, frequency, pga);
-}
-
-std::string describe_interval(const std::string& interval)
-{
-    if (interval == "none")
-        return "no interval: fewer than 8 different motions";
-    const std::size_t blank = interval.find(' ');
-    if (blank == std::string::npos || blank == 0)
-        return interval;
-    double level = 0; // not by strtod: the locale of a program that uses the library may have commas
-    const char* const all = interval.data() + interval.size();
-    const auto [end, error] = std::from_chars(interval.data() + blank + 1, all, level);
-    if (error != std::errc{} || end != all || !(level > 0 && level < 1))
-        return interval;
-    std::string name = interval.substr(0, blank);
-    if (name == "motions")
-        return fmt::format("{:.6g} % interval, clustered by motion", 100 * level);
-    if (name != "adaptive" && name != "bootstrap" && name != "resampling") // the others are people
-        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-    return fmt::format("{:.6g} % {} interval", 100 * level, name);
-}
-
-std::string describe_realizations(const SurfaceTable& surface)
-{
-    const std::size_t nf = surface.frequency_hz.size();
-    const std::size_t np = surface.pga_m_s2.size();
-    const std::size_t cells = nf * np;
-    if (cells == 0 || surface.trials.size() != cells || surface.collapses.size() != cells ||
-        surface.probability.size() != cells || surface.lower.size() != cells || surface.upper.size() != cells)
-        throw InputError(
-            fmt::format("the surface of {} x {} cells has tables of other sizes: the results are damaged, or not those "
-                        "of a surface.\n  Draw the finished results of a study with kind = \"surface\".",
-                        nf, np));
-    const std::uint64_t all = std::accumulate(surface.trials.begin(), surface.trials.end(), std::uint64_t{0});
-    const auto [least, most] = std::minmax_element(surface.trials.begin(), surface.trials.end());
-    return fmt::format("{} realizations, {} in each of {} × {} cells", all,
-                       *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most), nf, np);
 }
 
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
                   const std::filesystem::path& png, const std::optional<SurfaceRange>& range)
 {
     const std::string below_title = subtitle(surface);
-    const PlotAxis frequency = make_plot_axis(surface.frequency_hz, "frequency_hz");
-    const PlotAxis pga = make_plot_axis(surface.pga_m_s2, "pga_m_s2");
+    const CellAxis frequency = make_cell_axis(surface.frequency_hz, "frequency_hz");
+    const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
     const ContourCommands contour = contour_commands(surface, frequency, pga);
 
     // Each cell reaches a pixel under its right and upper neighbours, drawn after it: no seams shine through.
@@ -245,7 +201,7 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
               gnuplot_text("probability of " + limit) +
               " offset 0.8,0\n"
               "set style fill solid 1.0 noborder\n" +
-              frequency.commands('x') + pga.commands('y');
+              gnuplot_axis('x', frequency) + gnuplot_axis('y', pga);
     if (range)
         script += fmt::format("set label {} at screen 0.5, screen 0.883 center font ',18' textcolor rgb '#a34e00'\n",
                               gnuplot_text(range->words + "; dashed: 0.5 of the lowest and the highest"));

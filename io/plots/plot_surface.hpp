@@ -40,11 +40,4 @@ struct SurfaceContour {
 /// @throws InputError as `plot_surface` does, of the axes
 std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface);
 
-/// "wilson 0.95" -> "95 % Wilson interval"; other texts are left as they are.
-std::string describe_interval(const std::string& interval);
-
-/// Realizations of a surface in words: "65536 realizations, 256 in each of 16 × 16 cells".
-/// @throws InputError if the table's arrays do not fit its axes
-std::string describe_realizations(const SurfaceTable& surface);
-
 } // namespace stylobate

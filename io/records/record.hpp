@@ -60,7 +60,7 @@ PgaRange pga_range(const Study& study);
 std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit,
                                  PgaRange pga = PgaRange::usual);
 
-/// The same from a text in memory.
+/// Reads every component of a text in memory.
 /// @param file name of the text, for messages and `Record::file`
 std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
                                  PgaRange pga = PgaRange::usual);

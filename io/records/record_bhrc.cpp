@@ -73,7 +73,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
                         rate, reals + 2, static_cast<double>(count) * record.dt_s, duration_s));
 
     record.acceleration_m_s2 = fixed_width_numbers(text, first_value, count, width, per_line);
-    line = first_value + (count + per_line - 1) / per_line;
+    line = first_value + lines_of_values(count, per_line);
     if (line >= text.lines.size() || !trimmed(text.lines[line]).starts_with("/&"))
         text.refuse(std::min(line, text.lines.size() - 1),
                     "a line \"/&\" should end the component: the file is truncated, or the count in its header is "

@@ -168,7 +168,7 @@ void refuse_cut_number(const RecordText& text, std::size_t first, std::size_t la
 /// number of them; `last` if none does.
 std::size_t find_line(const RecordText& text, std::size_t first, std::size_t last, std::string_view phrase);
 
-/// The same in a component's header of `lines` lines from `top` on.
+/// The line that holds `phrase` in a component's header of `lines` lines from `top` on.
 /// @throws InputError if none of them holds it: the component is truncated or damaged
 std::size_t header_line(const RecordText& text, std::size_t top, std::size_t lines, std::string_view phrase);
 

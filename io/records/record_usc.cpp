@@ -61,7 +61,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
                                         "truncated, or its header is wrong.",
                                         count));
     const auto pairs = fixed_width_numbers(text, first_value, 2 * count, width, per_line, 1);
-    line = first_value + (2 * count + per_line - 1) / per_line;
+    line = first_value + lines_of_values(2 * count, per_line);
     const double last_s = fill_from_pairs(text, first_value, per_line, pairs, record);
     if (!(std::fabs(last_s - duration_s) < 0.02))
         text.refuse(points, fmt::format("the stated duration is {} s, but the last time is {} s.", duration_s, last_s));

@@ -1,7 +1,7 @@
 #include "io/store/export_vtk.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/atomic_folder.hpp"
+#include "io/files/atomic_file.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/study_tables.hpp"
-#include "io/study/study_rigid.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -15,17 +15,7 @@
 #include "io/keys/structure_keys.hpp"
 #include "io/keys/study_tables.hpp"
 #include "io/keys/survival_keys.hpp"
-#include "io/study/decisions/study_survival.hpp"
-#include "io/study/study_accuracy.hpp"
-#include "io/study/study_axis.hpp"
-#include "io/study/study_excitation.hpp"
-#include "io/study/study_fragility.hpp"
-#include "io/study/study_mechanisms.hpp"
-#include "io/study/study_perturbations.hpp"
-#include "io/study/study_rigid.hpp"
-#include "io/study/study_sensitivity.hpp"
-#include "io/study/study_structure.hpp"
-#include "io/study/study_twins.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -42,81 +32,15 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 constexpr std::size_t most_title_bytes = 200;
 
-/// A dashpot's ratio or its coefficient.
-void read_damping(const KeyReader& keys, const NumberKey& ratio_key, const NumberKey& coefficient_key, double& ratio,
-                  std::optional<double>& coefficient)
-{
-    if (keys.has(ratio_key) && keys.has(coefficient_key))
-        keys.refuse(coefficient_key.name, "and " + ratio_key.name + " exclude each other", "Give one of the two.");
-    ratio = keys.read(ratio_key);
-    coefficient = keys.maybe(coefficient_key);
-}
-
-/// @param chosen by an accuracy
-ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, const ChosenContact& chosen)
-{
-    using namespace contact_keys;
-    ContactSpec c;
-    c.form = chosen.form ? *chosen.form : keys.read(form);
-    const char* word = word_for(contact_form_names, c.form);
-    keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
-    if (c.form == ContactForm::rigid) {
-        c.normal_damping_ratio = c.tangential_damping_ratio = 0;
-        c.friction = keys.read(friction);
-        c.restitution = keys.read(restitution);
-        c.restitution_law = keys.read(restitution_law);
-        return c;
-    }
-    c.normal_stiffness_n_m2 = chosen.stiffness_n_m2 ? *chosen.stiffness_n_m2 : keys.read(normal_stiffness);
-    double widest = 0;
-    for (const DrumSpec& drum : structure.columns[0].drums)
-        widest = std::max(widest, drum.width_m);
-    // as stiff along the bed as across it: K_T is the axial stiffness K_N B of the full bed
-    c.tangential_stiffness_n_m = keys.read_or(tangential_stiffness, c.normal_stiffness_n_m2 * widest);
-    read_damping(keys, normal_damping_ratio, normal_damping, c.normal_damping_ratio, c.normal_damping_n_s_m);
-    read_damping(keys, tangential_damping_ratio, tangential_damping, c.tangential_damping_ratio,
-                 c.tangential_damping_n_s_m);
-    c.damping = keys.read(damping);
-    c.damping_per = keys.read(damping_per);
-    c.friction = keys.read(friction);
-    return c;
-}
-
-/// @param most realizations of one cell
-AdaptiveSpec read_adaptive(const KeyReader& keys, std::uint64_t cells, std::uint64_t most)
-{
-    using namespace adaptive_keys;
-    AdaptiveSpec adaptive;
-    adaptive.minimum = keys.has(minimum) ? keys.read_up_to(minimum, most) : std::min(adaptive.minimum, most);
-    adaptive.budget = keys.whole(
-        budget.name, adaptive.minimum * cells, budget.high,
-        fmt::format("Realizations of the whole surface: {} cells have at least {} each.", cells, adaptive.minimum));
-    adaptive.half_width = keys.read(half_width);
-    adaptive.borrow = keys.read(pooled);
-    return adaptive;
-}
-
-/// @param most realizations of one cell
-SurfaceSpec read_surface(const KeyReader& keys, std::uint64_t most)
-{
-    using namespace surface_keys;
-    SurfaceSpec surface;
-    surface.frequency_hz = read_axis(keys, frequency);
-    surface.pga_m_s2 = read_axis(keys, pga);
-    if (keys.has(adaptive))
-        surface.adaptive = read_adaptive(keys.table(adaptive), static_cast<std::uint64_t>(surface.cells()), most);
-    return surface;
-}
-
 /// @param structure must be read: from where it may be leaned
 InitialSpec read_initial(const KeyReader& keys, const StructureSpec& structure)
 {
-    InitialSpec initial;
-    initial.tilt_rad = keys.read(initial_keys::tilt);
     std::size_t fewest = structure.columns[0].drums.size();
     for (const ColumnSpec& column : structure.columns)
         fewest = std::min(fewest, column.drums.size());
-    initial.tilt_from_block = static_cast<int>(keys.read_up_to(initial_keys::tilt_from_block, fewest - 1));
+    keys.read_up_to(initial_keys::tilt_from_block, fewest - 1);
+    InitialSpec initial;
+    keys.read_fields(initial_keys::table, initial);
     return initial;
 }
 
@@ -125,27 +49,20 @@ OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
 {
     using namespace outcome_keys;
     OutcomeSpec o;
-    o.follow = keys.read_or(follow, kind == StructureKind::colonnade ? Follow::rest : Follow::collapse);
-    o.collapse_height_fraction = keys.table(collapse).read(height_fraction);
-    o.rocking_threshold_rad = keys.read(rocking_threshold);
-    o.sliding_threshold = keys.read(sliding_threshold);
+    o.follow = kind == StructureKind::colonnade ? Follow::rest : Follow::collapse;
+    keys.read_fields(table, o);
+    keys.table(collapse).read_fields(collapse, o);
     return o;
 }
 
 /// How many trajectories a single study keeps; others keep none.
 void read_trajectories(const KeyReader& keys, StudyKind kind, OutputSpec& output)
 {
-    if (kind != StudyKind::single) {
-        const char* word = word_for(study_kind_names, kind);
-        for (const TomlKey* key : output_keys::table.keys)
-            if (!key->used_where("study.kind", word) && keys.has(*key))
-                keys.refuse(key->name, fmt::format("is not used by study.kind = \"{}\"", word),
-                            "Remove it: only single studies keep trajectories. `stylobate replay` computes that of any "
-                            "realization.");
-        return;
-    }
+    if (kind != StudyKind::single)
+        return keys.refuse_unused(output_keys::table, "study.kind", word_for(study_kind_names, kind),
+                                  "Remove it: only single studies keep trajectories. `stylobate replay` computes that "
+                                  "of any realization.");
     const WholeKey& key = output_keys::trajectories;
-    output.most_mb = keys.read(output_keys::most_mb);
     if (const TomlValue* kept = keys.find(key.name); kept && kept->type == TomlValue::Type::string) {
         if (key.words[keys.word_index(key.name, key.words)] == trajectories_all)
             output.trajectories = OutputSpec::all;
@@ -185,10 +102,10 @@ std::vector<std::string> read_allow(const KeyReader& keys)
 void read_output(const KeyReader& keys, Study& study)
 {
     OutputSpec& output = study.output;
-    const NumberKey& rate = output_keys::trajectory_rate;
-    output.trajectory_rate_hz = keys.read_or(rate, std::min(usual_trajectory_rate_hz(study), rate.range.high));
+    output.trajectory_rate_hz = std::min(usual_trajectory_rate_hz(study), output_keys::trajectory_rate.range.high);
+    keys.read_fields(output_keys::table, output, key_use(study));
     read_trajectories(keys, study.kind, output);
-    study.kept = keys.read(output_keys::realizations);
+    keys.read_fields(output_keys::table, study);
     const auto refuse = [&](const std::string& why) {
         keys.refuse(output_keys::realizations.name, "= \"none\" is not available with " + why,
                     "Only a surface with equal numbers of realizations in each cell can omit their rows. Give "
@@ -229,25 +146,13 @@ void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
                     "Give vertical_motion = { ratio = ... }, or remove it.");
 }
 
-RunSpec read_run(const KeyReader& keys, ContactForm form)
+RunSpec read_run(const KeyReader& keys, const KeyUse& use)
 {
     using namespace run_keys;
-    const char* word = word_for(contact_form_names, form);
-    keys.refuse_unused(table.names_where("contact.form", word), fmt::format("contact.form = \"{}\"", word));
+    keys.refuse_unused(table, "contact.form", use.kinds.at("contact.form"));
     RunSpec r;
-    r.precision = keys.read(precision);
-    if (keys.has(step_fraction) && keys.has(step))
-        keys.refuse(step.name, "and step_fraction exclude each other", "Give one of the two.");
-    r.allow_step_above_bound = keys.read(allow_step_above_bound);
-    r.step_bound = keys.read(step_bound);
+    keys.read_fields(table, r, use.without({&step_fraction}));
     r.step_fraction = keys.read_within(step_fraction, r.allow_step_above_bound ? any_step : stable_step);
-    r.step_s = keys.maybe(step);
-    r.accuracy = keys.maybe(accuracy);
-    if (r.accuracy && (r.step_s || keys.has(step_fraction)))
-        keys.refuse(accuracy.name,
-                    fmt::format("and {} exclude each other", (r.step_s ? step.name : step_fraction.name)),
-                    "Give one of the two.");
-    r.max_invalid_fraction = keys.read(max_invalid);
     return r;
 }
 
@@ -323,16 +228,13 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 
     Study study;
     const KeyReader keys = top.table(study_keys::table);
-    study.kind = keys.read(study_keys::kind);
-    study.title = keys.read_or(study_keys::title, {});
+    keys.read_fields(study_keys::table, study, KeyUse{}.without({&study_keys::realizations}));
     if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
         keys.refuse("title", "is not a valid line of text",
                     fmt::format("At most {} bytes, on one line.", most_title_bytes));
     const bool is_fragility = study.kind == StudyKind::fragility;
-    study.seed = keys.read(study_keys::seed);
     const bool is_sensitivity = study.kind == StudyKind::sensitivity, is_rare = study.kind == StudyKind::rare;
     study.realizations = read_realizations(keys, study);
-    study.sampling = keys.read(study_keys::sampling);
     study.allow = read_allow(keys);
     if (is_rare && study.sampling != Sampling::independent)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
@@ -376,7 +278,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
 
     study.initial = read_initial(top.table(initial_keys::table), study.structure);
     read_output(top.table(output_keys::table), study);
-    study.run = read_run(top.table(run_keys::table), study.contact.form);
+    study.run = read_run(top.table(run_keys::table), key_use(study));
     if (study.contact.form == ContactForm::rigid) {
         if (const auto obstacle = rigid_obstacle(top, study.structure))
             obstacle->refuse();

@@ -2,7 +2,7 @@
 /// The study file: TOML in, `Study` out, every key checked.
 
 #include "ensemble/model/study.hpp"
-#include "io/study/decisions/study_variants.hpp"
+#include "io/study/study_variants.hpp"
 
 #include <filesystem>
 #include <optional>

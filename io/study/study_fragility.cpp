@@ -1,10 +1,7 @@
-#include "io/study/study_fragility.hpp"
-
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/records/record.hpp"
-#include "io/study/study_axis.hpp"
-#include "io/study/study_excitation.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -36,23 +33,13 @@ Range range_of(IntensityMeasure measure)
     return {};
 }
 
-std::vector<double> ascending(const KeyReader& keys, const ListKey& key, const std::vector<double>& absent)
+void check_ascending(const KeyReader& keys, const ListKey& key, const std::vector<double>& values)
 {
-    if (!keys.has(key))
-        return absent;
-    const std::vector<double> values = keys.number_list(key.name, key.range);
     for (std::size_t i = 1; i < values.size(); ++i)
         if (!(values[i] > values[i - 1]))
             keys.refuse(key.name,
                         fmt::format("is not in ascending order: {:g} comes before {:g}", values[i - 1], values[i]),
                         "Give the slightest first: a structure that reaches a limit has reached those before it.");
-    return values;
-}
-
-RecordSpec record_spec(const KeyReader& keys)
-{
-    return {keys.read(fragility_keys::file), keys.read_or(fragility_keys::component, {}),
-            acceleration_unit(keys, fragility_keys::record_unit)};
 }
 
 /// "AT2" of "RSN1_X.at2": how files of one kind end.
@@ -122,64 +109,60 @@ void check_refused(const std::string& pattern, const ReadFolder& folder)
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
                              std::uint64_t structures)
 {
+    using namespace fragility_keys;
     FragilitySpec f;
-    f.method = keys.read(fragility_keys::method);
-    const bool recorded = excitation.kind == ExcitationKind::record;
+    f.method = keys.read(method);
     const char* motion = word_for(excitation_kind_names, excitation.kind);
-    keys.refuse_unused(fragility_keys::table.names_where("excitation.kind", motion),
-                       fmt::format("excitation.kind = \"{}\"", motion));
-    if (recorded) {
-        for (const KeyReader& record : keys.tables(fragility_keys::records))
-            f.records.push_back(record_spec(record));
-        if (f.records.empty() == !keys.has(fragility_keys::folder))
+    keys.refuse_unused(table, "excitation.kind", motion);
+    if (excitation.kind == ExcitationKind::record) {
+        for (const KeyReader& each : keys.tables(records)) {
+            each.read_fields(records, f.records.emplace_back());
+            f.records.back().unit = acceleration_unit(f.records.back().unit);
+        }
+        if (f.records.empty() == !keys.has(folder))
             keys.refuse_all(f.records.empty()
                                 ? "fragility has no motions: give records = [{ file = \"...\" }, ...], or "
                                   "folder = \"...\""
                                 : "fragility.records and fragility.folder exclude each other: give one");
-        for (const TextKey* each : {&fragility_keys::pattern, &fragility_keys::unit})
-            if (keys.has(*each) && !keys.has(fragility_keys::folder))
+        for (const TextKey* each : {&pattern, &unit})
+            if (keys.has(*each) && !keys.has(folder))
                 keys.refuse(each->name, "applies to the files of a folder, and no folder is given",
                             "Give fragility.folder.");
         f.motions = static_cast<int>(f.records.size()); // those of a folder are listed later
-    } else {
-        if (f.method == FragilityMethod::cloud)
-            keys.refuse("method", "uses recorded motions, and these are synthetic",
-                        "Give method = \"stripes\", or excitation.kind = \"record\".");
-        f.motions = static_cast<int>(keys.read(fragility_keys::motions));
+    } else if (f.method == FragilityMethod::cloud) {
+        keys.refuse("method", "uses recorded motions, and these are synthetic",
+                    "Give method = \"stripes\", or excitation.kind = \"record\".");
     }
-    f.periods_s = ascending(keys, fragility_keys::periods, f.periods_s);
+    // ranges that are narrower than those of the keys
+    keys.read_up_to(contacts, structures);
+    keys.read_up_to(twins, structures);
+    keys.read_fields(table, f,
+                     {{{"excitation.kind", motion}, {"fragility.method", word_for(fragility_method_names, f.method)}}});
+    check_ascending(keys, periods, f.periods_s);
     if (f.method == FragilityMethod::stripes) {
-        if (keys.has(fragility_keys::scale))
+        if (keys.has(scale))
             keys.refuse("scale", "is not used by method = \"stripes\"", "Remove it, or give method = \"cloud\".");
-        if (!keys.has(fragility_keys::intensity))
+        if (!keys.has(intensity))
             keys.missing("intensity", "Give it as { measure = \"pga\", from = ..., to = ..., count = ..., spacing = "
                                       "\"log\" }: motions are scaled to each of these.");
-        const KeyReader axis = keys.table(fragility_keys::intensity);
-        f.measure = axis.read(fragility_keys::measure);
+        const KeyReader axis = keys.table(intensity);
+        f.measure = axis.read(measure);
         if (f.measure == IntensityMeasure::sa)
-            f.period_s = axis.read(fragility_keys::period);
-        else if (axis.has(fragility_keys::period))
-            axis.refuse(fragility_keys::period.name, "is not used by this measure",
-                        "Remove it, or give measure = \"sa\".");
-        f.intensity = read_axis(keys, fragility_keys::intensity, range_of(f.measure));
-    } else {
-        if (keys.has(fragility_keys::intensity))
-            keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
-        f.scale = keys.read(fragility_keys::scale);
+            f.period_s = axis.read(period);
+        else if (axis.has(period))
+            axis.refuse(period.name, "is not used by this measure", "Remove it, or give measure = \"sa\".");
+        f.intensity = read_axis(keys, intensity, range_of(f.measure));
+    } else if (keys.has(intensity)) {
+        keys.refuse("intensity", "is not used by method = \"cloud\"", "Remove it, or give method = \"stripes\".");
     }
-    f.shakings = static_cast<int>(keys.read(fragility_keys::shakings));
-    f.pause_s = keys.maybe(fragility_keys::pause);
-    f.contacts = static_cast<int>(keys.read_up_to(fragility_keys::contacts, structures));
-    f.twins = static_cast<int>(keys.read_up_to(fragility_keys::twins, structures));
     const auto group = static_cast<std::uint64_t>(f.contacts) * static_cast<std::uint64_t>(f.twins);
     if (structures % group != 0) {
         const std::uint64_t below = structures / group * group;
         study.refuse("realizations", fmt::format("is no multiple of fragility.contacts x twins = {}", group),
                      below > 0 ? fmt::format("Give {} or {}.", below, below + group) : fmt::format("Give {}.", group));
     }
-    f.twin_m = keys.read(fragility_keys::twin);
-    f.peak_limits = ascending(keys, fragility_keys::peak_limits, f.peak_limits);
-    f.residual_limits = ascending(keys, fragility_keys::residual_limits, f.residual_limits);
+    check_ascending(keys, peak_limits, f.peak_limits);
+    check_ascending(keys, residual_limits, f.residual_limits);
     return f;
 }
 
@@ -203,7 +186,7 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Pg
     std::sort(files.begin(), files.end());
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
-    const std::string unit = acceleration_unit(keys, fragility_keys::unit);
+    const std::string unit = acceleration_unit(keys.read_or(fragility_keys::unit, {}));
     const ReadFolder read = read_folder(files, unit, pga);
     check_refused(pattern, read);
     for (const ReadFolder::Refused& refused : read.refused)

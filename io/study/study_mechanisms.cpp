@@ -1,9 +1,6 @@
-#include "io/study/study_mechanisms.hpp"
-
-#include "io/files/toml_document.hpp"
 #include "io/keys/mechanism_keys.hpp"
 #include "io/keys/words.hpp"
-#include "io/study/study_excitation.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -151,10 +148,8 @@ private:
         if (keys.has("ratio"))
             keys.refuse("ratio", "and file exclude each other", "Give one of the two.");
         VerticalSpec vertical;
-        vertical.file = keys.read(vertical_keys::file);
-        vertical.component = keys.read_or(vertical_keys::component, {});
-        vertical.unit = acceleration_unit(keys, vertical_keys::unit);
-        vertical.baseline = keys.read(vertical_keys::baseline);
+        keys.read_fields(mechanism_key(Mechanism::vertical_motion), vertical);
+        vertical.unit = acceleration_unit(vertical.unit);
         study_.vertical = vertical;
     }
 
@@ -165,8 +160,6 @@ private:
         if (rule.place == MechanismPlace::base)
             return;
         const std::string one = place_word(rule.place), several = one + "s";
-        if (keys.has(one) && keys.has(several))
-            keys.refuse(several, fmt::format("and {} exclude each other", one), "Give one of the two.");
         const std::string there_is = what_there_is(rule.place);
         const auto last = static_cast<std::uint64_t>(places(rule.place) - 1);
         if (keys.has(one))
@@ -234,55 +227,11 @@ private:
     const Layout layout_;
 };
 
-/// In TOML: { joint = 0, ratio = 0.57 }
-std::string entry(const MechanismSpec& spec, const Study& study)
-{
-    const MechanismKey& key = mechanism_key(spec.mechanism);
-    std::vector<std::string> parts;
-    const auto add = [&parts](const TomlKey& each, const auto& value) {
-        parts.push_back(each.name + " = " + toml_text(value));
-    };
-    if (spec.places.size() == 1)
-        add(*key.place, static_cast<std::uint64_t>(spec.places.front()));
-    else if (!spec.places.empty())
-        parts.push_back(fmt::format("{} = [{}]", key.places->name, fmt::join(spec.places, ", ")));
-    if (spec.mechanism == Mechanism::vertical_motion && study.vertical) {
-        const VerticalSpec& vertical = *study.vertical;
-        add(vertical_keys::file, vertical.file);
-        if (!vertical.component.empty())
-            add(vertical_keys::component, vertical.component);
-        if (!vertical.unit.empty())
-            add(vertical_keys::unit, vertical.unit);
-        add(vertical_keys::baseline, vertical.baseline);
-    } else {
-        const std::span<const MechanismParameter> rule = rule_of(spec.mechanism).parameters;
-        for (std::size_t i = 0; i < key.parameters.size(); ++i)
-            if (rule[i].role != ParameterRole::extra || spec.values[i] != rule[i].neutral)
-                add(key.parameters[i], spec.values[i]);
-    }
-    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
-}
-
 } // namespace
 
 void read_mechanisms(const KeyReader& section, Study& study)
 {
     Reader(section, study).read();
-}
-
-std::vector<std::pair<std::string, std::string>> mechanism_entries(const Study& study)
-{
-    std::vector<std::pair<std::string, std::string>> entries;
-    for (std::size_t i = 0; i < study.mechanisms.size();) {
-        const Mechanism mechanism = study.mechanisms[i].mechanism;
-        std::vector<std::string> values;
-        for (; i < study.mechanisms.size() && study.mechanisms[i].mechanism == mechanism; ++i)
-            values.push_back(entry(study.mechanisms[i], study));
-        entries.emplace_back(to_string(mechanism), values.size() == 1
-                                                       ? values.front()
-                                                       : fmt::format("[\n    {}\n]", fmt::join(values, ",\n    ")));
-    }
-    return entries;
 }
 
 } // namespace stylobate

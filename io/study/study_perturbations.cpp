@@ -1,9 +1,7 @@
-#include "io/study/study_perturbations.hpp"
-
 #include "ensemble/model/nominal.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/words.hpp"
-#include "io/study/study_mechanisms.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 

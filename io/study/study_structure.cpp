@@ -1,7 +1,6 @@
-#include "io/study/study_structure.hpp"
-
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/structure_keys.hpp"
+#include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -81,13 +80,6 @@ double read_mass(const std::vector<MassSource>& sources, const Source& size, dou
                     fmt::format("makes a density of {:.6g} kg/m3, outside {}", density, density_range.text()),
                     "Masses are in kilograms and lengths in metres: is one in other units?");
     return mass;
-}
-
-BedSpec read_bed(const KeyReader& keys)
-{
-    using namespace structure_keys;
-    return {keys.maybe(bed_friction),    keys.maybe(bed_normal_stiffness), keys.maybe(bed_tangential_stiffness),
-            keys.maybe(bed_restitution), keys.maybe(bed_normal_damping),   keys.maybe(bed_tangential_damping)};
 }
 
 /// The keys of one column: its own ones, and behind them those of the structure for the keys that it omits.
@@ -210,7 +202,7 @@ private:
         allowed.low = -drum.width_m;
         allowed.high = drum.width_m;
         drum.offset_m = keys.read_within(offset, allowed);
-        drum.bed = read_bed(keys);
+        keys.read_fields(drums, drum.bed);
         return drum;
     }
 
@@ -267,7 +259,7 @@ std::vector<EpistyleSpec> listed_epistyles(const KeyReader& keys, const Structur
         epistyle.mass_kg = read_mass(
             {{&own, &mass, &density}, {&keys, &epistyle_mass, &epistyle_density}, {&keys, nullptr, &density_of_all}},
             size, epistyle.length_m * epistyle.height_m * structure.depth_m);
-        epistyle.bed = read_bed(own);
+        own.read_fields(epistyles, epistyle.bed);
         all.push_back(epistyle);
     }
     return all;
@@ -358,11 +350,8 @@ StructureSpec read_structure(const KeyReader& keys)
 {
     StructureSpec s;
     s.kind = keys.read(structure_keys::kind);
-    const char* word = word_for(structure_kind_names, s.kind);
-    keys.refuse_unused(structure_keys::table.names_where("structure.kind", word),
-                       fmt::format("structure.kind = \"{}\"", word));
-    s.depth_m = keys.read(structure_keys::depth);
-    s.gravity_m_s2 = keys.read(structure_keys::gravity);
+    keys.refuse_unused(structure_keys::table, "structure.kind", word_for(structure_kind_names, s.kind));
+    keys.read_fields(structure_keys::table, s);
     if (s.kind == StructureKind::column) {
         s.columns = {ColumnReader(keys, keys, s.depth_m).read()};
     } else {

@@ -30,17 +30,10 @@ const char* word(sb::Verdict verdict)
 
 void add_diagnosis(py::module_& module)
 {
-    py::class_<sb::Cause>(module, "Cause")
-        .def_readonly("mechanism", &sb::Cause::mechanism)
-        .def_readonly("place", &sb::Cause::place)
-        .def_readonly("parameter", &sb::Cause::parameter)
-        .def_readonly("unit", &sb::Cause::unit)
-        .def_readonly("size", &sb::Cause::size)
-        .def_readonly("lower", &sb::Cause::lower)
-        .def_readonly("upper", &sb::Cause::upper)
-        .def_readonly("probability", &sb::Cause::probability)
-        .def_readonly("gain_nats", &sb::Cause::gain_nats)
-        .def_readonly("p", &sb::Cause::p)
+    attributes(py::class_<sb::Cause>(module, "Cause"), "mechanism", &sb::Cause::mechanism, "place", &sb::Cause::place,
+               "parameter", &sb::Cause::parameter, "unit", &sb::Cause::unit, "size", &sb::Cause::size, "lower",
+               &sb::Cause::lower, "upper", &sb::Cause::upper, "probability", &sb::Cause::probability, "gain_nats",
+               &sb::Cause::gain_nats, "p", &sb::Cause::p)
         .def("__repr__", [](const sb::Cause& c) { return "<Cause: " + c.mechanism + " at " + c.place + ">"; });
     py::class_<sb::Diagnosis>(module, "Diagnosis")
         .def_property_readonly("verdict", [](const sb::Diagnosis& d) { return word(d.verdict()); })
@@ -50,23 +43,16 @@ void add_diagnosis(py::module_& module)
         .def("text", &sb::Diagnosis::text)
         .def("json", &sb::Diagnosis::json)
         .def("write", &sb::Diagnosis::write, "file"_a);
+    using O = sb::DiagnosisOptions;
+    add_options<O>(module, "DiagnosisOptions", "study", &O::study, "nulls", &O::nulls, "seed", &O::seed, "threads",
+                   &O::threads, "simd", &O::simd, "cache", &O::cache);
     module.def(
         "diagnose",
-        [](const std::filesystem::path& measured, const std::optional<sb::Study>& study, std::uint64_t nulls,
-           std::uint64_t seed, int threads, const std::string& simd, const std::filesystem::path& cache,
-           const py::object& progress) {
-            sb::DiagnosisOptions options;
-            options.study = study;
-            options.nulls = nulls;
-            options.seed = seed;
-            options.threads = threads;
-            options.simd = simd;
-            options.cache = cache;
+        [](const std::filesystem::path& measured, const O& options, const py::object& progress) {
             return interruptible_lines<std::optional<sb::Diagnosis>>(
-                std::move(options), progress,
-                [&](const sb::DiagnosisOptions& told) { return sb::diagnose(measured, told); });
+                options, progress, [&](const O& told) { return sb::diagnose(measured, told); });
         },
-        "measured"_a, "study"_a, "nulls"_a, "seed"_a, "threads"_a, "simd"_a, "cache"_a, "progress"_a);
+        "measured"_a, "options"_a, "progress"_a);
 }
 
 } // namespace stylobate::python

@@ -9,4 +9,5 @@ PYBIND11_MODULE(_core, module)
     stylobate::python::add_check(module);
     stylobate::python::add_calibration(module);
     stylobate::python::add_diagnosis(module);
+    stylobate::python::add_answers(module);
 }

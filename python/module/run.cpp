@@ -45,16 +45,9 @@ sb::Trajectory follow(const sb::Result& result, std::uint64_t index, const std::
 void add_run(py::module_& module)
 {
     using P = sb::Progress;
-    py::class_<P>(module, "Progress")
-        .def_readonly("done", &P::done)
-        .def_readonly("total", &P::total)
-        .def_readonly("collapsed", &P::collapsed)
-        .def_readonly("invalid", &P::invalid)
-        .def_readonly("seconds", &P::seconds)
-        .def_readonly("realizations_per_second", &P::realizations_per_second)
-        .def_readonly("probability", &P::probability)
-        .def_readonly("lower", &P::lower)
-        .def_readonly("upper", &P::upper)
+    attributes(py::class_<P>(module, "Progress"), "done", &P::done, "total", &P::total, "collapsed", &P::collapsed,
+               "invalid", &P::invalid, "seconds", &P::seconds, "realizations_per_second", &P::realizations_per_second,
+               "probability", &P::probability, "lower", &P::lower, "upper", &P::upper)
         .def("__repr__", [](const P& p) {
             return "<Progress: " + std::to_string(p.done) + " of " + std::to_string(p.total) + " realizations>";
         });

@@ -64,15 +64,10 @@ void add_study(py::module_& module)
         .def("realizations", &sb::Study::realizations)
         .def("__copy__", [](const sb::Study& study) { return sb::Study(study); });
 
-    py::class_<sb::Intensity>(module, "Intensity")
-        .def_readonly("pga_m_s2", &sb::Intensity::pga_m_s2)
-        .def_readonly("pgv_m_s", &sb::Intensity::pgv_m_s)
-        .def_readonly("pgd_m", &sb::Intensity::pgd_m)
-        .def_readonly("arias_m_s", &sb::Intensity::arias_m_s)
-        .def_readonly("d5_95_s", &sb::Intensity::d5_95_s)
-        .def_readonly("cav_m_s", &sb::Intensity::cav_m_s)
-        .def_readonly("predominant_frequency_hz", &sb::Intensity::predominant_frequency_hz)
-        .def_readonly("mean_frequency_hz", &sb::Intensity::mean_frequency_hz);
+    attributes(py::class_<sb::Intensity>(module, "Intensity"), "pga_m_s2", &sb::Intensity::pga_m_s2, "pgv_m_s",
+               &sb::Intensity::pgv_m_s, "pgd_m", &sb::Intensity::pgd_m, "arias_m_s", &sb::Intensity::arias_m_s,
+               "d5_95_s", &sb::Intensity::d5_95_s, "cav_m_s", &sb::Intensity::cav_m_s, "predominant_frequency_hz",
+               &sb::Intensity::predominant_frequency_hz, "mean_frequency_hz", &sb::Intensity::mean_frequency_hz);
 
     py::class_<sb::Record>(module, "Record")
         .def_static("read", &sb::Record::read, "file"_a, "component"_a = "", "unit"_a = "")

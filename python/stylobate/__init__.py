@@ -10,6 +10,7 @@
 SI units; the unit is part of each name. Results have the bits of the program `stylobate`, for every number of threads.
 """
 
+from ._answer import Answer, Comparison, Page, Past, Risk, Table, compare, past, report, risk
 from ._calibration import Calibration, calibrate
 from ._check import Check
 from ._core import (
@@ -37,6 +38,7 @@ from ._run import run
 from ._study import Study
 
 __all__ = [
+    "Answer",
     "CalibratedForm",
     "CalibratedParameter",
     "CalibratedRun",
@@ -44,24 +46,33 @@ __all__ = [
     "Cause",
     "Check",
     "ChosenKey",
+    "Comparison",
     "Diagnosis",
     "Error",
     "HeldOutGain",
     "InputError",
     "Intensity",
+    "Page",
+    "Past",
     "Pilot",
     "Progress",
     "Record",
     "Replay",
     "Result",
     "ResultGone",
+    "Risk",
     "RunTime",
     "Share",
     "Study",
+    "Table",
     "TooManyInvalid",
     "Trial",
     "WeakSpot",
     "calibrate",
+    "compare",
     "diagnose",
+    "past",
+    "report",
+    "risk",
     "run",
 ]

@@ -1,5 +1,5 @@
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, KeysView, Mapping
 from typing import Any
 
 import numpy as np
@@ -377,6 +377,41 @@ class Diagnosis:
     def to_dict(self) -> dict[str, Any]: ...
     def write(self, path: _Path) -> None: ...
 
+class Table:
+    attributes: dict[str, str | float | int]
+    units: dict[str, str]
+    def __getitem__(self, column: str) -> Any: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def keys(self) -> KeysView[str]: ...
+    def to_pandas(self) -> pandas.DataFrame: ...
+
+class Answer:
+    @property
+    def rows(self) -> Table: ...
+    def tables(self) -> dict[str, Table]: ...
+    def to_pandas(self) -> pandas.DataFrame: ...
+    def text(self) -> str: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def write(self, path: _Path) -> None: ...
+    def draw(self, path: _Path, limit_state: str = "") -> None: ...
+
+class Comparison(Answer):
+    def __init__(self, path: _Path) -> None: ...
+    def plot(self, ax: Axes | None = None, limit_state: str = "collapse") -> Axes: ...
+
+class Risk(Answer):
+    def __init__(self, path: _Path) -> None: ...
+    def plot(self, ax: Axes | None = None) -> Axes: ...
+
+class Past(Answer):
+    def plot(self, ax: Axes | None = None) -> Axes: ...
+
+class Page:
+    @property
+    def html(self) -> str: ...
+    def write(self, path: _Path) -> None: ...
+
 def run(
     study: Study | Mapping[str, Mapping[str, Any]] | _Path,
     output: _Path | None = None,
@@ -411,3 +446,45 @@ def calibrate(
     cache: _Path | None = None,
     progress: Callable[[str], object] | None = None,
 ) -> Calibration | None: ...
+def compare(
+    *files: _Path,
+    settings: Mapping[str, Any] | None = None,
+    folder: _Path = "",
+    level: float = 0.95,
+    adaptive: int | None = None,
+    margin: float = 0.05,
+    threads: int = 0,
+    simd: str = "auto",
+    progress: Callable[[str], object] | None = None,
+) -> Comparison | None: ...
+def risk(
+    file: _Path,
+    hazard: _Path | Iterable[_Path],
+    *,
+    site: str | int = "",
+    limit_state: str = "",
+    years: Iterable[float] = (50, 100),
+    level: float = 0.9,
+    most_outside: float = 0.25,
+    sequences: int = 0,
+    threshold: float | None = None,
+    pause_s: float | None = None,
+    seed: int = 1,
+    settings: Mapping[str, Any] | None = None,
+    threads: int = 0,
+    simd: str = "auto",
+    progress: Callable[[str], object] | None = None,
+) -> Risk | None: ...
+def past(*files: _Path) -> Past: ...
+def report(
+    file: _Path,
+    *,
+    title: str = "",
+    animate: int | None = None,
+    animate_mb: float | None = None,
+    animate_seconds: float | None = None,
+    settings: Mapping[str, Any] | None = None,
+    threads: int = 0,
+    simd: str = "auto",
+    progress: Callable[[str], object] | None = None,
+) -> Page | None: ...

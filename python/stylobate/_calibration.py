@@ -5,6 +5,7 @@ import os
 from collections.abc import Mapping
 
 from . import _core, _toml
+from ._forward import forwarded, options
 from ._study import Study, study_of, whole_number
 
 
@@ -15,15 +16,8 @@ class Calibration:
     def __init__(self, core):
         self._core = core
 
-    @property
-    def measured(self):
-        """The file that was measured, or its campaign."""
-        return self._core.measured
-
-    @property
-    def evidence(self):
-        """ "histories" or "outcomes"."""
-        return self._core.evidence
+    measured = forwarded("measured", "The file that was measured, or its campaign.")
+    evidence = forwarded("evidence", '"histories" or "outcomes".')
 
     @property
     def parameters(self):
@@ -41,15 +35,8 @@ class Calibration:
         motion_id, units, start, calibrated), held_out (None, or nats, lower, upper: the gain on motions left out)."""
         return self._core.best
 
-    @property
-    def forms(self):
-        """A CalibratedForm for each contact form, in the order asked for."""
-        return self._core.forms
-
-    @property
-    def notes(self):
-        """What could not be used or judged: texts."""
-        return self._core.notes
+    forms = forwarded("forms", "A CalibratedForm for each contact form, in the order asked for.")
+    notes = forwarded("notes", "What could not be used or judged: texts.")
 
     @property
     def calibrated_study(self):
@@ -61,15 +48,9 @@ class Calibration:
         """How many sets of parameters were tried."""
         return self._core.parameter_sets
 
-    @property
-    def restored_sets(self):
-        """How many of them come from the cache of a calibration that was stopped."""
-        return self._core.restored_sets
-
-    @property
-    def seconds(self):
-        """Duration [s]."""
-        return self._core.seconds
+    restored_sets = forwarded("restored_sets",
+                              "How many of them come from the cache of a calibration that was stopped.")
+    seconds = forwarded("seconds", "Duration [s].")
 
     def text(self):
         """What the program prints: every parameter with its interval, the gain, the notes."""
@@ -111,9 +92,10 @@ def calibrate(campaign, study=None, *, forms=(), fit=None, hold=(), outcomes=Fal
     InputError: as the program, exit status 2.
     """
     start = None if study is None else study_of(study)._core
-    found = _core.calibrate(os.fspath(campaign), start, _words(forms, "forms"), _fitted(fit), _words(hold, "hold"),
-                            bool(outcomes), bool(held_out), whole_number(threads, "threads"), simd,
-                            "" if cache is None else os.fspath(cache), progress)
+    asked = options(_core.CalibrationOptions(), study=start, forms=_words(forms, "forms"), fit=_fitted(fit),
+                    hold=_words(hold, "hold"), outcomes=bool(outcomes), held_out=bool(held_out),
+                    threads=whole_number(threads, "threads"), simd=simd, cache="" if cache is None else os.fspath(cache))
+    found = _core.calibrate(os.fspath(campaign), asked, progress)
     return None if found is None else Calibration(found)
 
 

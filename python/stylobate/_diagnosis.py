@@ -4,6 +4,7 @@ import json
 import os
 
 from . import _core
+from ._forward import forwarded, options
 from ._study import Study, study_of, whole_number
 
 
@@ -13,22 +14,13 @@ class Diagnosis:
     def __init__(self, core):
         self._core = core
 
-    @property
-    def verdict(self):
-        """ "none": simulation and measurement agree; "named": a mechanism, or a set, explains the difference;
-        "unexplained"."""
-        return self._core.verdict
-
-    @property
-    def verdict_text(self):
-        """The verdict in plain words."""
-        return self._core.verdict_text
-
-    @property
-    def causes(self):
-        """The named mechanisms, the most probable one first: Cause with mechanism, place, parameter, unit, size, lower,
-        upper (95 % interval), probability; None: not known."""
-        return self._core.causes
+    verdict = forwarded("verdict",
+                        '"none": simulation and measurement agree; "named": a mechanism, or a set, explains the '
+                        'difference; "unexplained".')
+    verdict_text = forwarded("verdict_text", "The verdict in plain words.")
+    causes = forwarded("causes",
+                       "The named mechanisms, the most probable one first: Cause with mechanism, place, parameter, unit, "
+                       "size, lower, upper (95 % interval), probability; None: not known.")
 
     @property
     def extended_study(self):
@@ -67,6 +59,7 @@ def diagnose(campaign, study=None, *, nulls=192, seed=1, threads=0, simd="auto",
     start = None if study is None else study_of(study)._core
     nulls, seed, threads = (whole_number(value, name) for value, name in
                             ((nulls, "nulls"), (seed, "seed"), (threads, "threads")))
-    found = _core.diagnose(os.fspath(campaign), start, nulls, seed, threads, simd,
-                           "" if cache is None else os.fspath(cache), progress)
+    asked = options(_core.DiagnosisOptions(), study=start, nulls=nulls, seed=seed, threads=threads, simd=simd,
+                    cache="" if cache is None else os.fspath(cache))
+    found = _core.diagnose(os.fspath(campaign), asked, progress)
     return None if found is None else Diagnosis(found)

@@ -3,6 +3,7 @@
 import os
 
 from . import _core, _pictures
+from ._forward import forwarded
 from ._replay import Replay
 from ._study import Study, _settings, whole_number
 
@@ -71,35 +72,12 @@ class Result:
         """Kind of the study; "replay" for a file of one realization."""
         return self._core.kind
 
-    @property
-    def complete(self):
-        """Whether every realization of the study has been run."""
-        return self._core.complete
-
-    @property
-    def count(self):
-        """Number of realizations that have been run."""
-        return self._core.realizations
-
-    @property
-    def invalid(self):
-        """Number of those that were set aside."""
-        return self._core.invalid
-
-    @property
-    def warnings(self):
-        """Warnings about the study, a text each."""
-        return self._core.warnings
-
-    @property
-    def code_version(self):
-        """Version of the program that computed it."""
-        return self._core.code_version
-
-    @property
-    def blocks(self):
-        """Names of the blocks, in layout order."""
-        return self._core.block_names
+    complete = forwarded("complete", "Whether every realization of the study has been run.")
+    count = forwarded("realizations", "Number of realizations that have been run.")
+    invalid = forwarded("invalid", "Number of those that were set aside.")
+    warnings = forwarded("warnings", "Warnings about the study, a text each.")
+    code_version = forwarded("code_version", "Version of the program that computed it.")
+    blocks = forwarded("block_names", "Names of the blocks, in layout order.")
 
     def share(self, limit_state="collapse"):
         """How often a limit state was reached over all cells or motions: a Share with trials, count, probability, and

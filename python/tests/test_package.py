@@ -4,6 +4,7 @@ import ast
 import inspect
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -21,7 +22,8 @@ def members(thing):
 
 def names_of(function):
     """Of the parameters of a function in the stubs."""
-    return [a.arg for a in function.args.args + function.args.kwonlyargs]
+    arguments = function.args
+    return [a.arg for a in [*arguments.args, *filter(None, [arguments.vararg]), *arguments.kwonlyargs]]
 
 
 def test_stubs_are_those_of_the_package():
@@ -63,6 +65,8 @@ def files(folder):
     pathlib.Path("column.toml").write_text(study.text)
     stylobate.run(study, "column.h5")
     stylobate.run(stylobate.Study.from_toml(INPUTS / "fragility_column.toml", SMALL_FRAGILITY), "fragility.h5")
+    shutil.copy(SOURCES / "tests" / "library" / "small_fragility.toml", folder / "small.toml")
+    stylobate.run("small.toml", "small.h5")
     return folder
 
 
@@ -75,6 +79,8 @@ ARGUMENTS = {
     "replay.py": ["column.h5", "17"],
     "animate.py": ["column.h5", "17", "fall.gif"],
     "record.py": ["record.txt", "g"],
+    "compare.py": ["small.toml", "comparison.png"],
+    "risk.py": ["small.h5", "k0=1e-3,k=3,measure=pga", "risk.html"],
     "calibrate.py": ["tests.csv", "two_drums.toml"],
     "diagnose.py": None,  # below
 }
@@ -97,7 +103,7 @@ def test_example(name, files):
         pytest.importorskip(package)
     assert run_example(name, *ARGUMENTS[name])
     for word in ARGUMENTS[name]:
-        if word.endswith((".png", ".gif", ".h5")):
+        if word.endswith((".png", ".gif", ".h5", ".html")):
             assert pathlib.Path(word).stat().st_size > 1000
 
 

@@ -2,11 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/app/output_path.hpp"
-#include "studies/check/check_study.hpp"
-#include "studies/verify/verify_file.hpp"
+#include "studies/verify/verification.hpp"
+#include "studies/workflow/file_kind.hpp"
+#include "studies/workflow/output_path.hpp"
 
 #include <fmt/format.h>
 
@@ -18,49 +16,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file of the drawing; empty: none.
+/// The file of the drawing; none: the structure is not drawn.
 /// @throws InputError for an unknown format, or one that the file's extension contradicts
-fs::path picture_path(const std::string& study, const CheckOptions& wanted)
+std::optional<fs::path> drawing_of(const std::string& study, const DrawingOptions& wanted)
 {
-    if (wanted.output.empty())
-        return wanted.format.empty() ? fs::path()
-                                     : fs::path(fs::path(study).stem().string() + "_structure." + wanted.format);
-    if (!wanted.format.empty() && ending_of(wanted.output) != wanted.format)
+    if (!wanted.output.empty() && !wanted.format.empty() && ending_of(wanted.output) != wanted.format)
         throw InputError(
             fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
+    if (wanted.output.empty() && wanted.format.empty())
+        return std::nullopt;
+    if (wanted.output.empty())
+        return fs::path(study).stem().string() + "_structure." + wanted.format;
     check_drawing(wanted.output);
     return wanted.output;
 }
 
 } // namespace
 
-int check_command(const CommonOptions& options, const std::string& file, const CheckOptions& wanted)
+int check_command(const CommonOptions& options, const std::string& file, CheckRequest request,
+                  const DrawingOptions& drawing)
 {
     check_kind(file, "check");
-    StudyCheck check(LoadedStudy::from_file(file, options.set), file,
-                     {.pilot = wanted.pilot,
-                      .trial_seconds = wanted.trial_seconds,
-                      .law_seconds = wanted.law_seconds,
-                      .costs = [&](const std::string& costs) { note(options.quiet, costs); }},
-                     options.run_options());
-    const fs::path picture = picture_path(file, wanted);
-    if (!picture.empty())
-        check_output(file, picture, options.force);
+    request.drawing = drawing_of(file, drawing);
+    request.force = options.force;
     Console console(options.quiet);
-    std::optional<CheckReport> report;
-    if (check.draw_realizations(console)) { // nothing is refused any more
-        for (const std::string& warning : check.warnings())
-            console.warn(warning);
-        if (!picture.empty())
-            draw_study(check.study(), file, picture);
-        report = check.run(console);
-    }
+    const auto report = check_study(LoadedStudy::from_file(file, options.set), file, request, options, console);
     if (!report) {
         say("Interrupted; the study is not checked.\n");
         return exit_interrupted;
     }
-    report->picture = picture.string();
-    fmt::print("{}", options.json ? check_json(*report).text() + "\n" : check_text(*report));
+    print(
+        options, [&] { return check_text(*report); }, [&] { return check_json(*report); });
     return report->missed() ? exit_invalid : exit_done;
 }
 
@@ -71,11 +57,10 @@ int verify_command(const CommonOptions& options, const std::string& file, const 
     verify.replay = wanted.replay.value_or(VerifyOptions::usual_replay);
     verify.seed = wanted.seed;
     Console console(options.quiet);
+    console.begin();
     const FileVerification found = verify_file(file, verify, console);
-    if (options.json)
-        fmt::print("{}\n", json_of(found).text());
-    else
-        fmt::print("{}", text_of(found));
+    print(
+        options, [&] { return text_of(found); }, [&] { return json_of(found); });
     if (!found.well())
         return exit_failed;
     return found.stopped ? exit_interrupted : exit_done;

@@ -1,9 +1,18 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
+#include "studies/workflow/calibrate.hpp"
+#include "studies/workflow/check.hpp"
+#include "studies/workflow/choose_realization.hpp"
+#include "studies/workflow/compare.hpp"
+#include "studies/workflow/console.hpp"
+#include "studies/workflow/diagnose.hpp"
+#include "studies/workflow/report.hpp"
+#include "studies/workflow/risk.hpp"
+#include "studies/workflow/run.hpp"
+
 #include "ensemble/run/executor.hpp"
-#include "kernels/isa.hpp"
-#include "studies/app/choose_realization.hpp"
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <optional>
@@ -16,26 +25,39 @@ class App;
 
 namespace stylobate {
 
-/// Exit statuses of the command line.
-enum Exit : int { exit_done = 0, exit_failed = 1, exit_bad_input = 2, exit_invalid = 3, exit_interrupted = 130 };
-
-struct CommonOptions {
+struct CommonOptions : Machine {
     std::vector<std::string> set; ///< KEY=VALUE, any key of the study file
-    int threads = 0;              ///< 0: as many as the process may use
-    std::string simd = "auto";
-    std::string backend = "cpu";
     bool quiet = false;
     bool json = false;
-    bool force = false;     ///< replace files that are there
-    Ranks* ranks = nullptr; ///< the processes that run the verb together; null: this one is alone
-
-    /// @throws InputError if the instruction set is unknown, or if this machine lacks it
-    Isa isa() const;
-    int thread_count() const;
-    /// Where and how to run.
-    /// @throws InputError as `isa`, or if the backend has no device here
-    RunOptions run_options() const;
+    bool force = false; ///< replace files that are there
 };
+
+/// What a user has given; an empty text is nothing.
+inline std::optional<std::string> given(const std::string& text)
+{
+    return text.empty() ? std::nullopt : std::optional(text);
+}
+
+/// The study that a calibration or a diagnosis begins from; none: that of the measured data.
+/// @throws InputError if one of the files is not what the verb takes, or if there is no such study
+std::optional<Study> start_study(const CommonOptions& options, const std::string& measured, const char* verb,
+                                 const std::string& study);
+
+/// Prints what a verb has found on standard output, as lines or as JSON.
+template <class Text, class ToJson>
+void print(const CommonOptions& options, const Text& text, const ToJson& json)
+{
+    if (options.json)
+        fmt::print("{}\n", json().text());
+    else
+        fmt::print("{}", text());
+}
+
+/// Prints the message of too many invalid realizations. @returns the exit status
+int report_invalid(const std::optional<std::string>& message);
+
+/// Prints the name of a file that was written.
+void print_written(const CommonOptions& options, const std::string& file);
 
 /// @name Options of a verb, read into those that verbs share.
 /// @{
@@ -57,13 +79,10 @@ struct ExportOptions {
     std::string title;               ///< of the picture, instead of the study's or the file's name
 };
 
-/// Options of `check`.
-struct CheckOptions {
-    std::optional<std::uint64_t> pilot; ///< realizations that are run twice; 0: none
-    double trial_seconds = 2;           ///< of the trial; 0: none
-    double law_seconds = 20;            ///< of the pilot under other contact laws; 0: none
-    std::string format;                 ///< of the drawing: "png", "svg", "pdf"; empty: by `output`
-    std::string output;                 ///< the drawing; empty and no format: none
+/// The drawing of `check`; empty: not given.
+struct DrawingOptions {
+    std::string format; ///< "png", "svg", "pdf"
+    std::string output;
 };
 
 /// Options of `verify-file`.
@@ -72,71 +91,20 @@ struct VerifyChoice {
     std::uint64_t seed = 1;              ///< of their choice
 };
 
-/// Options of `report`.
-struct ReportOptions {
-    std::string output;                    ///< the page; empty: beside the file, with .html
-    std::string title;                     ///< of the page, instead of the study's or the file's name
-    std::optional<std::uint64_t> animate;  ///< N that fell and N that stood, of each cell
-    std::optional<double> animate_mb;      ///< of all animations together [1e6 bytes]
-    std::optional<double> animate_seconds; ///< for running them again
-};
-
-/// Options of `compare` (studies/app/decisions).
-struct CompareOptions {
-    std::vector<std::string> files; ///< study files or finished results, the base first; one study file: its [variants]
-    std::string output;             ///< the comparison; empty: the base's name with _comparison.h5
-    double level = 0.95;            ///< of intervals and verdicts
-    std::optional<std::uint64_t> adaptive; ///< pairs of each variant at most, where they are needed; none: all
-    double margin = 0.05;                  ///< of an adaptive comparison: a difference that does not matter
-    bool search = false;                   ///< for the values of [optimise]
-};
-
-/// Options of `calibrate`.
-struct CalibrateOptions {
-    std::string study;              ///< to begin from; empty: by the specimen (`default_study`)
-    std::string output;             ///< results; empty: by the name of the measured file
-    std::vector<std::string> fit;   ///< "KEY" or "KEY=FROM:TO", beside the contact's or instead of them
-    std::vector<std::string> hold;  ///< keys of the contact that keep the study's value
-    std::vector<std::string> forms; ///< contact forms, or "all"; empty: the study's
-    bool outcomes = false;          ///< use the outcomes (fell or stood) even where histories are available
-    bool held_out = true;           ///< cross-validation over motions
-};
-
-/// Options of `diagnose`.
-struct DiagnoseOptions {
-    long long nulls = 192; ///< healthy campaigns that are simulated near the measured contact law
-    long long seed = 1;    ///< of what is drawn in them
-};
-
-/// Options of `risk`.
-struct RiskCommandOptions {
-    std::vector<std::string> hazard; ///< files, or a power law
-    std::string site;                ///< of several in the hazard
-    std::string output;              ///< the estimate; empty: beside the results, with _risk.h5
-    std::string state;               ///< one limit state; empty: all
-    std::vector<double> years;       ///< empty: 50 and 100
-    double level = 0.9;
-    double most_outside = 0.25;      ///< largest share of a frequency from outside of the ranges of runs and hazard
-    std::uint64_t sequences = 0;     ///< simulated histories with the damage carried along
-    std::optional<double> threshold; ///< of their earthquakes [SI unit of the measure]; none: by the results
-    std::optional<double> pause_s;   ///< of rest between earthquakes; none: as long as the structure needs
-    std::uint64_t seed = 1;          ///< of the histories
-};
-
 /// Options of `new`, in the words of a study file; empty: the default.
 struct NewStudyOptions {
     std::string kind, structure, excitation;
 };
 
-/// Each verb returns an exit status; bad input is thrown as `InputError`.
-/// @param shard "3/8": that part of the study alone; empty: all of it
-/// @param laws also under other contact laws
-int run_command(const CommonOptions& options, const std::string& study, std::string results, const std::string& shard,
-                bool laws);
+/// Each verb returns an exit status; bad input is thrown as `InputError`. The options that
+/// verbs share are put into its request here.
+/// @param shard "3/8": that part of the study alone; empty: all of it   @param laws also under other contact laws
+int run_command(const CommonOptions& options, const std::string& study, const std::string& results,
+                const std::string& shard, bool laws);
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial);
-int compare_command(const CommonOptions& options, const CompareOptions& wanted);
-int check_command(const CommonOptions& options, const std::string& study, const CheckOptions& wanted);
+int check_command(const CommonOptions& options, const std::string& study, CheckRequest request,
+                  const DrawingOptions& drawing);
 int verify_command(const CommonOptions& options, const std::string& results, const VerifyChoice& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
                    const std::string& trajectory);
@@ -145,15 +113,13 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::string& component, const std::string& block);
 /// The pictures of results of every kind.
 std::vector<std::string> picture_names();
-/// Of a comparison. @param format "png", "csv", ...   @returns the file
-std::string export_comparison(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
-                              const std::string& format);
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
-int report_command(const CommonOptions& options, const std::string& file, const ReportOptions& wanted);
-/// @param study contacts to begin with; empty: a bed of stone   @param output empty: the campaign's name with
-/// _diagnosis.h5
-int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study,
-                     std::string output, const DiagnoseOptions& wanted);
+/// @param output the page; empty: beside the file, with .html
+int report_command(const CommonOptions& options, PageRequest request, const std::string& output);
+/// @param study contacts to begin with; empty: a bed of stone
+/// @param wanted the file; empty: the campaign's name with _diagnosis.h5
+int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::string& study,
+                     const std::string& wanted);
 /// @param file measured data, outcomes or results; empty: about the program
 /// @param mpi of this program; empty: none
 int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi);
@@ -162,12 +128,10 @@ int info_command(const CommonOptions& options, const std::string& file, bool all
 void print_file(const CommonOptions& options, const std::string& file, bool all);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
-/// @param results of a fragility study
-int risk_command(const CommonOptions& options, const std::string& results, const RiskCommandOptions& wanted);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page
 int schema_command(bool markdown);
-/// @param picture of the likelihoods; empty: none
-int past_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& picture);
-int calibrate_command(const CommonOptions& options, const std::string& measured, const CalibrateOptions& wanted);
+/// @param study to begin from; empty: by the specimen   @param output results; empty: by the name of the measured file
+int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::string& study,
+                      const std::string& output);
 
 } // namespace stylobate

@@ -1,6 +1,5 @@
 #pragma once
-/// The verbs that answer an engineer's questions, with their options: compare, risk, past. Their work is in
-/// `studies/app/decisions`.
+/// The verbs that answer an engineer's questions, with their options: compare, risk, past.
 
 #include "studies/app/command.hpp"
 
@@ -22,9 +21,10 @@ private:
     CLI::App& app_;
     CommonOptions& options_;
     int& status_;
-    CompareOptions compare_;
-    RiskCommandOptions risk_;
-    std::string results_, picture_;
+    ComparisonRequest compare_;
+    RiskRequest risk_;
+    bool search_ = false;
+    std::string output_;
     std::vector<std::string> files_;
 };
 

@@ -1,25 +1,15 @@
 /// `stylobate diagnose`: from a measured campaign to a diagnosis.
 
-#include "ensemble/model/input_error.hpp"
+#include "studies/workflow/diagnose.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/measured/measured_file.hpp"
-#include "io/study/study_file.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/app/output_path.hpp"
-#include "studies/calibration/calibration.hpp"
 #include "studies/cluster/together.hpp"
-#include "studies/diagnosis/decision/pipeline.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_json.hpp"
-#include "studies/diagnosis/findings/diagnosis_text.hpp"
-#include "studies/diagnosis/findings/fingerprint.hpp"
-#include "studies/diagnosis/laws/track.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/workflow/file_kind.hpp"
+#include "studies/workflow/output_path.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -39,77 +29,57 @@ std::string shell_word(const std::string& word)
     return quoted + "'";
 }
 
+/// The command that makes the same diagnosis.
+std::string command_of(const CommonOptions& options, const DiagnosisRequest& request, const std::string& study,
+                       const std::string& output)
+{
+    std::string command = "stylobate diagnose " + shell_word(request.measured);
+    if (!study.empty())
+        command += " --study " + shell_word(study);
+    for (const std::string& setting : options.set)
+        command += " --set " + shell_word(setting);
+    return command + fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), request.nulls, request.seed);
+}
+
 } // namespace
 
-int diagnose_command(const CommonOptions& options, const std::string& measured, const std::string& study_file,
-                     std::string output, const DiagnoseOptions& wanted)
+int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::string& study,
+                     const std::string& wanted)
 {
-    if (output.empty())
-        output = std::filesystem::path(measured).stem().string() + "_diagnosis.h5";
-    const std::filesystem::path beside = std::filesystem::path(output).parent_path();
-    const std::string stem = std::filesystem::path(output).stem().string();
-    DiagnosisOptions how;
-    how.extension = beside / (stem + "_extended.toml");
-    how.cache = beside / (stem + "_campaigns.txt");
-    how.seed = static_cast<std::uint64_t>(wanted.seed);
-    how.plan = EnsemblePlan::with(static_cast<std::uint64_t>(wanted.nulls));
-    Campaign campaign;
-    Study study;
-    together(options.ranks, [&] { // before anything is written
-        check_kind(measured, "diagnose");
-        check_option_kind(study_file, FileKind::study, "--study");
-        campaign = read_campaign(measured);
-        study = study_file.empty()
-                    ? parse_study(default_study(campaign).text, "the default start study of a diagnosis", options.set)
-                    : read_study(study_file, options.set);
-        demand_double(study, study_file.empty() ? "--set" : study_file, "a diagnosis");
-        how.run = options.run_options();
-        track_scales(campaign); // refuses data that cannot be diagnosed
-        if (how.run.leads()) {
-            check_output(measured, output, options.force);
-            check_output(measured, how.extension, options.force);
-            check_cache(how);
-            const AtomicFile writable(output);
-        }
-    });
-    if (!how.run.leads()) { // simulates its part of the campaigns; rank 0 reports the results
-        Console silent(true);
-        return diagnose(
-                   campaign, study, how, [](const std::string&) {}, silent)
-                   ? exit_done
-                   : exit_interrupted;
-    }
-    Console console(options.quiet);
-    const auto tell = [&](const std::string& line) { note(options.quiet, line); };
-    StopOnly observer(console); // no progress: `tell` prints the stages
-    std::optional<Diagnosis> diagnosis = diagnose(campaign, study, how, tell, observer);
+    const std::string output =
+        given(wanted).value_or(std::filesystem::path(request.measured).stem().string() + "_diagnosis.h5");
+    const std::string without_ending = std::filesystem::path(output).replace_extension().string();
+    request.settings = options.set;
+    request.start_name = given(study).value_or("--set");
+    request.extension = without_ending + "_extended.toml";
+    request.cache = without_ending + "_campaigns.txt";
+    request.check_outputs = [&] {
+        check_output(request.measured, output, options.force);
+        check_output(request.measured, request.extension, options.force);
+        AtomicFile::check(output);
+    };
+    together(options.ranks, [&] { request.start = start_study(options, request.measured, "diagnose", study); });
+    Console console(options.quiet || !options.leads());
+    std::optional<Diagnosis> diagnosis = diagnose_measured(request, options, console);
+    if (!options.leads()) // it has simulated its part of the campaigns
+        return diagnosis ? exit_done : exit_interrupted;
     if (!diagnosis) {
-        tell(std::filesystem::exists(how.cache)
-                 ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
-                       how.cache.string() + "."
-                 : "Interrupted before a simulated campaign was kept. The same command begins anew.");
+        console.note(std::filesystem::exists(request.cache)
+                         ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
+                               request.cache.string() + "."
+                         : "Interrupted before a simulated campaign was kept. The same command begins anew.");
         return exit_interrupted;
     }
-    diagnosis->measured_fingerprint = fingerprint(measured);
-    diagnosis->command = "stylobate diagnose " + shell_word(measured);
-    if (!study_file.empty())
-        diagnosis->command += " --study " + shell_word(study_file);
-    for (const std::string& setting : options.set)
-        diagnosis->command += " --set " + shell_word(setting);
-    diagnosis->command += fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), wanted.nulls, wanted.seed);
+    diagnosis->command = command_of(options, request, study, output);
     if (!diagnosis->extended_study.empty()) {
-        AtomicFile file(how.extension);
-        file.write(diagnosis->extended_study);
-        file.commit();
-        diagnosis->extended_study_file = how.extension.string();
+        write_whole(request.extension, diagnosis->extended_study);
+        diagnosis->extended_study_file = request.extension.string();
     }
     write_diagnosis(*diagnosis, output);
-    if (options.json)
-        fmt::print("{}\n", diagnosis_json(*diagnosis).text());
-    else
-        fmt::print("{}", diagnosis_text(*diagnosis));
+    print(
+        options, [&] { return diagnosis_text(*diagnosis); }, [&] { return diagnosis_json(*diagnosis); });
     std::fflush(stdout); // before the line on standard error
-    tell(fmt::format("Diagnosis: {}. A page of it: stylobate report {}", output, output));
+    console.note(fmt::format("Diagnosis: {}. A page of it: stylobate report {}", output, output));
     return exit_done;
 }
 

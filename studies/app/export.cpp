@@ -7,19 +7,16 @@
 #include "io/store/result_store.hpp"
 #include "io/tables/csv.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/app/output_path.hpp"
+#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison_picture.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
-#include "studies/decisions/risk/risk_change_file.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_file.hpp"
-#include "studies/decisions/risk/risk_page.hpp"
-#include "studies/report/json.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/motion_film.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/results.hpp"
+#include "studies/workflow/file_kind.hpp"
+#include "studies/workflow/output_path.hpp"
 
 #include <fmt/format.h>
 
@@ -188,7 +185,7 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
         wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
     check_not_input(file, folder);
     write_vtk(folder, fmt::format("realization_{}", index), followed_motion(results, options.isa(), index).trajectory);
-    note(options.quiet, "Forces and openings of joints are not part of a trajectory; they are left out.");
+    Console(options.quiet).note("Forces and openings of joints are not part of a trajectory; they are left out.");
     return folder;
 }
 
@@ -257,20 +254,12 @@ std::optional<fs::path> export_motion(const CommonOptions& options, const std::s
     const fs::path to = wanted.output.empty() ? beside(file, fmt::format("_realization_{}.{}", realization, format))
                                               : fs::path(wanted.output);
     check_output(file, to, options.force);
-    Console console(options.quiet); // from here on an interrupt leaves no file
+    Console console(options.quiet);
+    console.begin(); // from here on an interrupt leaves no file
     if (write_motion(results, options.isa(), realization, wanted.title, format, to, console))
         return to;
     console.warn(fmt::format("interrupted: '{}' was not written", to.string()));
     return std::nullopt;
-}
-
-int report_written(const CommonOptions& options, const std::string& written)
-{
-    if (options.json)
-        fmt::print("{}\n", Json::object().member("written", written).text());
-    else
-        fmt::print("{}\n", written);
-    return exit_done;
 }
 
 /// The picture of a risk estimate, or its tables.
@@ -287,24 +276,58 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
                                      "to its picture, none to its tables",
                                      file));
     check_no_settings(options.set, file);
-    const bool change = recognise(file).detail == risk_of_comparison;
     if (!picture) {
         const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
         check_output_folder(file, folder, options.force);
-        write_files(change ? risk_change_csv(read_risk_change(file)) : risk_csv(read_risk(file)), folder);
+        write_files(risk_csv(read_any_risk(file)), folder);
         return folder;
     }
     const std::string name = wanted.limit.empty() ? "." : "_" + wanted.limit + ".";
     const fs::path to = wanted.output.empty() ? beside(file, name + format) : fs::path(wanted.output);
     check_output(file, to, options.force);
-    const auto title = [&](const std::string& usual) { return wanted.title.empty() ? usual : wanted.title; };
-    if (change) {
-        const RiskChange found = read_risk_change(file);
-        plot_risk_change(found, wanted.limit, title("Change of risk: " + found.title), to);
-    } else {
-        const Risk risk = read_risk(file);
-        plot_risk(risk, wanted.limit, title("Risk: " + risk.title), to);
+    plot_risk(read_any_risk(file), wanted.limit, wanted.title, to);
+    return to;
+}
+
+/// Options that belong to single realizations or to the pictures of results.
+void check_comparison_options(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
+{
+    const std::string other = !options.set.empty()          ? "--set"
+                              : !wanted.picture.empty()     ? "--picture"
+                              : wanted.cell >= 0            ? "--cell"
+                              : wanted.realization >= 0     ? "--realization"
+                              : !wanted.frequencies.empty() ? "--frequency"
+                                                            : "";
+    if (!other.empty())
+        throw InputError(fmt::format("{}: {} is a comparison, whose export has the options --to, --limit, --title and "
+                                     "-o",
+                                     other, file));
+}
+
+/// @param format "png", "csv", ...   @returns the file
+fs::path export_comparison(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
+                           const std::string& format)
+{
+    check_comparison_options(options, file, wanted);
+    const Comparison comparison = read_comparison(file);
+    if (is_picture_format(format)) {
+        const std::string limit = limit_of(comparison.variants.front(), wanted.limit).name;
+        const std::string to =
+            wanted.output.empty() ? beside(file, fmt::format("_{}.{}", limit, format)).string() : wanted.output;
+        check_output(file, to, options.force);
+        comparison_picture(comparison, limit, wanted.title, to);
+        return to;
     }
+    if (format != "csv")
+        throw InputError(fmt::format("--to {}: a comparison is exported to png, svg, pdf or csv; compare --json prints "
+                                     "it as JSON",
+                                     format));
+    if (!wanted.limit.empty() || !wanted.title.empty())
+        throw InputError(fmt::format("--{}: applies to --to png, svg or pdf; the table contains every limit state",
+                                     wanted.limit.empty() ? "title" : "limit"));
+    const std::string to = wanted.output.empty() ? beside(file, ".csv").string() : wanted.output;
+    check_output(file, to, options.force);
+    write_whole(to, csv_text(comparison_rows(comparison)));
     return to;
 }
 
@@ -323,22 +346,24 @@ int export_command(const CommonOptions& options, const std::string& results, con
 {
     check_kind(results, "export");
     check_not_input(results, wanted.output);
-    if (recognise(results).kind == FileKind::comparison)
-        return report_written(options,
-                              export_comparison(options, results, wanted,
-                                                wanted.format.empty() && ending_of(wanted.output) == "csv" ? "csv"
-                                                : wanted.format == "csv"                                   ? "csv"
-                                                                         : format_of(wanted)));
+    const FileKind kind = recognise(results).kind;
+    if (kind == FileKind::comparison) {
+        const bool csv = wanted.format == "csv" || (wanted.format.empty() && ending_of(wanted.output) == "csv");
+        print_written(options, export_comparison(options, results, wanted, csv ? "csv" : format_of(wanted)).string());
+        return exit_done;
+    }
     const std::string motion = motion_format_of(wanted);
     const std::string format = motion.empty() ? format_of(wanted) : motion;
-    const bool risk = recognise(results).kind == FileKind::risk;
-    const std::optional<fs::path> written =
-        risk                        ? export_risk(options, results, wanted, motion.empty() ? format : motion)
-        : !motion.empty()           ? export_motion(options, results, wanted, motion)
-        : is_picture_format(format) ? export_picture(options, results, wanted, format)
-        : format == "vtk"           ? export_vtk(options, results, wanted)
-                                    : export_tables(options, results, wanted, format);
-    return written ? report_written(options, written->string()) : static_cast<int>(exit_interrupted);
+    const std::optional<fs::path> written = kind == FileKind::risk ? export_risk(options, results, wanted, format)
+                                            : !motion.empty()      ? export_motion(options, results, wanted, motion)
+                                            : is_picture_format(format)
+                                                ? export_picture(options, results, wanted, format)
+                                            : format == "vtk" ? export_vtk(options, results, wanted)
+                                                              : export_tables(options, results, wanted, format);
+    if (!written)
+        return exit_interrupted;
+    print_written(options, written->string());
+    return exit_done;
 }
 
 } // namespace stylobate

@@ -11,23 +11,18 @@
 #include "io/records/record.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/calibration/calibration_file.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/laws/law_runs.hpp"
-#include "studies/decisions/risk/risk_change.hpp"
-#include "studies/decisions/risk/risk_change_file.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_file.hpp"
-#include "studies/decisions/risk/risk_text.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/diagnosis/laws/track.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/diagnosis/evidence/smoothed_run.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
+#include "studies/workflow/file_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -124,7 +119,7 @@ std::string refusal(const std::string& verb, const InputError& error, const std:
 std::vector<std::string> refusals_of(const Campaign& campaign, const std::string& file)
 {
     try {
-        track_scales(campaign);
+        campaign_scales(campaign);
     } catch (const InputError& error) {
         return {refusal("diagnose", error, file)};
     }
@@ -289,20 +284,14 @@ void tell_calibration(const std::string& file, Told& told)
 
 void tell_risk(const std::string& file, Told& told)
 {
-    if (recognise(file).detail == risk_of_comparison) {
-        const RiskChange change = read_risk_change(file);
-        told.json.member("holds", "risk estimate of a comparison")
-            .member("code_version", change.code_version)
-            .member("risk_change", risk_change_json(change));
-        told.text = fmt::format("a risk estimate of a comparison, by stylobate {}\n{}", change.code_version,
-                                risk_change_text(change));
-        return;
-    }
-    const Risk risk = read_risk(file);
-    told.json.member("holds", "risk estimate")
-        .member("code_version", risk.code_version)
-        .member("risk", risk_json(risk));
-    told.text = fmt::format("a risk estimate, by stylobate {}\n{}", risk.code_version, risk_text(risk));
+    const AnyRisk risk = read_any_risk(file);
+    const bool change = std::holds_alternative<RiskChange>(risk);
+    const std::string version = std::visit([](const auto& one) { return one.code_version; }, risk);
+    const std::string what = change ? "risk estimate of a comparison" : "risk estimate";
+    told.json.member("holds", what)
+        .member("code_version", version)
+        .member(change ? "risk_change" : "risk", risk_json(risk));
+    told.text = fmt::format("a {}, by stylobate {}\n{}", what, version, risk_text(risk));
 }
 
 void tell_study(const CommonOptions& options, const std::string& file, Told& told)

@@ -3,16 +3,12 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
 #include "studies/app/decision_verbs.hpp"
 #include "studies/cluster/mpi_ranks.hpp"
 #include "studies/cluster/together.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/results/kept_animations.hpp"
-#include "studies/usage/bash_completion.hpp"
-#include "studies/usage/checked_words.hpp"
-#include "studies/usage/manual_page.hpp"
-#include "studies/usage/usage_notes.hpp"
+#include "studies/usage/usage.hpp"
 #include "studies/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -31,37 +27,6 @@
 #include <system_error>
 #include <thread>
 #include <unistd.h>
-
-namespace stylobate {
-
-void add_set(CLI::App& verb, CommonOptions& options)
-{
-    verb.add_option("--set", options.set, "KEY=VALUE: overrides any key of the study file; may be given several times")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->allow_extra_args(false);
-}
-
-void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends)
-{
-    verb.add_option("--threads", options.threads, "threads to use (default: all that the process may use)")
-        ->check(CLI::Range(1, 4096));
-    verb.add_option("--simd", options.simd, "instruction set")
-        ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "neon"}))
-        ->capture_default_str();
-    verb.add_option("--backend", options.backend, "device that computes")
-        ->check(CLI::IsMember(backends))
-        ->capture_default_str();
-    verb.add_flag("--quiet", options.quiet, "print results and errors only: no progress, notes and warnings");
-    verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
-}
-
-void add_force(CLI::App& verb, CommonOptions& options)
-{
-    verb.add_flag("--force", options.force, "overwrite existing output files");
-}
-
-} // namespace stylobate
 
 using namespace stylobate;
 
@@ -172,16 +137,16 @@ private:
             ->check(CLI::Range(0.0, 86400.0))
             ->capture_default_str();
         check
-            ->add_option("--to", check_.format,
+            ->add_option("--to", drawing_.format,
                          "draw the structure to scale with its dimensions: png, svg or pdf (default: by the file "
                          "extension of -o)")
             ->check(CLI::IsMember({"png", "svg", "pdf"}));
-        check->add_option("-o,--output", check_.output,
+        check->add_option("-o,--output", drawing_.output,
                           "the drawing (default: the study's name with _structure and the format, here)");
         add_force(*check, options_);
         add_set(*check, options_);
         add_common(*check, options_);
-        check->callback([this] { status_ = check_command(options_, file_, check_); });
+        check->callback([this] { status_ = check_command(options_, file_, check_, drawing_); });
     }
 
     void add_run()
@@ -300,14 +265,13 @@ private:
     {
         auto* calibrate = app_.add_subcommand("calibrate", "contact parameters from measured response, with intervals");
         calibrate
-            ->add_option("MEASURED", file_,
+            ->add_option("MEASURED", calibration_.measured,
                          "measured campaign (HDF5, or a folder of CSV files), or a table of outcomes (CSV)")
             ->required();
-        calibrate->add_option("--study", calibration_.study,
+        calibrate->add_option("--study", study_,
                               "start study (default: the specimen, nominal friction, a bed of 2e9 N/m3; required for a "
                               "table of outcomes)");
-        calibrate->add_option("-o,--output", calibration_.output,
-                              "results (HDF5); the calibrated study is written beside it");
+        calibrate->add_option("-o,--output", output_, "results (HDF5); the calibrated study is written beside it");
         calibrate
             ->add_option(
                 "--fit", calibration_.fit,
@@ -337,7 +301,7 @@ private:
         add_mpi(*calibrate);
         calibrate->callback([this] {
             calibration_.held_out = !keep_all_;
-            on_ranks([this] { return calibrate_command(options_, file_, calibration_); });
+            on_ranks([this] { return calibrate_command(options_, calibration_, study_, output_); });
         });
     }
 
@@ -346,26 +310,30 @@ private:
         auto* diagnosing = app_.add_subcommand(
             "diagnose",
             "find the errors of the simulation of measured data, their cause, an extended model and its gain");
-        diagnosing->add_option("MEASURED", file_, "measured campaign (HDF5, or a folder of CSV files)")->required();
+        diagnosing->add_option("MEASURED", diagnosis_.measured, "measured campaign (HDF5, or a folder of CSV files)")
+            ->required();
         diagnosing->add_option("--study", study_, "study file with the initial contacts (default: a bed of stone)");
         diagnosing->add_option("-o,--output", output_,
                                "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
         diagnosing
-            ->add_option("--nulls", diagnosis_.nulls,
+            ->add_option("--nulls", nulls_,
                          "number of simulated healthy campaigns near the measured contact law; the others are in "
                          "proportion. 0: none; only direct tests of base and sensors can name a cause. Below "
                          "about 50 no cause of joints and blocks can be significant")
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
-        diagnosing->add_option("--seed", diagnosis_.seed, "seed of the simulated campaigns")
+        diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();
         add_force(*diagnosing, options_);
         add_set(*diagnosing, options_);
         add_common(*diagnosing, options_);
         add_mpi(*diagnosing);
-        diagnosing->callback(
-            [this] { on_ranks([this] { return diagnose_command(options_, file_, study_, output_, diagnosis_); }); });
+        diagnosing->callback([this] {
+            diagnosis_.nulls = static_cast<std::uint64_t>(nulls_);
+            diagnosis_.seed = static_cast<std::uint64_t>(seed_);
+            on_ranks([this] { return diagnose_command(options_, diagnosis_, study_, output_); });
+        });
     }
 
     void add_export()
@@ -415,10 +383,11 @@ private:
         auto* report = app_.add_subcommand(
             "report",
             "one self-contained page of a result, a comparison, a diagnosis, a calibration or a risk estimate");
-        report->add_option("FILE", file_, "results file, comparison, diagnosis, calibration or risk estimate (HDF5)")
+        report
+            ->add_option("FILE", report_.file,
+                         "results file, comparison, diagnosis, calibration or risk estimate (HDF5)")
             ->required();
-        report->add_option("-o,--output", report_.output,
-                           "the page, .html (default: the file's name with that extension)");
+        report->add_option("-o,--output", output_, "the page, .html (default: the file's name with that extension)");
         report->add_option("--title", report_.title, "title of the page (default: study.title, or the file's name)");
         report
             ->add_option(
@@ -439,7 +408,7 @@ private:
         add_force(*report, options_);
         add_set(*report, options_);
         add_common(*report, options_);
-        report->callback([this] { status_ = report_command(options_, file_, report_); });
+        report->callback([this] { status_ = report_command(options_, report_, output_); });
     }
 
     template <class List>
@@ -496,7 +465,8 @@ private:
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
     CommonOptions options_;
-    CheckOptions check_;
+    CheckRequest check_;
+    DrawingOptions drawing_;
     VerifyChoice verify_;
     int status_ = exit_done;
     DecisionVerbs decisions_{app_, options_, status_};
@@ -507,13 +477,14 @@ private:
     std::string shard_;
     bool partial_ = false, mpi_ = false, laws_ = false, all_ = false;
     std::string unit_, component_, block_;
-    CalibrateOptions calibration_;
+    CalibrationRequest calibration_;
     bool keep_all_ = false;
-    DiagnoseOptions diagnosis_;
+    DiagnosisRequest diagnosis_;
+    long long nulls_ = 192, seed_ = 1;
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;
-    ReportOptions report_;
+    PageRequest report_;
 };
 
 /// Ends with a message on standard error. Nothing runs at the exit: a file that could not be written whole is still

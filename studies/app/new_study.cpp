@@ -3,10 +3,9 @@
 #include "io/files/atomic_file.hpp"
 #include "io/keys/words.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/output_path.hpp"
 #include "studies/reference/study_reference.hpp"
-#include "studies/reference/study_schema.hpp"
 #include "studies/reference/study_template.hpp"
+#include "studies/workflow/output_path.hpp"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/file_kind.hpp"
 #include "studies/report/json.hpp"
+#include "studies/workflow/console.hpp"
+#include "studies/workflow/file_kind.hpp"
 
 #include <fmt/format.h>
 

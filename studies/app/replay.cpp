@@ -4,13 +4,13 @@
 #include "io/store/result_layout.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/app/file_kind.hpp"
-#include "studies/app/output_path.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/results.hpp"
 #include "studies/version.hpp"
+#include "studies/workflow/console.hpp"
+#include "studies/workflow/file_kind.hpp"
+#include "studies/workflow/output_path.hpp"
 
 #include <fmt/format.h>
 

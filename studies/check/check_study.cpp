@@ -1,8 +1,8 @@
 #include "studies/check/check_study.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/drawing/plot_structure.hpp"
 #include "io/keys/words.hpp"
+#include "io/plots/plot_structure.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_study.hpp"
 

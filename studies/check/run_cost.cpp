@@ -3,7 +3,7 @@
 #include "ensemble/model/time_counts.hpp"
 #include "ensemble/replicas/twins.hpp"
 #include "io/store/result_layout.hpp"
-#include "studies/check/trial_order.hpp"
+#include "studies/check/study_trial.hpp"
 #include "studies/experiment/duration.hpp"
 #include "studies/kinds/single/kept_trajectories.hpp"
 

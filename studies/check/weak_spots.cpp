@@ -3,11 +3,11 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/motion/synthetic_sine.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/statics/rigid_step.hpp"
+#include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/files/suggest.hpp"
 #include "io/study/study_accuracy.hpp"
-#include "studies/check/trial_order.hpp"
+#include "studies/check/study_trial.hpp"
 #include "studies/experiment/motions.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "studies/experiment/numerics.hpp"
 
 #include "ensemble/model/outcome.hpp"
-#include "ensemble/statics/rigid_step.hpp"
+#include "ensemble/statics/scales.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -84,6 +84,8 @@ public:
     /// Looks at the study before its run. @param file of the study, for messages
     /// @returns what the user should know, or nothing   @throws InputError if it cannot be run so
     virtual std::string prepare(const Experiment&, const std::string& file);
+    /// Whether `prepare` plans what the results file keeps and nothing else; a run in memory does without it.
+    virtual bool prepares_file_alone() const { return false; }
 
     // ---- the run ---------------------------------------------------------------------------------------------------
 

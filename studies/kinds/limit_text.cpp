@@ -1,7 +1,7 @@
 #include "studies/kinds/limit_text.hpp"
 
 #include "io/files/suggest.hpp"
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,9 @@
 #include "studies/kinds/nearest_on_axis.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/plot_axis.hpp"
+#include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace stylobate {
 
@@ -19,11 +16,7 @@ std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, cons
                                                         axis.front(), unit)
                                           : fmt::format("{} {:g}: the axis of {} goes from {:.4g} to {:.4g} {}", option,
                                                         wanted, results, axis.front(), axis.back(), unit));
-    const PlotAxis scale = make_plot_axis(axis, option);
-    const auto distance = [&](double value) { return std::abs(scale.scaled(value) - scale.scaled(wanted)); };
-    return static_cast<std::size_t>(
-        std::min_element(axis.begin(), axis.end(), [&](double a, double b) { return distance(a) < distance(b); }) -
-        axis.begin());
+    return make_cell_axis(axis, option).nearest(wanted);
 }
 
 } // namespace stylobate

@@ -3,7 +3,6 @@
 #include "io/keys/spread_key.hpp"
 #include "io/keys/study_tables.hpp"
 #include "io/tables/markdown.hpp"
-#include "studies/reference/key_words.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,23 @@
 namespace stylobate {
 
 namespace {
+
+/// "a", "b" or "c"
+std::string listed(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + toml_quoted(words[i]);
+    return text;
+}
+
+/// Of whole numbers, digit by digit.
+std::string whole_range(const Range& range)
+{
+    constexpr double largest = 9e18; // the largest of a signed integer is no double
+    return fmt::format("[{:.0f}, {}]", range.low,
+                       range.high > largest ? "2^63 - 1" : fmt::format("{:.0f}", range.high));
+}
 
 /// A vertical bar would end the cell of a table.
 std::string cell(std::string text)
@@ -43,8 +59,8 @@ public:
         std::string about = table.meaning;
         about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
         about += ".";
-        if (!table.used.empty())
-            about += fmt::format(" Used where {}.", use_words(table));
+        if (const std::string use = use_words(table); !use.empty())
+            about += fmt::format(" Used where {}.", use);
         if (!table.needed() && table.type != KeyType::tables)
             about += fmt::format(" If the table is absent: {}.", table.absent);
         paragraph(about);
@@ -59,8 +75,8 @@ public:
         out_ += markdown_head("key | type and range | default | meaning");
         for (const TomlKey* key : table.keys) {
             std::string meaning = key->meaning;
-            if (!key->used.empty())
-                meaning += fmt::format("; used where {}", use_words(*key));
+            if (const std::string use = use_words(*key); !use.empty())
+                meaning += fmt::format("; used where {}", use);
             if (const auto seen = printed_.find(key); seen != printed_.end())
                 meaning += fmt::format(" (keys: see `[{}]`)", seen->second);
             else if (!key->keys.empty())
@@ -112,12 +128,13 @@ public:
 private:
     void quantity(const SpreadKey& key, const std::string& above)
     {
+        const std::string use = use_words(key);
         std::string per;
         for (const std::string& word : key.per.words)
             per += (per.empty() ? "" : ", ") + word;
         out_ += markdown_row("`{}{}` | `{}`{} | {} | {} | {}", above, key.name, key.sd.name,
                              key.relative ? ", `cov`, `sigma_ln`" : "", key.value.text(), per,
-                             key.used.empty() ? key.meaning : key.meaning + "; used where " + use_words(key));
+                             use.empty() ? key.meaning : key.meaning + "; used where " + use);
     }
 
     std::string out_;
@@ -125,6 +142,52 @@ private:
 };
 
 } // namespace
+
+std::string type_words(const TomlKey& key)
+{
+    const std::string unit = key.unit();
+    const std::string in_unit = unit.empty() ? "" : ", " + unit;
+    const std::string or_word = key.words.empty() ? "" : "; or " + listed(key.words);
+    switch (key.type) {
+    case KeyType::number:
+        return "number in " + key.range.text() + in_unit + or_word;
+    case KeyType::whole:
+        return "whole number in " + whole_range(key.range) + or_word;
+    case KeyType::boolean:
+        return "true or false";
+    case KeyType::word:
+        return listed(key.words);
+    case KeyType::text:
+        return "string";
+    case KeyType::numbers:
+        return "list of numbers in " + key.range.text() + in_unit;
+    case KeyType::interval:
+        return "[low, high] in " + key.range.text() + in_unit;
+    case KeyType::wholes:
+        return "list of whole numbers in " + whole_range(key.range);
+    case KeyType::texts:
+        return "list of strings";
+    case KeyType::table:
+        return "table" + in_unit;
+    case KeyType::tables:
+        return "list of tables";
+    case KeyType::table_or_list:
+        return "table, or list of tables";
+    case KeyType::named:
+        return "table under a name of your choice";
+    }
+    return {};
+}
+
+std::string use_words(const TomlKey& key)
+{
+    std::string text;
+    for (const Condition& condition : key.used)
+        text += (text.empty() ? "" : ", and ") + condition.key + " = " + listed(condition.values);
+    if (!key.models.empty())
+        text += (text.empty() ? "" : ", and ") + std::string("model = ") + listed(key.models);
+    return text;
+}
 
 std::string study_reference()
 {

@@ -1,11 +1,25 @@
 #pragma once
-/// The reference page of the study file: every key with its type, unit, range, default and meaning.
+/// What is written from the descriptions of the keys (`io/keys/`): the reference page of the study file, and a JSON
+/// Schema of it, by which editors complete and check TOML.
+
+#include "io/files/toml_key.hpp"
 
 #include <string>
 
 namespace stylobate {
 
-/// The page in Markdown, made from the descriptions in `io/keys/`; it is kept as docs/study_reference.md.
+/// "number in (0, 10], m", "\"smooth\" or \"abrupt\"", "list of numbers in [0, 1]", "table".
+std::string type_words(const TomlKey& key);
+
+/// "excitation.kind = \"harmonic\" or \"tapered\", and study.kind = \"single\""; empty: always used.
+std::string use_words(const TomlKey& key);
+
+/// Every key with its type, unit, range, default and meaning, in Markdown; it is kept as docs/study_reference.md.
 std::string study_reference();
+
+/// Draft 7. It accepts every study that the reader accepts, and refuses unknown keys, wrong types, values out of range,
+/// missing keys, and keys that the kinds of the study, the structure, the excitation and the method do not use;
+/// relations between values are the reader's alone.
+std::string study_schema();
 
 } // namespace stylobate

@@ -1,7 +1,5 @@
-#include "studies/reference/study_schema.hpp"
-
 #include "io/keys/study_tables.hpp"
-#include "studies/reference/key_words.hpp"
+#include "studies/reference/study_reference.hpp"
 #include "studies/report/json.hpp"
 
 #include <fmt/format.h>
@@ -205,8 +203,8 @@ private:
             text += ".";
         else
             text += " (" + type_words(key) + ").";
-        if (!key.used.empty())
-            text += " Used where " + use_words(key) + ".";
+        if (const std::string use = use_words(key); !use.empty())
+            text += " Used where " + use + ".";
         if (!key.needed() && !key.absent_is_value)
             text += " Default: " + key.absent + ".";
         schema.member("description", text);

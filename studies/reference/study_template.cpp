@@ -1,14 +1,11 @@
 #include "studies/reference/study_template.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/keys/conditions.hpp"
 #include "io/keys/study_tables.hpp"
-#include "io/keys/words.hpp"
-#include "studies/reference/key_words.hpp"
+#include "studies/reference/study_reference.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
 
 namespace stylobate {
 
@@ -25,13 +22,8 @@ std::string line(const std::string& text, const std::string& comment)
 
 class Template {
 public:
-    explicit Template(const TemplateChoice& choice)
-        : kinds_{{"study.kind", word_for(study_kind_names, choice.study)},
-                 {"structure.kind", word_for(structure_kind_names, choice.structure)},
-                 {"contact.form", word_for(contact_form_names, ContactSpec{}.form)},
-                 {"excitation.kind", word_for(excitation_kind_names, *choice.excitation)},
-                 {"fragility.method", word_for(fragility_method_names, FragilitySpec{}.method)}},
-          comes_to_rest_(choice.study != StudyKind::surface && choice.study != StudyKind::rare)
+    explicit Template(const Study& kinds)
+        : use_(key_use(kinds)), comes_to_rest_(kinds.kind != StudyKind::surface && kinds.kind != StudyKind::rare)
     {
     }
 
@@ -39,25 +31,19 @@ public:
     {
         std::string out;
         for (const TomlKey* table : study_file_keys().keys)
-            if (used(*table))
+            if (use_.of(*table))
                 out += "\n" + section(*table);
         return out;
     }
 
 private:
-    bool used(const TomlKey& key) const
-    {
-        return std::all_of(kinds_.begin(), kinds_.end(),
-                           [&](const auto& kind) { return key.used_where(kind.first, kind.second); });
-    }
-
     /// A table with all its keys; as a comment if none of them is given.
     std::string section(const TomlKey& table) const
     {
         std::string keys;
         bool given = table.needed();
         for (const TomlKey* key : table.keys)
-            if (used(*key)) {
+            if (use_.of(*key)) {
                 const std::string value = value_of(*key, table.name + "." + key->name);
                 given = given || !value.empty();
                 keys += line_of(*key, value);
@@ -71,7 +57,7 @@ private:
     /// What the study gives; empty: it leaves the key to its default.
     std::string value_of(const TomlKey& key, const std::string& path) const
     {
-        if (const auto kind = kinds_.find(path); kind != kinds_.end() && path != "fragility.method")
+        if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
             return toml_quoted(kind->second);
         // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
         if (path == "contact.damping" && comes_to_rest_)
@@ -117,7 +103,7 @@ private:
         return table.type == KeyType::tables ? "[ { " + entries + " }, ... ]" : "{ " + entries + " }";
     }
 
-    std::map<std::string, std::string> kinds_;
+    KeyUse use_;
     bool comes_to_rest_;
 };
 
@@ -130,17 +116,14 @@ ExcitationKind usual_excitation(StudyKind study)
 
 std::string study_template(const TemplateChoice& choice)
 {
-    TemplateChoice complete = choice;
-    if (!choice.excitation)
-        complete.excitation = usual_excitation(choice.study);
+    const ExcitationKind kind = choice.excitation.value_or(usual_excitation(choice.study));
     const std::string study = word_for(study_kind_names, choice.study);
-    const std::string motion = word_for(excitation_kind_names, *complete.excitation);
+    const std::string motion = word_for(excitation_kind_names, kind);
     const auto refuse = [&](const char* instead) {
         throw InputError(fmt::format("a study of kind \"{}\" cannot have excitation.kind = \"{}\".\n  Give {}.", study,
                                      motion, instead));
     };
     using Motion = ExcitationKind;
-    const Motion kind = *complete.excitation;
     if (kind == Motion::none && choice.study != StudyKind::single)
         refuse("another --excitation, or the kind \"single\"");
     const bool many =
@@ -149,6 +132,11 @@ std::string study_template(const TemplateChoice& choice)
         refuse("--excitation record, noise, pulse or tapered");
     if (choice.study == StudyKind::rare && kind == Motion::noise)
         refuse("another --excitation: each synthetic earthquake draws thousands of numbers");
+    Study kinds;
+    kinds.kind = choice.study;
+    kinds.structure.kind = choice.structure;
+    kinds.excitation.kind = kind;
+    kinds.fragility.emplace();
     return fmt::format(
                "# A study of kind \"{}\", to begin with: change the values, and remove the # of a key to give it.\n"
                "# All units are SI. Every key: stylobate schema --markdown\n"
@@ -156,7 +144,7 @@ std::string study_template(const TemplateChoice& choice)
                "#   stylobate info THIS_FILE.toml       warnings, without a run\n"
                "#   stylobate run THIS_FILE.toml        the results go to THIS_FILE.h5\n",
                study) +
-           Template(complete).text();
+           Template(kinds).text();
 }
 
 } // namespace stylobate

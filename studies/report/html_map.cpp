@@ -17,22 +17,6 @@ constexpr double scale_left = 785, scale_width = 18;
 constexpr double picture_width = 860, picture_height = 500;
 constexpr double seam = 0.5; ///< by which cells overlap, so that no light comes between them
 
-/// Its lightness ascends evenly, so that it can be read in grey too.
-std::string viridis_colour(double value)
-{
-    const double at = std::clamp(value, 0.0, 1.0) * (viridis.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
-    const double share = at - static_cast<double>(i);
-    const auto part = [](const char* colour, std::size_t k) { // of "#rrggbb"
-        return static_cast<double>(std::stoi(std::string(colour).substr(1 + 2 * k, 2), nullptr, 16));
-    };
-    std::string mixed = "#";
-    for (std::size_t k = 0; k < 3; ++k)
-        mixed +=
-            fmt::format("{:02x}", std::lround((1 - share) * part(viridis[i], k) + share * part(viridis[i + 1], k)));
-    return mixed;
-}
-
 double px_x(double unit)
 {
     return frame_left + unit * frame_width;
@@ -63,21 +47,21 @@ std::string map_cells(const CellMap& map)
 std::string map_lines(const CellMap& map)
 {
     std::string out, labels;
-    for (const MapLines& one : map.lines) {
+    for (const SurfaceContour& contour : map.contours) {
         std::string data;
-        for (const std::vector<MapPoint>& line : one.lines)
+        for (const ContourLine& line : contour.lines)
             for (std::size_t k = 0; k < line.size(); ++k)
                 data += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", px_x(line[k].x), px_y(line[k].y));
         if (data.empty())
             continue;
         for (const char* look : {"#202020\" stroke-width=\"3", "#ffffff\" stroke-width=\"1.6"})
             out += fmt::format("<path d=\"{}\" fill=\"none\" pointer-events=\"none\" stroke=\"{}\"/>\n", data, look);
-        const double x = px_x(one.label_at.x), y = px_y(one.label_at.y);
+        const double x = px_x(contour.label.x), y = px_y(contour.label.y);
         labels += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"38\" height=\"17\" rx=\"3\" fill=\"#fff\" "
                               "pointer-events=\"none\"/>\n",
                               x - 19, y - 9);
-        labels +=
-            svg_text(x, y + 4, "middle", one.label, " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
+        labels += svg_text(x, y + 4, "middle", fmt::format("{}", contour.level),
+                           " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
     }
     return out + labels;
 }

@@ -1,23 +1,13 @@
 #pragma once
 /// A map of cells over two axes, drawn as SVG.
 
+#include "io/plots/plot_surface.hpp"
 #include "studies/report/html.hpp"
 
 #include <string>
 #include <vector>
 
 namespace stylobate {
-
-/// In the unit square of the map.
-struct MapPoint {
-    double x = 0, y = 0;
-};
-/// Lines of a map that have one name, for example a contour.
-struct MapLines {
-    std::vector<std::vector<MapPoint>> lines;
-    std::string label; ///< empty: none
-    MapPoint label_at;
-};
 
 /// Cells x by y, the y within each x: value[i * y.size() + j].
 struct CellMap {
@@ -26,7 +16,7 @@ struct CellMap {
     std::vector<double> x, y;             ///< (nx), (ny) values of the cells
     std::vector<double> x_edges, y_edges; ///< (nx + 1), (ny + 1) of the cells, in [0, 1]
     std::vector<double> value;            ///< (nx x ny) in [0, 1]; NaN: nothing is known, the cell is grey
-    std::vector<MapLines> lines;
+    std::vector<SurfaceContour> contours;
 };
 
 /// Each cell has its number in `data-cell`, for the script of the page (cells.js).

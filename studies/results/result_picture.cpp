@@ -2,10 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
-#include "io/plots/plot_order.hpp"
 #include "io/plots/plot_strip.hpp"
+#include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/results/fall_order.hpp"
 
 #include <fmt/format.h>
 
@@ -89,6 +88,36 @@ void strip_picture(const Results& results, const FollowedMotion& motion, const s
 {
     const Trajectory& t = motion.trajectory;
     plot_strip(t, motion.fall_time_s, title.empty() ? strip_title(results, t.index) : title, file);
+}
+
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
+                     const MotionGroups& motions)
+{
+    FallOrder order;
+    for (const std::string& name : names)
+        order.blocks.push_back({name, 0, {}, 0, 1});
+    LimitCounts counts(names.size(), motions);
+    order.interval = counts.interval();
+    for (const ResultRow& row : rows) {
+        counts.add(row);
+        if (row.outcome.state == State::invalid)
+            continue;
+        order.end_time_s = std::max(order.end_time_s, row.outcome.end_time_s);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (row.outcome.fall_time_s[i] >= 0)
+                order.blocks[i].fall_time_s.push_back(row.outcome.fall_time_s[i]);
+    }
+    order.trials = counts.trials();
+    order.together = counts.first_together();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        FallOrder::Block& block = order.blocks[i];
+        std::sort(block.fall_time_s.begin(), block.fall_time_s.end());
+        block.first = counts.first()[i];
+        const Share share = counts.share_fallen(i);
+        block.lower = share.lower;
+        block.upper = share.upper;
+    }
+    return order;
 }
 
 void order_picture(const Results& results, long long cell, const std::string& given_title, const fs::path& file)

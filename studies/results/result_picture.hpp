@@ -2,7 +2,9 @@
 /// One realization over time, for pictures, pages, films and other programs; and the pictures that the results of every
 /// kind have: that of a realization, and the order of falls.
 
+#include "io/plots/plot_order.hpp"
 #include "kernels/isa.hpp"
+#include "studies/experiment/motions.hpp"
 #include "studies/report/figure.hpp"
 #include "studies/results/results.hpp"
 
@@ -33,6 +35,11 @@ void strip_picture(const Results& results, const FollowedMotion& motion, const s
 /// The same as curves of a page: displacement of the base, and of blocks against the base and their place in the
 /// reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as have colours.
 Figure history_figure(const Results& results, const FollowedMotion& motion);
+
+/// Which blocks fell, in which order and when, for its picture.
+/// @param names of the blocks, as many as each row has fall times
+FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
+                     const MotionGroups& motions = {});
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations

@@ -36,7 +36,6 @@ class CountStore : public RunStore {
 public:
     explicit CountStore(std::unique_ptr<TallyWriter> writer) : writer_(std::move(writer)) {}
 
-    std::optional<State> state(std::uint64_t) const override { return std::nullopt; }
     const DoneSet* counted() const override { return &writer_->done(); }
     void give_to(Kind& kind) const override { kind.add(writer_->tally()); }
     void add(const ResultRow& row) override { writer_->add(tally_entry(row)); }
@@ -49,23 +48,7 @@ private:
     std::unique_ptr<TallyWriter> writer_;
 };
 
-class NoStore : public RunStore {
-public:
-    std::optional<State> state(std::uint64_t) const override { return std::nullopt; }
-    void give_to(Kind&) const override {}
-    void add(const ResultRow&) override {}
-    void add(const Trajectory&) override {}
-    using RunStore::add;
-    void finish(const Kind&) override {}
-    void flush() override {}
-};
-
 } // namespace
-
-std::unique_ptr<RunStore> no_store()
-{
-    return std::make_unique<NoStore>();
-}
 
 void RunStore::add(const ResultReader& other)
 {

@@ -12,33 +12,33 @@
 
 namespace stylobate {
 
+/// By itself it keeps nothing: of a process that gives its rows to another one.
 class RunStore {
 public:
     virtual ~RunStore() = default;
 
     /// How a realization ended that is there already.
-    virtual std::optional<State> state(std::uint64_t index) const = 0;
+    virtual std::optional<State> state(std::uint64_t) const { return std::nullopt; }
     /// Where there are no rows: what is counted, by its place in the order of the run; else null.
     virtual const DoneSet* counted() const { return nullptr; }
     /// Gives the kind what is there: all rows, or the counts.
-    virtual void give_to(Kind& kind) const = 0;
+    virtual void give_to(Kind&) const {}
     /// All rows that are there; none of counts.
     virtual void for_each_row(const std::function<void(const ResultRow&)>&) const {}
-    virtual void add(const ResultRow& row) = 0;
-    virtual void add(const Trajectory& trajectory) = 0;
+    virtual void add(const ResultRow&) {}
+    /// Whether it keeps trajectories; else no realization is followed for one.
+    virtual bool keeps_trajectories() const { return true; }
+    virtual void add(const Trajectory&) {}
     /// Takes what another file of the study has. @pre none of it is there already
     virtual void add(const ResultReader& other);
     /// All is there: the file becomes complete, with what the kind makes of it.
-    virtual void finish(const Kind& kind) = 0;
+    virtual void finish(const Kind&) {}
     /// Keeps what is there for another run.
-    virtual void flush() = 0;
+    virtual void flush() {}
 };
 
 /// @param found whether the file is there and is to be continued
 /// @throws InputError as `ResultWriter` and `TallyWriter` do
 std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader& header, bool found);
-
-/// Of a process that gives its rows to another one: it keeps nothing.
-std::unique_ptr<RunStore> no_store();
 
 } // namespace stylobate

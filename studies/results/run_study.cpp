@@ -102,6 +102,8 @@ public:
 
     bool follow(std::uint64_t kept_trajectories) override
     {
+        if (!store_.keeps_trajectories())
+            return run({.fair = true});
         const auto begin = std::chrono::steady_clock::now();
         const auto seconds = [begin] {
             return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -198,8 +200,8 @@ void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& s
     check_realizations(sampler, kind, patient, shard);
 }
 
-StudyRun run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
-                   Observer& observer, const Shard& shard)
+RunEnd run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
+                 Observer& observer, const Shard& shard)
 {
     Runner runner(experiment, kind, store, options, observer, shard);
     const bool complete = kind.plan(runner);

@@ -14,7 +14,7 @@ void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& s
 /// The same until the observer asks to stop. @return whether all were drawn
 bool check_realizations(const Sampler& sampler, const Kind& kind, Observer& observer, const Shard& shard = {});
 
-struct StudyRun {
+struct RunEnd {
     Progress progress;
     bool complete = false; ///< of a shard: it is; else the user has asked to stop
 };
@@ -23,7 +23,7 @@ struct StudyRun {
 /// wants `Kind::conclude` and `RunStore::finish`, another one and a shard `RunStore::flush`.
 /// @pre the kind has been given what the store has, and if it is a shard, it has no `why_no_shards`
 /// @throws what `run_ensemble` and the store throw
-StudyRun run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
-                   Observer& observer, const Shard& shard = {});
+RunEnd run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
+                 Observer& observer, const Shard& shard = {});
 
 } // namespace stylobate

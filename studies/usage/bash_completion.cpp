@@ -1,4 +1,4 @@
-#include "studies/usage/bash_completion.hpp"
+#include "studies/usage/usage.hpp"
 
 #include "io/keys/study_tables.hpp"
 

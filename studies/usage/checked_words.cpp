@@ -1,8 +1,9 @@
-#include "studies/usage/checked_words.hpp"
+#include "studies/usage/usage.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

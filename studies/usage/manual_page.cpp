@@ -1,6 +1,4 @@
-#include "studies/usage/manual_page.hpp"
-
-#include "studies/usage/usage_notes.hpp"
+#include "studies/usage/usage.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "studies/verify/count_checks.hpp"
+#include "studies/verify/value_checks.hpp"
 
 #include "io/files/suggest.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/verify/replay_sample.hpp"
+#include "studies/verify/recorded_rounds.hpp"
 
 #include <fmt/format.h>
 

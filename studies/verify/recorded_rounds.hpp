@@ -2,6 +2,7 @@
 /// The rounds of a run whose realizations are in a results file: what the kind asks for is looked up there, and a
 /// sample of it is run again.
 
+#include "io/store/result_store.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/rounds.hpp"
 
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace stylobate {
+
+/// A number that orders indices by chance: the same for the same seed, whatever else is chosen from.
+std::uint64_t sample_key(std::uint64_t seed, std::uint64_t index);
+
+/// At most `most` realizations whose rows are in the file, ascending, spread evenly over the cells.
+std::vector<std::uint64_t> replay_sample(const ResultReader& reader, std::uint64_t most, std::uint64_t seed);
 
 /// What is asked of the file, and what takes the realizations that are run again; the takers are called from one thread
 /// at a time.

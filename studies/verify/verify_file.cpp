@@ -1,4 +1,4 @@
-#include "studies/verify/verify_file.hpp"
+#include "studies/verify/verification.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
@@ -7,11 +7,8 @@
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/results.hpp"
-#include "studies/verify/count_checks.hpp"
 #include "studies/verify/recorded_rounds.hpp"
-#include "studies/verify/replay_sample.hpp"
-#include "studies/verify/row_checks.hpp"
-#include "studies/verify/table_checks.hpp"
+#include "studies/verify/value_checks.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

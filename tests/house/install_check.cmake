@@ -28,6 +28,12 @@ run(${work}/build/custom_excitation)
 file(WRITE ${work}/custom_excitation.txt "${output}")
 run(${work}/build/follow ${study} ${work}/follow.svg)
 file(WRITE ${work}/follow.txt "${output}")
+file(MAKE_DIRECTORY ${work}/decisions)
+file(COPY_FILE ${SOURCE_DIR}/tests/library/small_fragility.toml ${work}/decisions/small.toml)
+run(${CMAKE_COMMAND} -E chdir ${work}/decisions ${work}/build/compare small.toml)
+file(WRITE ${work}/compare.txt "${output}")
+run(${CMAKE_COMMAND} -E chdir ${work}/decisions ${work}/build/risk comparison.h5 k0=1e-3,k=3,measure=pga)
+file(WRITE ${work}/risk.txt "${output}")
 
 # Nothing that is installed may look back into the build or the sources, and no header needs more than the standard's.
 file(GLOB_RECURSE texts ${prefix}/*.cmake ${prefix}/*.hpp)

@@ -60,15 +60,12 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"io/hazard", {"io/files", "io/tables"}},
     {"io/records", {"io/files"}},
     {"io/motion", {"io/records"}},
-    {"io/measured", {"io/files", "io/motion", "io/records"}},
+    {"io/measured", {"io/files", "io/motion", "io/records", "io/store"}},
     {"io/keys", {"io/files"}},
-    {"io/study/decisions", {"io/files", "io/hazard", "io/keys"}},
-    {"io/study", {"io/files", "io/keys", "io/records", "io/study/decisions"}},
+    {"io/study", {"io/files", "io/hazard", "io/keys", "io/records"}},
     {"io/store", {"io/files", "io/tables"}},
     {"io/sealed", {"io/files", "io/store", "io/tables"}},
     {"io/plots", {"io/files", "io/store", "io/tables"}},
-    {"io/drawing", {"io/plots"}},
-    {"io/curves", {"io/plots"}},
 
     {"studies", {}},
     {"studies/report", {"studies"}},
@@ -100,46 +97,51 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"studies/decisions/search",
      {"studies/decisions/compare", "studies/decisions/risk", "studies/kinds/fragility", "studies/report",
       "studies/results"}},
-    {"studies/windows", {"studies/report"}},
-    {"studies/diagnosis/findings", {"studies/report", "studies/windows"}},
-    {"studies/diagnosis/laws", {}},
-    {"studies/diagnosis/statistics", {"studies/diagnosis/laws"}},
-    {"studies/diagnosis/tests", {"studies/diagnosis/findings", "studies/diagnosis/laws"}},
-    {"studies/diagnosis/likelihood", {}},
-    {"studies/calibration",
-     {"studies", "studies/diagnosis/findings", "studies/diagnosis/tests", "studies/report", "studies/windows"}},
-    {"studies/diagnosis/ensemble_fit",
-     {"studies", "studies/diagnosis/laws", "studies/diagnosis/likelihood", "studies/diagnosis/statistics",
-      "studies/diagnosis/tests", "studies/windows"}},
-    {"studies/diagnosis/decision",
-     {"studies", "studies/diagnosis/ensemble_fit", "studies/diagnosis/findings", "studies/diagnosis/laws",
-      "studies/diagnosis/statistics", "studies/diagnosis/tests", "studies/windows"}},
+    {"studies/measured/windows", {"studies/report"}},
+    {"studies/measured/diagnosis/findings", {"studies/measured/windows", "studies/report"}},
+    {"studies/measured/diagnosis/evidence", {}},
+    {"studies/measured/diagnosis/direct",
+     {"studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings"}},
+    {"studies/measured/calibration",
+     {"studies", "studies/measured/diagnosis/direct", "studies/measured/diagnosis/findings", "studies/measured/windows",
+      "studies/report"}},
+    {"studies/measured/diagnosis/campaigns",
+     {"studies", "studies/measured/diagnosis/direct", "studies/measured/diagnosis/evidence",
+      "studies/measured/windows"}},
+    {"studies/measured/diagnosis",
+     {"studies", "studies/measured/diagnosis/campaigns", "studies/measured/diagnosis/direct",
+      "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings", "studies/measured/windows"}},
     {"studies/decisions/risk",
      {"studies/decisions/compare", "studies/experiment", "studies/kinds", "studies/kinds/fragility", "studies/report",
       "studies/results"}},
-    {"studies/app",
-     {"studies", "studies/calibration", "studies/check", "studies/cluster", "studies/diagnosis/decision",
-      "studies/decisions/compare", "studies/decisions/laws", "studies/decisions/risk", "studies/diagnosis/findings",
-      "studies/diagnosis/laws", "studies/experiment", "studies/kinds", "studies/kinds/survival", "studies/reference",
-      "studies/report", "studies/results", "studies/usage", "studies/verify"}},
-    {"studies/app/decisions",
-     {"studies", "studies/app", "studies/decisions/adaptive", "studies/decisions/compare", "studies/decisions/risk",
-      "studies/decisions/search", "studies/kinds/fragility", "studies/kinds/survival", "studies/results"}},
+    {"studies/workflow",
+     {"studies", "studies/check", "studies/cluster", "studies/decisions/adaptive", "studies/decisions/compare",
+      "studies/decisions/laws", "studies/decisions/risk", "studies/decisions/search", "studies/experiment",
+      "studies/kinds", "studies/kinds/fragility", "studies/kinds/survival", "studies/measured/calibration",
+      "studies/measured/diagnosis", "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings",
+      "studies/report", "studies/results"}},
+    {"studies/app", // the command line, which nothing else includes
+     {"studies", "studies/cluster", "studies/decisions/compare", "studies/decisions/laws", "studies/decisions/risk",
+      "studies/experiment", "studies/measured/calibration", "studies/measured/diagnosis/evidence",
+      "studies/measured/diagnosis/findings", "studies/reference", "studies/report", "studies/results", "studies/usage",
+      "studies/verify", "studies/workflow"}},
     {"library", {}},
     {"studies/evidence/picture", {}},
     {"studies/evidence/claims",
-     {"studies", "studies/app", "studies/experiment", "studies/kinds/surface", "studies/report"}},
+     {"studies", "studies/evidence/picture", "studies/experiment", "studies/kinds/surface", "studies/report",
+      "studies/workflow"}},
     {"studies/evidence/verification", {"studies", "studies/evidence/picture"}},
     {"studies/evidence/verification/cases", {"studies/evidence/picture", "studies/evidence/verification"}},
     {"studies/evidence/measured/parts", {}},
-    {"studies/evidence/measured/boulders", {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
+    {"studies/evidence/measured/boulders",
+     {"studies", "studies/evidence/measured/parts", "studies/evidence/picture", "studies/evidence/verification"}},
     {"studies/evidence/measured/double_pulse",
      {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
     {"studies/evidence/measured/planar_impact",
      {"studies", "studies/evidence/measured/parts", "studies/evidence/picture"}},
     {"studies/evidence/measured",
-     {"studies", "studies/app", "studies/evidence/measured/boulders", "studies/evidence/measured/double_pulse",
-      "studies/evidence/measured/parts"}},
+     {"studies", "studies/evidence/measured/boulders", "studies/evidence/measured/double_pulse",
+      "studies/evidence/measured/parts", "studies/evidence/picture", "studies/workflow"}},
 };
 
 /// Floors below, which every room of a floor may include. Who is not listed here may include everything.
@@ -224,6 +226,10 @@ std::string breach(const std::string& file, const std::string& include)
         if (room == rooms.end() || !room->second.contains(room_of(include)))
             return says + ": the graph of the rooms at the top of this test does not have it";
     }
+    if (room_of(include) == "studies/app" && room_of(file) != "studies/app")
+        return says + ": nothing includes the command line; what others need is in studies/workflow";
+    if (include.starts_with("CLI/") && room_of(file) == "studies/workflow")
+        return says + ": a workflow knows no command line";
     if (from == "include" && !std::regex_match(include, public_include))
         return says + ": an outside program may not have it";
     if (from == "studies" && (to == "tests" || to == "bench" || to == "python"))
@@ -441,6 +447,9 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("studies/app/run.cpp", "library/inside.hpp"), "");
+    EXPECT_NE(breach("library/run.cpp", "studies/app/command.hpp"), "");
+    EXPECT_NE(breach("studies/evidence/claims/main.cpp", "studies/app/command.hpp"), "");
+    EXPECT_NE(breach("studies/workflow/run.cpp", "CLI/CLI.hpp"), "");
     EXPECT_NE(breach("include/stylobate/study.hpp", "ensemble/model/study.hpp"), "");
     EXPECT_NE(breach("include/stylobate/study.hpp", "fmt/format.h"), "");
 
@@ -450,6 +459,8 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("studies/app/run.cpp", "studies/workflow/run.hpp"), "");
+    EXPECT_EQ(breach("library/run.cpp", "studies/workflow/run.hpp"), "");
     EXPECT_EQ(breach("library/study.cpp", "io/study/study_file.hpp"), "");
     EXPECT_EQ(breach("include/stylobate/study.hpp", "stylobate/record.hpp"), "");
     EXPECT_EQ(breach("include/stylobate/study.hpp", "vector"), "");

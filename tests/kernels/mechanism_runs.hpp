@@ -3,7 +3,6 @@
 
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/mechanisms.hpp"
-#include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 

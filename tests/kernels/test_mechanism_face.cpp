@@ -3,7 +3,7 @@
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "kernels/mechanisms/corner_wear.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <gtest/gtest.h>
 

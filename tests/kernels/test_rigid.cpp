@@ -2,11 +2,9 @@
 
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/statics/limit_analysis.hpp"
-#include "studies/evidence/verification/colonnade.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
-#include "studies/evidence/verification/rigid_slider.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <gtest/gtest.h>
 

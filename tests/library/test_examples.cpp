@@ -97,5 +97,26 @@ TEST_F(Examples, TheFollowedRealizationIsTheReplayedOne)
     EXPECT_NE(svg.find(fmt::format("{:.3f} s</text>", t.time_s.back())), std::string::npos);
 }
 
+TEST_F(Examples, TheComparisonAndItsRiskAreTheProgramsOnes)
+{
+    fs::copy(STYLOBATE_SOURCE_DIR "/tests/library/small_fragility.toml", folder / "small.toml");
+    const JsonValue said = json_of(run({"compare", "small.toml", "-o", "comparison.h5", "--json"}));
+    std::string want;
+    for (const JsonValue& variant : said["variants"].items)
+        for (const JsonMember& limit : variant["limit_states"].members) {
+            const JsonValue& overall = limit.value["overall"];
+            want += fmt::format("{}, {}: {:+.4f} ({:+.4f} to {:+.4f}), {}\n", variant["name"].text, limit.name,
+                                overall["difference"].number, overall["lower"].number, overall["upper"].number,
+                                overall["verdict"].text);
+        }
+    EXPECT_EQ(read_bytes(installed / "compare.txt"), want);
+    EXPECT_EQ(read_bytes(installed / "decisions/comparison.h5"), bytes("comparison.h5"));
+    const std::string risk = run({"risk", "comparison.h5", "--hazard", "k0=1e-3,k=3,measure=pga", "-o", "risk.h5"}).out;
+    const std::string got = read_bytes(installed / "risk.txt");
+    EXPECT_TRUE(got.starts_with(risk.substr(0, risk.rfind("risk.h5")))) << got << risk;
+    EXPECT_NE(got.find("base_annual_frequency_lower, 1/year\n"), std::string::npos) << got;
+    EXPECT_GT(read_bytes(installed / "decisions/risk.html").size(), 10000U);
+}
+
 } // namespace
 } // namespace stylobate

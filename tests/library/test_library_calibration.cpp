@@ -2,10 +2,11 @@
 
 #include "stylobate/stylobate.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
+#include "tests/io/measured/campaign_writer.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"
-#include "studies/calibration/calibration_file.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
 
 #include <fmt/format.h>
 

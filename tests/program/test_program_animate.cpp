@@ -1,8 +1,8 @@
 /// The realizations in motion of `stylobate report`: which are kept, within which limits, and what is refused.
 
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/program/program.hpp"
-#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+#include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,13 +1,14 @@
 /// Every kind of file given to every verb: taken, or told what it is and which verb takes it; what `info` says of each.
 
+#include "tests/io/measured/campaign_writer.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"
-#include "studies/calibration/calibration_file.hpp"
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/io/measured/measured_samples.hpp"
-#include "tests/studies/calibration/calibration_sample.hpp"
-#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+#include "tests/studies/measured/calibration/calibration_sample.hpp"
+#include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 
 #include <fmt/format.h>
 

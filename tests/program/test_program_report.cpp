@@ -1,8 +1,8 @@
 /// `stylobate report`, as its user runs it.
 
-#include "studies/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/program/program.hpp"
-#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+#include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 
 namespace stylobate {
 namespace {

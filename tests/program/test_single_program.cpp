@@ -4,8 +4,8 @@
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"
-#include "studies/app/console.hpp"
 #include "studies/kinds/single/kept_trajectories.hpp"
+#include "studies/workflow/console.hpp"
 
 namespace stylobate {
 namespace {

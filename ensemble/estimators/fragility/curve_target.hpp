@@ -4,6 +4,7 @@
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
 #include "ensemble/estimators/fragility/limits.hpp"
 
+#include <span>
 #include <vector>
 
 namespace stylobate {
@@ -59,10 +60,10 @@ RecordSpread record_spread(const FittedCurve& curve, const CurveTarget& target);
 /// where all runs are independent. Unbounded, as the others, where the likelihood has no maximum.
 Limits profile_limits(const FittedCurve& curve, const CurveTarget& target, double level);
 
-/// The same with the likelihood ratio divided by the inflation of the target's variance by the records and compared
-/// with the square of Student's quantile (Chandler & Bate, "Inference for clustered data using the independence
-/// loglikelihood", Biometrika 94 (2007) 167, vertical adjustment; CR3 variance): right where only the records are
-/// independent.
+/// Limits as of `profile_limits`, with the likelihood ratio divided by the inflation of the target's variance by the
+/// records and compared with the square of Student's quantile (Chandler & Bate, "Inference for clustered data using the
+/// independence loglikelihood", Biometrika 94 (2007) 167, vertical adjustment; CR3 variance): right where only the
+/// records are independent.
 Limits record_limits(const FittedCurve& curve, const CurveTarget& target, double level);
 
 /// Twice the difference of the maximum log likelihood and that of the best coefficients with that value of the target.
@@ -82,5 +83,18 @@ Limits jackknife_limits(const FittedCurve& curve, const Jackknife& without, cons
 
 /// value -+ Student's quantile x standard error from the records, CR3.
 Limits wald_limits(const FittedCurve& curve, const CurveTarget& target, double level);
+
+/// Limits from curves fitted to records resampled with replacement (Efron & Tibshirani 1993, chapters 12 to 14).
+struct BootstrapLimits {
+    Limits percentile;
+    Limits accelerated;              ///< bias-corrected and accelerated (BCa; Efron, JASA 82 (1987) 171)
+    Limits studentized;              ///< from the quantiles of (value - estimate) / standard error (bootstrap-t)
+    std::size_t without_maximum = 0; ///< resamples without a maximum; they count as infinite
+};
+
+/// @param resamples number of them; resample i draws with stream `bootstrap`, index i, elements 0 to records - 1
+/// @return one for each target; unbounded where the fit itself has no maximum
+std::vector<BootstrapLimits> bootstrap_limits(const FittedCurve& curve, std::span<const CurveTarget> targets,
+                                              double level, std::size_t resamples, std::uint64_t seed);
 
 } // namespace stylobate

@@ -1,7 +1,6 @@
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
-#include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/model/input_error.hpp"
 
 #include <fmt/format.h>

@@ -53,7 +53,7 @@ FragilityData grouped(const std::vector<double>& intensity, const std::vector<do
 /// (records x points) the share of each record's own runs; without runs at a point it takes that of all others there.
 std::vector<std::vector<double>> record_shares(const FragilityData& data);
 
-/// The same outcomes with one of their measures only.
+/// Outcomes with one of their measures only.
 FragilityData with_measure(const FragilityData& data, std::size_t measure);
 
 } // namespace stylobate

@@ -1,14 +1,11 @@
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 
-#include "ensemble/estimators/surface/widest_first.hpp"
-
-#include <algorithm>
-#include <utility>
+#include <optional>
 
 namespace stylobate {
 
 PairedAllocation::PairedAllocation(const PairedBudget& budget, std::size_t cells, std::uint64_t most, double level)
-    : budget_(budget), looks_(budget.minimum, most, level), asked_(cells, 0)
+    : budget_(budget), looks_(budget.minimum, most, level), rounds_(budget.pairs, cells)
 {
 }
 
@@ -28,18 +25,9 @@ bool PairedAllocation::decided(const PairedCounts& counts) const
 
 const std::vector<std::uint64_t>& PairedAllocation::next(std::span<const PairedCounts> counts)
 {
-    if (rounds_ == 0) {
-        std::fill(asked_.begin(), asked_.end(), looks_.pairs().front());
-        ++rounds_;
-        return asked_;
-    }
-    std::vector<std::pair<double, std::size_t>> open; // by width
-    for (std::size_t cell = 0; cell < asked_.size(); ++cell)
-        if (asked_[cell] < looks_.pairs().back() && !decided(counts[cell]))
-            open.emplace_back(interval(counts[cell]).half_width(), cell);
-    rounds_ += proceed_widest_first(
-        std::move(open), budget_.pairs, [this](std::uint64_t asked) { return looks_.after(asked); }, asked_);
-    return asked_;
+    return rounds_.next(looks_.pairs(), [&](std::size_t cell) -> std::optional<double> {
+        return decided(counts[cell]) ? std::nullopt : std::optional(interval(counts[cell]).half_width());
+    });
 }
 
 } // namespace stylobate

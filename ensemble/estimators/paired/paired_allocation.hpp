@@ -10,6 +10,7 @@
 #include "ensemble/estimators/paired/paired_counts.hpp"
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/paired/repeated_looks.hpp"
+#include "ensemble/estimators/surface/widest_first.hpp"
 
 #include <cstdint>
 #include <span>
@@ -31,8 +32,8 @@ public:
     /// Pairs of each cell after the next round, from the counts among those requested so far; the first time of none.
     /// If they are the same as before, the allocation is finished.
     const std::vector<std::uint64_t>& next(std::span<const PairedCounts> counts);
-    const std::vector<std::uint64_t>& asked() const { return asked_; }
-    std::uint64_t rounds() const { return rounds_; }
+    const std::vector<std::uint64_t>& asked() const { return rounds_.asked(); }
+    std::uint64_t rounds() const { return rounds_.rounds(); }
     const RepeatedLooks& looks() const { return looks_; }
     /// Whether a cell needs no more pairs.
     bool decided(const PairedCounts& counts) const;
@@ -42,8 +43,7 @@ private:
 
     PairedBudget budget_;
     RepeatedLooks looks_;
-    std::vector<std::uint64_t> asked_;
-    std::uint64_t rounds_ = 0;
+    WidestFirst rounds_;
 };
 
 } // namespace stylobate

@@ -56,13 +56,13 @@ PairedDifference paired_difference(const PairedCounts& counts, double level);
 PairedDifference grouped_difference(std::span<const PairedCounts> groups, double level);
 /// The mean over strata with pairs.
 PairedDifference stratified_difference(std::span<const PairedCounts> strata, double level);
-/// The same at a quantile, with a weight of each stratum; no weights: equal ones.
+/// The mean over strata with pairs at a quantile, with a weight of each stratum; no weights: equal ones.
 PairedDifference weighted_difference(std::span<const PairedCounts> strata, std::span<const double> weights,
                                      double quantile);
 
 /// Quantile of the standard normal distribution for a two-sided level.
 double two_sided_normal(double level);
-/// The same of Student's distribution.
+/// Quantile of Student's distribution for a two-sided level.
 double two_sided_student(double level, double freedom);
 
 /// The share of the variant over that of the base, of independent pairs: the normal interval of the logarithm, with its
@@ -83,9 +83,9 @@ PairedRatio paired_ratio(const PairedCounts& counts, double level);
 /// Below 1 where more pairs differ than if the two were independent. A stratum with fewer than two pairs is left out.
 /// NaN where the paired variance is 0, as without a discordant pair: nothing is known of it then.
 double pairing_gain(std::span<const PairedCounts> strata);
-/// The same over groups of pairs that depend on each other, where studies drawn independently have groups of their own
-/// (other motions): sum (A_g2 + B_g2) / sum (B_g - A_g)2, with the excess A_g and B_g of the counts of a group over its
-/// part of the total. With one pair in each group this is `pairing_gain` of one stratum.
+/// `pairing_gain` over groups of pairs that depend on each other, where studies drawn independently have groups of
+/// their own (other motions): sum (A_g2 + B_g2) / sum (B_g - A_g)2, with the excess A_g and B_g of the counts of a
+/// group over its part of the total. With one pair in each group this is `pairing_gain` of one stratum.
 double pairing_gain_of_groups(std::span<const PairedCounts> groups);
 
 } // namespace stylobate

@@ -1,5 +1,7 @@
 #include "ensemble/estimators/paired/repeated_looks.hpp"
 
+#include "ensemble/numerics/quantiles.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,11 +9,6 @@
 namespace stylobate {
 
 namespace {
-
-double density(double x)
-{
-    return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
-}
 
 std::vector<std::uint64_t> half_more(std::uint64_t first, std::uint64_t most)
 {
@@ -40,12 +37,6 @@ RepeatedLooks::RepeatedLooks(std::vector<std::uint64_t> pairs, double level) : p
     quantile_ = (low + high) / 2;
 }
 
-std::uint64_t RepeatedLooks::after(std::uint64_t pairs) const
-{
-    const auto next = std::upper_bound(pairs_.begin(), pairs_.end(), pairs);
-    return next == pairs_.end() ? pairs_.back() : *next;
-}
-
 double RepeatedLooks::p_value(double z) const
 {
     return z <= 0 ? 1 : 1 - inside(std::min(z, 12.0));
@@ -61,14 +52,14 @@ double RepeatedLooks::inside(double c) const
     std::vector<double> before(points), now(points);
     const double first = std::sqrt(static_cast<double>(pairs_.front()));
     for (int i = 0; i < points; ++i)
-        before[static_cast<std::size_t>(i)] = density(place(bound(0), i) / first) / first;
+        before[static_cast<std::size_t>(i)] = normal_density(place(bound(0), i) / first) / first;
     for (std::size_t k = 1; k < pairs_.size(); ++k) {
         const double step = std::sqrt(static_cast<double>(pairs_[k] - pairs_[k - 1]));
         for (int i = 0; i < points; ++i) {
             double sum = 0;
             for (int j = 0; j < points; ++j)
                 sum += weight(bound(k - 1), j) * before[static_cast<std::size_t>(j)] *
-                       density((place(bound(k), i) - place(bound(k - 1), j)) / step);
+                       normal_density((place(bound(k), i) - place(bound(k - 1), j)) / step);
             now[static_cast<std::size_t>(i)] = sum / step;
         }
         before = now;

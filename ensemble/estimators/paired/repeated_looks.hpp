@@ -14,6 +14,8 @@
 /// other cells or the end of a budget, the interval at that look is one of the K. Here it is Tango's score interval at
 /// c (paired_difference.hpp); docs/compare.md has the measured coverage.
 
+#include "ensemble/estimators/surface/widest_first.hpp"
+
 #include <cstdint>
 #include <vector>
 
@@ -29,7 +31,7 @@ public:
     /// n_1 ... n_K: each about half more than the one before.
     const std::vector<std::uint64_t>& pairs() const { return pairs_; }
     /// The first look with more pairs than these; the last one if there is none.
-    std::uint64_t after(std::uint64_t pairs) const;
+    std::uint64_t after(std::uint64_t pairs) const { return next_look(pairs_, pairs); }
     /// c.
     double quantile() const { return quantile_; }
     /// Two-sided p-value, valid at any look: the probability that at some look |W| / sqrt(n) is as large as this.

@@ -2,9 +2,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 namespace stylobate {
+
+namespace {
+
+/// @param value of a number, as it is seen
+template <class Value>
+StateDistance one_sided(const MeasuredState& measured, Value&& value)
+{
+    StateDistance most;
+    for (std::size_t i = 0; i < measured.value.size(); ++i) {
+        const double d = std::fabs(value(i) - measured.value[i]) / measured.tolerance[i];
+        if (d > most.value || i == 0)
+            most = {d, i, value(i)};
+    }
+    return most;
+}
+
+} // namespace
 
 AgreeingStates::AgreeingStates(const StandingStates& standing, const MeasuredState& measured)
     : standing_(standing), measured_(measured), as_is_(sorted_by(0))
@@ -52,6 +70,23 @@ void AgreeingStates::each(const std::vector<double>& seen, const std::function<v
         if (!was_seen && distance(state, standing_.state(r)).agrees())
             f(r);
     }
+}
+
+StateDistance mirror_distance(const MeasuredState& measured, std::span<const double> state)
+{
+    assert(state.size() >= measured.value.size() && "a value for each that was measured");
+    return one_sided(measured,
+                     [&](std::size_t i) { return -state[measured.counterpart.empty() ? i : measured.counterpart[i]]; });
+}
+
+StateDistance distance(const MeasuredState& measured, std::span<const double> state)
+{
+    assert(state.size() >= measured.value.size() && "a value for each that was measured");
+    const StateDistance as_is = one_sided(measured, [&](std::size_t i) { return state[i]; });
+    if (!measured.mirrored)
+        return as_is;
+    const StateDistance mirrored = mirror_distance(measured, state);
+    return mirrored.value < as_is.value ? mirrored : as_is;
 }
 
 } // namespace stylobate

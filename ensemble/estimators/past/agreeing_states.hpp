@@ -1,8 +1,9 @@
 #pragma once
-/// Which simulated states agree with one that is given: of states sorted by their first value only those near it are
-/// compared, so that thousands of simulated monuments can be judged by all realizations.
-
-#include "ensemble/estimators/past/final_state.hpp"
+/// The final states of realizations against one that was observed, and which of them agree with it.
+///
+/// The distance of two states is the largest difference of a value over its tolerance; they agree where it is at most 1
+/// (the uniform kernel of `past_likelihood.hpp`). Where the sense of the shaking is unknown, it is the smaller one of
+/// the distances from the observed state and from its mirror image (`mirror_image.hpp`).
 
 #include <cstddef>
 #include <functional>
@@ -10,6 +11,26 @@
 #include <vector>
 
 namespace stylobate {
+
+struct MeasuredState {
+    std::vector<double> value;     ///< displacements and rotations; empty: nothing was measured, all agree
+    std::vector<double> tolerance; ///< of each, > 0
+    bool mirrored = false;
+    /// Where a state has the value that is in the place of each in the mirror image; empty: in its own.
+    std::vector<std::size_t> counterpart = {};
+};
+
+struct StateDistance {
+    double value = 0;      ///< in tolerances
+    std::size_t worst = 0; ///< the number of the value that differs most
+    double found = 0;      ///< that value, of the mirror image where that is nearer
+    bool agrees() const { return value <= 1; }
+};
+
+/// From the mirror image of the observed state. @param state as of `distance`
+StateDistance mirror_distance(const MeasuredState& measured, std::span<const double> state);
+/// @param state as many values as were measured, and behind them further ones that are counterparts alone
+StateDistance distance(const MeasuredState& measured, std::span<const double> state);
 
 /// The realizations that stand.
 struct StandingStates {
@@ -20,6 +41,8 @@ struct StandingStates {
     std::span<const double> state(std::size_t r) const { return std::span(value).subspan(r * width(), width()); }
 };
 
+/// States sorted by their first value: only those near a given one are compared, so that thousands of simulated
+/// monuments can be judged by all realizations.
 class AgreeingStates {
 public:
     /// @param measured whose tolerances and counterparts hold for all that is looked for

@@ -1,5 +1,6 @@
 #include "ensemble/estimators/past/past_likelihood.hpp"
 
+#include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
@@ -118,7 +119,7 @@ PastEstimate past_estimate(const PastLikelihood& likelihood, const std::function
                          static_cast<double>(drawn.size() + 1);
     const double shift = std::clamp(to_normal(below), -most_shift, most_shift);
     const auto limit = [&](double z) {
-        const double p = std::erfc(-(2 * shift + z) / std::numbers::sqrt2) / 2;
+        const double p = normal_below(2 * shift + z);
         // values of the sample, not between them: one beyond the axis is infinite
         return sorted_quantile(drawn, p, QuantileDefinition::above);
     };

@@ -75,7 +75,7 @@ struct PastEstimate {
     double value = 0, lower = 0, upper = 0;
 };
 
-/// The same function of the value and of each draw, with the 95 % interval of the draws: percentiles, corrected for a
+/// A function of the value and of each draw, with the 95 % interval of the draws: percentiles, corrected for a
 /// share of draws below the value that is not one half (Efron & Tibshirani, "An Introduction to the Bootstrap" (1993),
 /// section 14.3, without acceleration; the correction is limited to half a standard deviation, and the interval
 /// contains the value: own choices).

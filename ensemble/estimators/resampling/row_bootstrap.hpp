@@ -39,10 +39,10 @@ using FromMeans = std::function<void(std::span<const double> means, std::span<do
 std::vector<Estimate> bootstrap_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
                                      const FromMeans& from_means, const BootstrapOptions& options);
 
-/// The same with limits of the bootstrap or of the jackknife, whichever are wider. Those of the jackknife are value -+
-/// Student's quantile x the standard error from the values without each row (Efron & Tibshirani 1993, chapter 11). For
-/// ratios of few rows either interval alone holds in 84 to 95 % of the designs and is too narrow on one side
-/// (docs/sensitivity.md has the coverage of both together); the combination is an own choice.
+/// Estimates as of `bootstrap_rows`, with limits of the bootstrap or of the jackknife, whichever are wider. Those of
+/// the jackknife are value -+ Student's quantile x the standard error from the values without each row (Efron &
+/// Tibshirani 1993, chapter 11). For ratios of few rows either interval alone holds in 84 to 95 % of the designs and is
+/// too narrow on one side (docs/sensitivity.md has the coverage of both together); the combination is an own choice.
 std::vector<Estimate> resampled_rows(std::span<const double> rows, std::size_t width, std::size_t estimates,
                                      const FromMeans& from_means, const BootstrapOptions& options);
 

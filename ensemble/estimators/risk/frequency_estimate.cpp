@@ -94,7 +94,7 @@ void fill(FrequencyEstimate& estimate, const std::vector<double>& edges, const H
 
 class LognormalFrequency {
 public:
-    /// The same of another form, whose intervals are to be in those of this one.
+    /// The frequency of another form of the fragility, whose intervals are to be in those of this one.
     using Other = std::function<RiskNumber(double from, double to)>;
 
     LognormalFrequency(const FragilityData& data, const HazardModel& hazard, const FrequencyOptions& options,

@@ -1,9 +1,11 @@
 #pragma once
-/// A hazard curve as a chain of power laws, and integrals over it.
+/// A hazard curve as a chain of power laws, integrals over it, and the curves of a hazard that is not known exactly.
 ///
 /// Between two points, and beyond the first and the last one, lambda = exp(c - k x) with x = ln im: the usual log-log
 /// interpolation. Hazard curves are concave on these scales, so both continuations are upper bounds of a concave one.
 /// Events of the intensities dx have the frequency -d lambda = k exp(c - k x) dx.
+
+#include "ensemble/estimators/risk/hazard.hpp"
 
 #include <limits>
 #include <span>
@@ -56,5 +58,25 @@ private:
     };
     std::vector<Piece> pieces_;
 };
+
+/// The curve of the best estimate.
+HazardCurve best_curve(const HazardModel& hazard);
+
+/// The curve below which the true one lies with a probability. Between fractiles the logarithm of the frequency is
+/// linear in the normal quantile of the probability, and so beyond the first and the last one (two fractiles are then a
+/// lognormal distribution). The curve of a fractile is taken as a whole: a hazard that is high at one intensity is high
+/// at all of them, which makes the interval the widest that the fractiles allow.
+/// @pre two fractiles at least
+HazardCurve quantile_curve(const HazardModel& hazard, double probability);
+
+/// The mean of the curves over their probabilities, at each intensity: between two fractiles, and beyond the outer
+/// ones, ln frequency is a + b z in the normal quantile z, of which the mean over z1 to z2 is
+///
+///   exp(a + b2 / 2) (Phi(z2 - b) - Phi(z1 - b)),
+///
+/// so that of two fractiles it is the mean exp(a + b2 / 2) of a lognormal distribution. A frequency by the fragility is
+/// linear in the hazard, so that by this curve it is the mean over the hazard.
+/// @pre two fractiles at least
+HazardCurve mean_curve(const HazardModel& hazard);
 
 } // namespace stylobate

@@ -2,11 +2,17 @@
 /// A frequency or a probability with what is not known of it: of the fragility, of the hazard, and of both.
 
 #include "ensemble/estimators/fragility/limits.hpp"
-#include "ensemble/estimators/risk/hazard_quantile.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 
 #include <optional>
 
 namespace stylobate {
+
+/// A frequency at three curves of the hazard, over its value at the best estimate: the limits of a central interval
+/// and the median.
+struct HazardSpread {
+    double low = 1, middle = 1, high = 1;
+};
 
 struct RiskNumber {
     double value = 0;

@@ -27,7 +27,7 @@ struct PairedNoise {
 PairedNoise paired_noise(const std::vector<double>& reached, const std::vector<double>& size,
                          const std::vector<std::size_t>& stratum, std::size_t points, double most = 1);
 
-/// The same with variances and correlations that do not follow the accidents of the sample: a share that is low by
+/// The noise with variances and correlations that do not follow the accidents of the sample: a share that is low by
 /// chance has a small estimated variance too, and would draw the surface down, and of few groups the estimated
 /// covariance is singular where there are many points.
 ///

@@ -15,13 +15,22 @@
 /// points do not look more certain than they are (own choice).
 
 #include "ensemble/estimators/search/paired_noise.hpp"
-#include "ensemble/estimators/search/search_places.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace stylobate {
+
+/// A place in the unit cube.
+using SearchPlace = std::vector<double>;
+
+/// The first points: the middle and both ends of one number, else a low-discrepancy sequence (Roberts' generalised
+/// golden ratio).
+std::vector<SearchPlace> first_places(std::size_t dimensions);
+/// All places that are looked at: 201, 41 x 41 or 17 x 17 x 17.
+std::vector<SearchPlace> candidate_places(std::size_t dimensions);
 
 class ResponseSurface {
 public:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace stylobate {
 
@@ -86,16 +85,6 @@ double quantile_of(double probability, double freedom)
                                   : normal_quantile(probability);
 }
 
-double density(double u)
-{
-    return std::exp(-0.5 * u * u) / std::sqrt(2 * std::numbers::pi);
-}
-
-double below(double u)
-{
-    return 0.5 * std::erfc(-u / std::numbers::sqrt2);
-}
-
 } // namespace
 
 MeanLimits mean_limits(double mean, double sd, double most, double freedom, double groups, double level)
@@ -160,7 +149,7 @@ NextPlace next_place(const ResponseSurface& surface, const std::vector<SearchPla
         if (std::find(points.begin(), points.end(), candidates[i]) != points.end())
             continue;
         const double sd = change[i].sd, u = sd > 0 ? -change[i].mean / sd : 0;
-        const double improvement = sd > 0 ? sd * (u * below(u) + density(u)) : 0;
+        const double improvement = sd > 0 ? sd * (u * normal_below(u) + normal_density(u)) : 0;
         if (improvement > next.improvement)
             next = {candidates[i], improvement};
     }

@@ -77,7 +77,7 @@ struct SobolIndices {
 /// @throws std::invalid_argument if the number of values does not fit
 SobolIndices sobol_indices(const DesignValues& values, const BootstrapOptions& options);
 
-/// The same as shares that are possible: estimates and intervals cut to [0, 1]. An interval keeps its coverage when
+/// Indices as shares that are possible: estimates and intervals cut to [0, 1]. An interval keeps its coverage when
 /// what cannot be true is cut from it. Where nothing of it is left, the index is not determined.
 SobolIndices possible_shares(SobolIndices indices);
 

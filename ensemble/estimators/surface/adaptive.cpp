@@ -1,20 +1,18 @@
 #include "ensemble/estimators/surface/adaptive.hpp"
 
-#include "ensemble/estimators/surface/widest_first.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <utility>
+#include <optional>
 
 namespace stylobate {
 
 AdaptiveAllocation::AdaptiveAllocation(const AdaptiveSpec& spec, std::size_t rows, std::size_t columns,
                                        std::uint64_t most)
     : spec_(spec), analyses_(spec.minimum, most, spec.half_width, adaptive_level), model_(adaptive_level),
-      asked_(rows * columns, 0)
+      rounds_(spec.budget, rows * columns)
 {
-    assert(spec.minimum * asked_.size() <= spec.budget && "checked where the study is read");
+    assert(spec.minimum * asked().size() <= spec.budget && "checked where the study is read");
 }
 
 std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data)
@@ -44,20 +42,12 @@ std::vector<CellEstimate> AdaptiveAllocation::estimate(const SurfaceTrials& data
 
 const std::vector<std::uint64_t>& AdaptiveAllocation::next(const SurfaceTrials& data)
 {
-    if (rounds_ == 0) {
-        std::fill(asked_.begin(), asked_.end(), analyses_.trials().front());
-        ++rounds_;
-        return asked_;
-    }
-    const std::vector<CellEstimate> estimates = estimate(data);
-    std::vector<std::pair<double, std::size_t>> wide;
-    for (std::size_t cell = 0; cell < asked_.size(); ++cell)
-        if (const auto& interval = estimates[cell].interval;
-            !analyses_.narrow(interval) && asked_[cell] < analyses_.trials().back())
-            wide.emplace_back(interval.upper - interval.lower, cell);
-    rounds_ += proceed_widest_first(
-        std::move(wide), spec_.budget, [this](std::uint64_t asked) { return analyses_.after(asked); }, asked_);
-    return asked_;
+    if (rounds() > 0)
+        estimate(data);
+    return rounds_.next(analyses_.trials(), [this](std::size_t cell) -> std::optional<double> {
+        const BinomialInterval& interval = estimates_[cell].interval;
+        return analyses_.narrow(interval) ? std::nullopt : std::optional(interval.upper - interval.lower);
+    });
 }
 
 } // namespace stylobate

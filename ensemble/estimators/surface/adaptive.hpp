@@ -19,6 +19,7 @@
 
 #include "ensemble/estimators/surface/interim_analyses.hpp"
 #include "ensemble/estimators/surface/surface_model.hpp"
+#include "ensemble/estimators/surface/widest_first.hpp"
 #include "ensemble/model/study.hpp"
 
 #include <cstdint>
@@ -43,8 +44,8 @@ public:
     /// time of none. If they are the same as before, the allocation is finished.
     const std::vector<std::uint64_t>& next(const SurfaceTrials& data);
     /// So far.
-    const std::vector<std::uint64_t>& asked() const { return asked_; }
-    std::uint64_t rounds() const { return rounds_; }
+    const std::vector<std::uint64_t>& asked() const { return rounds_.asked(); }
+    std::uint64_t rounds() const { return rounds_.rounds(); }
 
     /// Of every cell.
     std::vector<CellEstimate> estimate(const SurfaceTrials& data);
@@ -56,8 +57,7 @@ private:
     SurfaceModel model_;
     SurfaceTrials known_; ///< what was estimated last, and from what
     std::vector<CellEstimate> estimates_;
-    std::vector<std::uint64_t> asked_;
-    std::uint64_t rounds_ = 0;
+    WidestFirst rounds_;
 };
 
 } // namespace stylobate

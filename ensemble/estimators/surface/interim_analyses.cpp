@@ -51,12 +51,6 @@ InterimAnalyses::InterimAnalyses(std::uint64_t first, std::uint64_t most, double
     trials_.resize(rule_.size());
 }
 
-std::uint64_t InterimAnalyses::after(std::uint64_t trials) const
-{
-    const auto next = std::upper_bound(trials_.begin(), trials_.end(), trials);
-    return next == trials_.end() ? trials_.back() : *next;
-}
-
 BinomialInterval InterimAnalyses::interval(std::uint64_t trials, std::uint64_t collapses) const
 {
     return jeffreys(trials, collapses, interval_level_);

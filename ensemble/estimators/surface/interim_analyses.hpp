@@ -22,6 +22,7 @@
 /// confidence intervals for a proportion", The American Statistician 64 (2010) 242. The adjusted level of Jeffreys'
 /// interval is an own choice.
 
+#include "ensemble/estimators/surface/widest_first.hpp"
 #include "ensemble/numerics/interval.hpp"
 
 #include <cstdint>
@@ -42,7 +43,7 @@ public:
     /// n_1 ... n_K: each about a fifth more than the one before, in multiples of 4; up to where every count suffices.
     const std::vector<std::uint64_t>& trials() const { return trials_; }
     /// The first analysis with more trials than these; the last one if there is none.
-    std::uint64_t after(std::uint64_t trials) const;
+    std::uint64_t after(std::uint64_t trials) const { return next_look(trials_, trials); }
     double half_width() const { return half_width_; }
     double level() const { return level_; }
     /// Level of Jeffreys' interval that gives the requested coverage.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t first_look = 8; ///< pairs of each cell
 
-StudySide side_now(const WholeRun& run)
+StudySide side_now(const StudyRun& run)
 {
     StudySide side(run.study(), run.header());
     run.for_each_row([&](const ResultRow& row) { side.add(row); });
@@ -45,17 +45,17 @@ void check_adaptive(const Study& base, const std::string& name, const AdaptiveCh
                         choice.budget, name, cells, least, least));
 }
 
-std::optional<Comparison> compare_adaptively(const WholeRuns& studies, const std::vector<std::string>& names,
+std::optional<Comparison> compare_adaptively(const StudyRuns& studies, const std::vector<std::string>& names,
                                              const AdaptiveChoice& choice, double level, const RunOptions& options,
                                              Observer& observer)
 {
-    WholeRun& base = *studies.front();
+    StudyRun& base = *studies.front();
     PairLayout layout = pair_layout(base.study(), base.header().motions, level);
     Comparison comparison = comparison_facts(base.study(), base.header(), names.front(), base.results(), level);
     comparison.adaptive_budget = choice.budget;
     comparison.adaptive_margin = choice.margin;
     for (std::size_t i = 1; i < studies.size(); ++i) {
-        WholeRun& variant = *studies[i];
+        StudyRun& variant = *studies[i];
         PairedAllocation allocation(budget_of(base.study(), choice), layout.cells, layout.per_cell, level);
         layout.looks = &allocation.looks();
         layout.asked.assign(layout.cells, 0);

@@ -22,7 +22,7 @@ void check_adaptive(const Study& base, const std::string& name, const AdaptiveCh
 /// What a file has more than a round asks for is left out, so that the result depends on the studies and the choice
 /// alone.
 /// @param names of the studies, the base first   @returns nothing if the observer has asked to stop
-std::optional<Comparison> compare_adaptively(const WholeRuns& studies, const std::vector<std::string>& names,
+std::optional<Comparison> compare_adaptively(const StudyRuns& studies, const std::vector<std::string>& names,
                                              const AdaptiveChoice& choice, double level, const RunOptions& options,
                                              Observer& observer);
 

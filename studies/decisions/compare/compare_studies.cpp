@@ -57,17 +57,17 @@ struct ReadStudy {
 
 } // namespace
 
-WholeRuns studies_to_compare(const StudyFiles& asked)
+StudyRuns studies_to_compare(const StudyFiles& asked)
 {
     const std::string& base = asked.files.front();
     const auto beside = [&](const std::string& name) { return (fs::path(asked.folder) / (name + ".h5")).string(); };
-    WholeRuns studies;
+    StudyRuns studies;
     const auto add = [&](LoadedStudy loaded, const std::string& name, const std::string& results) {
         const ResultHeader header = loaded.result_header();
         check_can_be_compared(header, name);
         if (!studies.empty())
             check_comparable(studies.front()->header(), base, header, name);
-        studies.push_back(std::make_unique<WholeRun>(std::move(loaded), name, beside(results)));
+        studies.push_back(std::make_unique<StudyRun>(std::move(loaded), name, beside(results)));
     };
     if (asked.files.size() > 1) {
         std::vector<std::string> names;

@@ -4,7 +4,7 @@
 #include "ensemble/model/observer.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/results/results.hpp"
-#include "studies/results/whole_run.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ struct StudyFiles {
 /// The studies of study files, the base first. Nothing is written.
 /// @throws InputError for what is wrong with a study, for one that cannot be compared with the base, for two of one
 ///         name, and for a results file that is another study's
-WholeRuns studies_to_compare(const StudyFiles& asked);
+StudyRuns studies_to_compare(const StudyFiles& asked);
 /// The same of finished results.
 /// @throws InputError also if one is not complete
 std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::string>& files);

@@ -1,8 +1,8 @@
 #include "studies/decisions/compare/comparison_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/drawing/plot_structure.hpp"
 #include "io/files/temporary_folder.hpp"
+#include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"

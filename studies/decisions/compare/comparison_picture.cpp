@@ -1,8 +1,8 @@
 #include "studies/decisions/compare/comparison_picture.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/curves/plot_shares.hpp"
 #include "io/plots/plot_maps.hpp"
+#include "io/plots/plot_shares.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 

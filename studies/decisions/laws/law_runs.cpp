@@ -166,7 +166,7 @@ LawRuns::LawRuns(const LoadedStudy& base, const std::string& file, std::string r
         check_comparable(header, file, loaded.result_header(), name);
         names_.push_back(law.name);
         costs_.push_back(law_cost(base.experiment(), loaded.experiment()));
-        runs_.push_back(std::make_unique<WholeRun>(std::move(loaded), name, beside(results_, "_law_" + law.name)));
+        runs_.push_back(std::make_unique<StudyRun>(std::move(loaded), name, beside(results_, "_law_" + law.name)));
     }
 }
 

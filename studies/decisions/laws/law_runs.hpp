@@ -9,7 +9,7 @@
 #include "studies/experiment/contact_laws.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/kinds/law_band.hpp"
-#include "studies/results/whole_run.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <memory>
 #include <optional>
@@ -37,14 +37,14 @@ public:
     /// Whether nothing is left to run: the band is there.
     bool finished() const { return band_.has_value(); }
     /// Of the laws, in their order; none where the band is there.
-    const WholeRuns& runs() const { return runs_; }
+    const StudyRuns& runs() const { return runs_; }
     /// Writes the comparison where it is not there. @pre the study and all laws are complete
     const LawBand& conclude();
 
 private:
     std::string results_;
     std::vector<ContactLaw> laws_;
-    WholeRuns runs_;
+    StudyRuns runs_;
     std::vector<std::string> names_; ///< of the laws that are run
     std::vector<double> costs_;
     std::optional<LawBand> band_;

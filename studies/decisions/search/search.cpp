@@ -10,7 +10,7 @@
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/search/search_objective.hpp"
-#include "studies/results/whole_run.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ constexpr double least_improvement = 1e-3;
 struct RunPoint {
     SearchPlace place;
     std::vector<double> value;
-    std::unique_ptr<WholeRun> run;
+    std::unique_ptr<StudyRun> run;
     std::unique_ptr<StudySide> side;
 };
 
@@ -47,7 +47,7 @@ OptimiseSpec spec_of(const SearchFiles& files)
 }
 
 /// The study with these values; its file is named by its text, so that no two studies have one.
-std::unique_ptr<WholeRun> run_at(const SearchFiles& files, const OptimiseSpec& spec, const std::vector<double>& value)
+std::unique_ptr<StudyRun> run_at(const SearchFiles& files, const OptimiseSpec& spec, const std::vector<double>& value)
 {
     std::vector<std::string> settings = files.settings;
     for (std::size_t k = 0; k < value.size(); ++k)
@@ -65,7 +65,7 @@ std::unique_ptr<WholeRun> run_at(const SearchFiles& files, const OptimiseSpec& s
     const std::string stem = std::filesystem::path(files.study).stem().string();
     const std::string name =
         value.empty() ? stem : fmt::format("{}_search_{:08x}", stem, study_crc32_of(loaded.result_header()));
-    return std::make_unique<WholeRun>(std::move(loaded), files.study,
+    return std::make_unique<StudyRun>(std::move(loaded), files.study,
                                       (std::filesystem::path(files.folder) / (name + ".h5")).string());
 }
 
@@ -77,14 +77,14 @@ std::vector<double> values_at(const OptimiseSpec& spec, const SearchPlace& place
     return value;
 }
 
-std::unique_ptr<StudySide> side_of(const WholeRun& run)
+std::unique_ptr<StudySide> side_of(const StudyRun& run)
 {
     auto side = std::make_unique<StudySide>(run.study(), run.header());
     run.for_each_row([&](const ResultRow& row) { side->add(row); });
     return side;
 }
 
-SearchedRun validity_of(const WholeRun& run)
+SearchedRun validity_of(const StudyRun& run)
 {
     return {run.results(), run.invalid(), run.done()};
 }
@@ -128,7 +128,7 @@ public:
                              fmt::format("[optimise]: a search needs at least {} different motions, and the study has "
                                          "{}.\n  Its points are compared by the scatter over motions: give more.",
                                          least_records, layout_.groups));
-        if (!base_->run(options_, observer_))
+        if (!base_->run(options_, observer_).complete)
             return std::nullopt;
         base_side_ = side_of(*base_);
         limit_ = limit_number(*base_side_, spec_.minimise, files_.study);
@@ -191,7 +191,7 @@ private:
     {
         RunPoint point{place, values_at(spec_, place), nullptr, nullptr};
         point.run = run_at(files_, spec_, point.value);
-        if (!point.run->run(options_, observer_))
+        if (!point.run->run(options_, observer_).complete)
             return false;
         point.side = side_of(*point.run);
         result_.realizations += point.run->header().total;
@@ -297,7 +297,7 @@ private:
     PairLayout layout_;
     std::optional<SearchObjective> objective_;
     std::size_t limit_ = 0;
-    std::unique_ptr<WholeRun> base_;
+    std::unique_ptr<StudyRun> base_;
     std::unique_ptr<StudySide> base_side_;
     std::vector<RunPoint> points_;
 };

@@ -9,7 +9,7 @@
 
 #include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/estimators/search/paired_noise.hpp"
-#include "io/study/decisions/study_variants.hpp"
+#include "io/study/study_variants.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 
 #include <optional>

@@ -1,11 +1,13 @@
 #pragma once
 /// The content of a claim file, as plain data: the claims of a paper about one structure, each with the criterion that
-/// decides it, over variants of one ordinary study. `claim_file.hpp` reads it, `README.md` describes the words.
+/// decides it, over variants of one ordinary study. It is read from the [claim] section of a study file, whose words
+/// `README.md` describes; the rest of the file is an ordinary study.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -24,23 +26,19 @@ enum class Event {
     rocked_and_slid, ///< both
     rocked_or_slid,  ///< at least one of them
     collapsed_early, ///< within `Measure::within_cycles` of the start of the strong shaking
-    upright,         ///< not collapsed
-    unseated         ///< an epistyle lost a seat
+    upright          ///< not collapsed
 };
 
 /// What is measured of a realization.
 enum class Amount {
     total_sliding_m,
-    residual_sliding_m,
     total_rocking_rad,
-    rocking_path_rad,
-    peak_top_m,      ///< largest displacement of the top against the base
     top_path_ratio,  ///< path of the top against the base, over the path of the base
     face_path_ratio, ///< path of the faces in contact against each other, of a column, over the path of the base
     friction_share,  ///< of the energy that was dissipated, the part that friction took
     collapse_cycles, ///< collapse time x frequency, for those that collapsed
 };
-inline constexpr std::size_t amount_count = 9;
+inline constexpr std::size_t amount_count = 6;
 
 /// A number estimated from the realizations of a cell (or of a row of cells), with an interval.
 struct Measure {
@@ -176,6 +174,9 @@ struct ClaimFile {
 /// One combination of levels: the index of the level of each axis, in the order of the axes.
 using Levels = std::vector<std::size_t>;
 
+/// The place of an axis; the number of axes where none has the name.
+std::size_t axis_index(const std::vector<VariantAxis>& axes, const std::string& name);
+
 /// All combinations that the levels' `only` allow, the last axis running fastest.
 std::vector<Levels> variants(const std::vector<VariantAxis>& axes);
 
@@ -193,5 +194,62 @@ std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& lev
 
 /// "AXIS=LEVEL AXIS=LEVEL", for fields in braces and file names.
 std::string variant_key(const std::vector<VariantAxis>& axes, const Levels& levels);
+
+template <class Enum>
+struct Word {
+    const char* word; ///< in claim files
+    Enum value;
+    const char* text = ""; ///< on the page
+};
+
+inline constexpr std::array event_words{Word<Event>{"rocked", Event::rocked, "rocks"},
+                                        Word<Event>{"slid", Event::slid, "slides"},
+                                        Word<Event>{"collapsed", Event::collapsed, "collapses"},
+                                        Word<Event>{"stood", Event::stood, "moves as one with the base"},
+                                        Word<Event>{"rocked_only", Event::rocked_only, "rocks without sliding"},
+                                        Word<Event>{"slid_only", Event::slid_only, "slides without rocking"},
+                                        Word<Event>{"rocked_and_slid", Event::rocked_and_slid, "rocks and slides"},
+                                        Word<Event>{"rocked_or_slid", Event::rocked_or_slid, "rocks or slides"},
+                                        Word<Event>{"collapsed_early", Event::collapsed_early, "collapses early"},
+                                        Word<Event>{"upright", Event::upright, "stays upright"}};
+
+inline constexpr std::array amount_words{
+    Word<Amount>{"total_sliding_m", Amount::total_sliding_m, "total sliding"},
+    Word<Amount>{"total_rocking_rad", Amount::total_rocking_rad, "total rocking"},
+    Word<Amount>{"top_path_ratio", Amount::top_path_ratio, "path of the top over that of the base"},
+    Word<Amount>{"face_path_ratio", Amount::face_path_ratio, "path of the faces in contact over that of the base"},
+    Word<Amount>{"friction_share", Amount::friction_share, "share of friction in the dissipated energy"},
+    Word<Amount>{"collapse_cycles", Amount::collapse_cycles, "cycles until collapse"}};
+
+template <class List, class Enum>
+const Word<Enum>& word_of(const List& words, Enum value)
+{
+    for (const auto& word : words)
+        if (word.value == value)
+            return word;
+    return words.front();
+}
+
+/// "rocks and slides"
+std::string event_text(Event event);
+/// "m/s²", "mm", "rad" or nothing.
+std::string unit_text(const Measure& measure);
+/// Whether it is a length, whose texts are in mm.
+bool is_length(const Measure& measure);
+/// "the probability that it collapses", "the median total sliding", for sentences.
+std::string measure_text(const Measure& measure);
+/// "collapses", "total sliding", for the key of a figure.
+std::string short_text(const Measure& measure);
+/// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; empty for everything.
+std::string window_text(const Window& window, const char* unit);
+/// The criterion as a sentence, from its parameters alone, so that the text of the page is what is computed.
+std::string criterion_text(const ClaimFile& file, const Test& test);
+
+/// @throws InputError with file, line and key: misspelt or missing keys, unknown words, axes and levels, a criterion
+///         without what its kind needs
+ClaimFile read_claims(const std::filesystem::path& file);
+
+/// Reads the text of a claim file. @param name stands for the file in messages
+ClaimFile parse_claims(const std::string& text, const std::string& name);
 
 } // namespace stylobate::claims

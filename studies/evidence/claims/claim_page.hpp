@@ -1,5 +1,6 @@
 #pragma once
-/// The page: every claim with its criterion, verdict, numbers and reason, as Markdown.
+/// The page: every claim with its criterion, verdict, numbers and reason, as Markdown; and its figures, drawn by
+/// gnuplot: curves with intervals.
 ///
 /// The words of a claim file may hold fields in braces that are filled with what was computed:
 ///   {cases}                   their number
@@ -10,11 +11,30 @@
 /// WORDS are AXIS=LEVEL and range=NAME with commas between, or nothing: any. Where there is no such case it reads
 /// "(no such case)", and of a variant that was not run "(not run)".
 
+#include "studies/evidence/claims/sample.hpp"
 #include "studies/evidence/claims/verdict.hpp"
 
 #include <filesystem>
 
 namespace stylobate::claims {
+
+/// One curve: points in order; where a number is unknown or beyond its axis there is none.
+struct Curve {
+    std::string label;
+    struct Point {
+        double x = 0;
+        Estimate y;
+    };
+    std::vector<Point> points;
+};
+
+/// The curves of a figure: one for each variant and measure, and for each value of the coordinate that is not drawn
+/// where the window holds several.
+std::vector<Curve> curves_of(const ClaimFile& file, const Figure& figure, const std::vector<Sample>& samples);
+
+/// @throws InputError as `run_gnuplot`
+void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<Curve>& curves,
+                 const std::filesystem::path& png);
 
 /// A test with what it came to.
 struct Result {

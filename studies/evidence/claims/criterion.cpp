@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "studies/evidence/claims/claim_text.hpp"
+#include "studies/evidence/claims/claim.hpp"
 
 #include <fmt/format.h>
 
@@ -45,31 +45,28 @@ public:
         if (rows.empty())
             return std::nullopt;
         const std::vector<Cell> cells = cells_of(*group.front(), rows);
-        switch (c_.kind) {
-        case Criterion::Kind::bound:
-            bound(*group.front(), cells, found);
-            break;
-        case Criterion::Kind::trend:
-            if (!trend(*group.front(), cells, found))
-                return std::nullopt;
-            break;
-        case Criterion::Kind::order:
-            if (!order(group, cells, found))
-                return std::nullopt;
-            break;
-        case Criterion::Kind::paired:
-            if (!paired(group, cells, found))
-                return std::nullopt;
-            break;
-        case Criterion::Kind::same:
-            if (!same(group, cells, found))
-                return std::nullopt;
-            break;
-        }
-        return found;
+        return compares(group, cells, found) ? std::optional(found) : std::nullopt;
     }
 
 private:
+    /// @returns whether there is something to compare
+    bool compares(const std::vector<const Sample*>& group, const std::vector<Cell>& cells, Case& found) const
+    {
+        switch (c_.kind) {
+        case Criterion::Kind::bound:
+            return bound(*group.front(), cells, found);
+        case Criterion::Kind::trend:
+            return trend(*group.front(), cells, found);
+        case Criterion::Kind::order:
+            return order(group, cells, found);
+        case Criterion::Kind::paired:
+            return paired(group, cells, found);
+        case Criterion::Kind::same:
+            break;
+        }
+        return same(group, cells, found);
+    }
+
     bool of_onset() const { return c_.measure.kind == Measure::Kind::onset; }
 
     static double level(std::size_t numbers) { return 1 - (1 - case_level) / static_cast<double>(numbers); }
@@ -115,7 +112,7 @@ private:
 
     std::string shown(const Estimate& e) const { return number_text(c_.measure, e); }
 
-    void bound(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
+    bool bound(const Sample& sample, const std::vector<Cell>& cells, Case& found) const
     {
         const double low = c_.at_least.value_or(-HUGE_VAL), high = c_.at_most.value_or(HUGE_VAL);
         // what clears a bound, and what certainly does not
@@ -139,13 +136,14 @@ private:
         }
         if (known == 0) {
             found.number_text = "too few realizations";
-            return;
+            return true;
         }
         found.number_text = shown(found.number) + at(sample, cells[at_cell]);
         if (c_.any)
             found.finding = holding > 0 ? Finding::holds : failing == known ? Finding::fails : Finding::undecided;
         else
             found.finding = failing > 0 ? Finding::fails : holding == known ? Finding::holds : Finding::undecided;
+        return true;
     }
 
     struct Cleared {
@@ -372,10 +370,8 @@ private:
 
     std::string level_name(const Sample& sample) const
     {
-        for (std::size_t i = 0; i < file_.axes.size(); ++i)
-            if (file_.axes[i].name == c_.along)
-                return file_.axes[i].levels[sample.levels[i]].name;
-        return {};
+        const std::size_t i = axis_index(file_.axes, c_.along);
+        return file_.axes[i].levels[sample.levels[i]].name;
     }
 
     const ClaimFile& file_;
@@ -389,10 +385,7 @@ private:
 std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples, double margin)
 {
     // groups of variants that differ in the compared axis alone; without one, each variant is a group
-    const auto along = static_cast<std::size_t>(
-        std::find_if(file.axes.begin(), file.axes.end(),
-                     [&](const VariantAxis& axis) { return axis.name == test.criterion.along; }) -
-        file.axes.begin());
+    const std::size_t along = axis_index(file.axes, test.criterion.along);
     std::vector<std::vector<const Sample*>> groups;
     for (const Sample& sample : samples) {
         if (!sample.why_not.empty() || !picked(file.axes, sample.levels, test.only))
@@ -418,6 +411,11 @@ std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vect
                 if (const std::optional<Case> one = judge.one(group, range))
                     cases.push_back(*one);
     return cases;
+}
+
+const char* to_string(Finding finding)
+{
+    return finding == Finding::holds ? "holds" : finding == Finding::fails ? "fails" : "undecided";
 }
 
 } // namespace stylobate::claims

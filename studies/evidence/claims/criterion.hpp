@@ -1,11 +1,12 @@
 #pragma once
 /// Evaluates a criterion on samples, case by case.
 
-#include "studies/evidence/claims/estimate.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 namespace stylobate::claims {
 
 enum class Finding { holds, fails, undecided };
+const char* to_string(Finding finding);
 
 /// What the criterion came to in one variant (or one group of variants that it compares) and one range of frequencies.
 struct Case {

@@ -1,18 +1,13 @@
 /// `stylobate_claims`: runs claim files and writes the page of their verdicts.
 
-#include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/app/command.hpp"
-#include "studies/app/console.hpp"
-#include "studies/evidence/claims/claim_figure.hpp"
-#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim.hpp"
 #include "studies/evidence/claims/claim_page.hpp"
-#include "studies/evidence/claims/claim_run.hpp"
+#include "studies/evidence/claims/sample.hpp"
+#include "studies/evidence/picture/page_program.hpp"
 #include "studies/report/words.hpp"
 #include "studies/version.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include "studies/workflow/console.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -31,7 +26,8 @@ struct Options {
     std::string page = "claims.md";
     std::string images = "images";
     RunPlace place{"results/claims", ".", 0, {}};
-    CommonOptions common;
+    Machine machine;
+    bool quiet = false;
 };
 
 /// Keeps the tests that are asked for.
@@ -57,7 +53,7 @@ int run(const Options& o)
         files.push_back(read_claims(file));
     keep_only(files, o.only);
 
-    const RunOptions options{o.common.isa(), o.common.thread_count()};
+    const RunOptions options{o.machine.isa(), o.machine.thread_count()};
     std::deque<std::vector<Sample>> samples;
     std::vector<Result> results;
     const auto start = std::chrono::steady_clock::now();
@@ -65,13 +61,14 @@ int run(const Options& o)
         const std::vector<Levels> planned = variants(file.axes);
         {
             RunPlace place = o.place;
-            if (!o.common.quiet)
+            if (!o.quiet)
                 place.begins = [&](const Levels& levels) {
                     fmt::print(stderr, "{} {}/{}: {}\n", file.name,
                                std::find(planned.begin(), planned.end(), levels) - planned.begin() + 1, planned.size(),
                                variant_text(file.axes, levels));
                 };
-            Console console(o.common.quiet);
+            Console console(o.quiet);
+            console.begin();
             samples.push_back(run_variants(file, place, options, console));
         }
         if (samples.back().size() < planned.size()) {
@@ -80,11 +77,11 @@ int run(const Options& o)
         }
         for (const Test& test : file.tests) {
             Result result = judged(file, test, samples.back());
-            if (!o.common.quiet)
+            if (!o.quiet)
                 fmt::print("{:5} {}\n", test.id, to_string(result.verdict.judgement));
             results.push_back(std::move(result));
         }
-        if (!o.common.quiet)
+        if (!o.quiet)
             fmt::print(stderr, "{}: {} variants, {} since the start\n", file.name, planned.size(),
                        duration_text(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
         std::fflush(stdout);
@@ -96,11 +93,9 @@ int run(const Options& o)
     for (std::size_t i = 0; i < files.size(); ++i)
         for (const Figure& figure : files[i].figures)
             draw_figure(files[i], figure, curves_of(files[i], figure, samples[i]), images / (figure.name + ".png"));
-    AtomicFile out(page);
-    out.write(claims_page(std::move(results), images.lexically_relative(page.parent_path()).generic_string(),
-                          code_version()));
-    out.commit();
-    if (!o.common.quiet)
+    write_whole(page, claims_page(std::move(results), images.lexically_relative(page.parent_path()).generic_string(),
+                                  code_version()));
+    if (!o.quiet)
         fmt::print("{}\n", o.page);
     return exit_done;
 }
@@ -118,23 +113,12 @@ int main(int argc, char** argv)
     app.add_option("--data", o.place.data, "folder that the records lie in")->capture_default_str();
     app.add_option("--realizations", o.place.realizations, "for a trial: instead of the studies' own number");
     app.add_option("--only", o.only, "claims to test, for example P1,P14a (default: all)")->delimiter(',');
-    app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
+    app.add_option("--threads", o.machine.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
-    app.add_option("--simd", o.common.simd, "instruction set")
+    app.add_option("--simd", o.machine.simd, "instruction set")
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512", "neon"}))
         ->capture_default_str();
-    app.add_flag("--quiet", o.common.quiet, "no progress: only errors");
+    app.add_flag("--quiet", o.quiet, "no progress: only errors");
     app.set_version_flag("--version", code_version());
-    try {
-        app.parse(argc, argv);
-        return run(o);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_done : exit_bad_input;
-    } catch (const InputError& error) {
-        fmt::print(stderr, "stylobate_claims: {}\n", error.what());
-        return exit_bad_input;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stylobate_claims: {}\n", error.what());
-        return exit_failed;
-    }
+    return page_program(app, argc, argv, "stylobate_claims", [&] { return run(o); });
 }

@@ -1,13 +1,26 @@
 #include "studies/evidence/claims/sample.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
+#include "ensemble/numerics/interval.hpp"
+#include "ensemble/numerics/log_gamma.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/experiment/contact_laws.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/trajectory.hpp"
+#include "studies/kinds/surface/surface.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numbers>
 
 namespace stylobate::claims {
 
@@ -96,6 +109,134 @@ double rigid_limit(const Study& study, const Realization& r)
     return r.gravity_m_s2 * width / (2 * (moment / mass - bottom));
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool counts(const Observation& o, const Measure& measure)
+{
+    return !measure.given || o.has(*measure.given, measure.within_cycles);
+}
+
+/// The largest k for which fewer than k heads in n fair throws have at most the probability `tail`; 0 if there is none.
+std::size_t rank_of_tail(std::size_t n, double tail)
+{
+    const auto log_factorial = [](std::size_t i) { return log_gamma(static_cast<double>(i) + 1); };
+    double sum = 0; // of the chances of fewer than k heads
+    std::size_t k = 0;
+    while (k < n) {
+        sum += std::exp(log_factorial(n) - log_factorial(k) - log_factorial(n - k) -
+                        static_cast<double>(n) * std::numbers::ln2);
+        if (sum > tail)
+            break;
+        ++k;
+    }
+    return k;
+}
+
+namespace fs = std::filesystem;
+
+/// A name for a file: letters, digits, points, minus and plus stay.
+std::string file_name(std::string text)
+{
+    for (char& c : text) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
+                           c == '-' || c == '+';
+        if (!plain)
+            c = '_';
+    }
+    return text + ".h5";
+}
+
+bool ratio_needed(const ClaimFile& file)
+{
+    const auto is_ratio = [](const Measure& m) {
+        return m.kind == Measure::Kind::median &&
+               (m.amount == Amount::top_path_ratio || m.amount == Amount::face_path_ratio);
+    };
+    return std::any_of(file.tests.begin(), file.tests.end(),
+                       [&](const Test& test) { return is_ratio(test.criterion.measure); }) ||
+           std::any_of(file.figures.begin(), file.figures.end(), [&](const Figure& figure) {
+               return std::any_of(figure.measures.begin(), figure.measures.end(), is_ratio);
+           });
+}
+
+/// A result file of this study: complete, to be continued, or not there (what lay in its place has been removed).
+enum class Found { complete, unfinished, nothing };
+
+Found look_for(const fs::path& results, const ResultHeader& header)
+{
+    if (!fs::exists(results))
+        return Found::nothing;
+    try {
+        const ResultReader reader(results);
+        if (reader.header().study_toml == header.study_toml) {
+            if (reader.complete())
+                return Found::complete;
+            if (reader.header().code_version == header.code_version)
+                return Found::unfinished;
+        }
+    } catch (const InputError&) {
+        // damaged, or no result at all: computed anew
+    }
+    fs::remove(results);
+    return Found::nothing;
+}
+
+/// @return whether all realizations are done
+bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, const RunOptions& options,
+             Observer& observer)
+{
+    const ResultHeader header = loaded.result_header();
+    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2);
+    const std::unique_ptr<ResultWriter> writer =
+        resume ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
+    RunPlan plan;
+    plan.total = loaded.study().total();
+    if (resume)
+        ResultReader(results).for_each_row([&](const ResultRow& row) { counts.add(row); });
+    plan.mark_done([&](std::uint64_t index) { return writer->state(index); });
+    plan.sink = [&](const Realization& realization, const Outcome& outcome) {
+        const ResultRow row = result_row(loaded.study(), realization, outcome);
+        writer->add(row);
+        counts.add(row);
+    };
+    const Progress progress = run_ensemble(loaded.experiment(), options, plan, observer);
+    if (progress.done < progress.total) {
+        writer->flush();
+        return false;
+    }
+    const SurfaceTable table = counts.table();
+    writer->finish(loaded.study().surface ? &table : nullptr);
+    return true;
+}
+
+/// Where the record of a study lies; nothing if the study has none or it is found without help.
+std::vector<std::string> record_setting(const Study& study, const RunPlace& place)
+{
+    const ExcitationKind kind = study.excitation.kind;
+    const bool in_file = kind == ExcitationKind::record || kind == ExcitationKind::table;
+    if (!in_file || fs::path(study.excitation.file).is_absolute())
+        return {};
+    return {"excitation.file=" + fs::absolute(place.data / study.excitation.file).lexically_normal().string()};
+}
+
+/// The study of a variant, under the contact law that its levels name.
+LoadedStudy load(const std::string& file, const std::vector<std::string>& settings, const std::string& law)
+{
+    if (law.empty())
+        return LoadedStudy::from_file(file, settings);
+    for (ContactLaw& one : contact_laws(read_study(file, settings)))
+        if (one.name == law) {
+            if (!one.study)
+                throw InputError(file, 0, fmt::format("law = \"{}\" does not apply: {}", law, one.why_not));
+            Motions motions = motions_of(*one.study);
+            return LoadedStudy(Experiment(std::move(*one.study), std::move(motions)));
+        }
+    throw InputError(file, 0,
+                     fmt::format("law = \"{}\" is no contact law.\n  Known: softer, stiffer, rigid, ends, "
+                                 "centroid.",
+                                 law));
+}
+
 } // namespace
 
 bool Observation::has(Event event, double within_cycles) const
@@ -120,11 +261,9 @@ bool Observation::has(Event event, double within_cycles) const
     case Event::collapsed_early:
         return collapsed && cycles_to_collapse <= within_cycles;
     case Event::upright:
-        return !collapsed;
-    case Event::unseated:
         break;
     }
-    return unseated;
+    return !collapsed;
 }
 
 Observation observe(const Study& study, const Realization& realization, const Motion* record, const Outcome& o,
@@ -135,7 +274,6 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     seen.collapsed = o.state == State::collapsed;
     seen.rocked = seen.collapsed || o.max_relative_rotation_rad > study.outcome.rocking_threshold_rad;
     seen.slid = o.total_sliding_m > study.outcome.sliding_threshold * scales_of(realization).width_m;
-    seen.unseated = o.unseating_time_s >= 0;
     seen.cycles_to_collapse =
         seen.collapsed
             ? (o.collapse_time_s - strong_start_s(study.excitation, realization, record)) * realization.frequency_hz
@@ -145,10 +283,7 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     const double dissipated = o.energy_friction_j + o.energy_damping_j;
     const auto set = [&](Amount amount, double value) { seen.amount[static_cast<std::size_t>(amount)] = value; };
     set(Amount::total_sliding_m, o.total_sliding_m);
-    set(Amount::residual_sliding_m, o.residual_sliding_m);
     set(Amount::total_rocking_rad, o.total_rocking_rad);
-    set(Amount::rocking_path_rad, o.rocking_path_rad);
-    set(Amount::peak_top_m, o.peak_top_displacement_m);
     set(Amount::top_path_ratio, base > 0 ? o.top_path_m / base : nan);
     const auto columns = static_cast<double>(study.structure.columns.size());
     set(Amount::face_path_ratio, base > 0 ? o.sliding_path_m / (base * columns) : nan);
@@ -162,9 +297,8 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
 {
     Sample sample;
     const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz = study.contact.form == ContactForm::rigid
-                       ? std::numeric_limits<double>::infinity()
-                       : first_mode_of_paper(nominal).frequency_hz;
+    sample.f1_hz = study.contact.form == ContactForm::rigid ? std::numeric_limits<double>::infinity()
+                                                            : first_mode_of_paper(nominal).frequency_hz;
     sample.rigid_m_s2 = rigid_limit(study, nominal);
     if (study.surface) {
         for (int i = 0; i < study.surface->frequency_hz.count; ++i)
@@ -187,6 +321,160 @@ Sample make_sample(const Study& study, const Sampler& sampler, const Motion* rec
         std::sort(cell.begin(), cell.end(),
                   [](const Observation& a, const Observation& b) { return a.index < b.index; });
     return sample;
+}
+
+Estimate probability(const std::vector<Observation>& cell, const Measure& measure, double level)
+{
+    std::uint64_t trials = 0, successes = 0;
+    for (const Observation& o : cell)
+        if (counts(o, measure)) {
+            ++trials;
+            successes += o.has(measure.event, measure.within_cycles);
+        }
+    if (trials == 0)
+        return {};
+    const BinomialInterval interval = jeffreys(trials, successes, level);
+    return {static_cast<double>(successes) / static_cast<double>(trials), interval.lower, interval.upper,
+            static_cast<std::size_t>(trials)};
+}
+
+Estimate minority(const std::vector<Observation>& cell, const Measure& measure, double level)
+{
+    const Estimate p = probability(cell, measure, level);
+    if (!p.known())
+        return p;
+    const double at_ends = std::min(std::min(p.lower, 1 - p.lower), std::min(p.upper, 1 - p.upper));
+    const double peak = p.lower <= 0.5 && p.upper >= 0.5
+                            ? 0.5
+                            : std::max(std::min(p.lower, 1 - p.lower), std::min(p.upper, 1 - p.upper));
+    return {std::min(p.value, 1 - p.value), at_ends, peak, p.realizations};
+}
+
+Estimate median(const std::vector<Observation>& cell, const Measure& measure, double level)
+{
+    std::vector<double> values;
+    for (const Observation& o : cell) {
+        const double value = o.amount[static_cast<std::size_t>(measure.amount)];
+        if (counts(o, measure) && !std::isnan(value))
+            values.push_back(value);
+    }
+    const std::size_t n = values.size(), k = rank_of_tail(n, (1 - level) / 2);
+    if (k == 0)
+        return {};
+    std::sort(values.begin(), values.end());
+    return {sorted_median(values), values[k - 1], values[n - k], n};
+}
+
+Estimate onset(const Sample& sample, std::size_t frequency, const Measure& measure, double level)
+{
+    const std::vector<double>& pga = sample.pga_m_s2;
+    std::vector<double> value, lower, upper;
+    Estimate result;
+    for (std::size_t j = 0; j < pga.size(); ++j) {
+        const Estimate p = probability(sample.cell(frequency, j), measure, level);
+        if (!p.known())
+            return {};
+        result.realizations += p.realizations;
+        value.push_back(p.value);
+        lower.push_back(p.lower);
+        upper.push_back(p.upper);
+    }
+    const auto first = [](const std::vector<double>& curve) {
+        return static_cast<std::size_t>(std::find_if(curve.begin(), curve.end(), [](double p) { return p >= 0.5; }) -
+                                        curve.begin());
+    };
+    const auto crossing = [&](const std::vector<double>& curve, std::size_t j) {
+        if (j == 0 || j == curve.size())
+            return j == 0 ? pga.front() : infinity;
+        const double share = (0.5 - curve[j - 1]) / (curve[j] - curve[j - 1]);
+        return pga[j - 1] * std::pow(pga[j] / pga[j - 1], share);
+    };
+    const std::size_t at = first(value), possible = first(upper), certain = first(lower);
+    result.value = crossing(value, at);
+    result.lower = possible == 0 ? 0 : pga[possible - 1];
+    result.upper = certain == pga.size() ? infinity : pga[certain];
+    const auto open = [&](std::size_t j) { return value[j] > 0.05 && value[j] < 0.95; };
+    if (measure.between_steps && at > 0 && at < pga.size() && (open(at - 1) || open(at))) {
+        result.lower = possible == 0 ? 0 : crossing(upper, possible);
+        result.upper = crossing(lower, certain);
+    }
+    return result;
+}
+
+Estimate estimate(const Sample& sample, std::size_t frequency, std::size_t pga, const Measure& measure, double level)
+{
+    switch (measure.kind) {
+    case Measure::Kind::probability:
+        return probability(sample.cell(frequency, pga), measure, level);
+    case Measure::Kind::minority:
+        return minority(sample.cell(frequency, pga), measure, level);
+    case Measure::Kind::median:
+        return median(sample.cell(frequency, pga), measure, level);
+    case Measure::Kind::onset:
+        break;
+    }
+    return onset(sample, frequency, measure, level);
+}
+
+std::string number_text(const Measure& m, const Estimate& e)
+{
+    if (!e.known())
+        return "unknown";
+    const double scale = is_length(m) ? 1000 : 1;
+    const std::string unit = unit_text(m).empty() ? "" : " " + unit_text(m);
+    if (m.kind == Measure::Kind::onset) {
+        if (std::isinf(e.upper) && std::isinf(e.value))
+            return fmt::format("above {:.3g}{}", e.lower, unit);
+        if (e.lower == 0)
+            return fmt::format("at most {:.3g}{}", e.upper, unit);
+    }
+    return fmt::format("{:.3g} [{:.3g}, {}]{}", scale * e.value, scale * e.lower,
+                       std::isinf(e.upper) ? "∞" : fmt::format("{:.3g}", scale * e.upper), unit);
+}
+
+std::vector<Sample> run_variants(const ClaimFile& file, const RunPlace& place, const RunOptions& options,
+                                 Observer& observer)
+{
+    const bool path_needed = ratio_needed(file);
+    const fs::path folder = place.results / file.name;
+    fs::create_directories(folder);
+    std::vector<Sample> samples;
+    for (const Levels& levels : variants(file.axes)) {
+        std::vector<std::string> settings = settings_of(file.axes, levels);
+        if (place.realizations > 0)
+            settings.push_back(fmt::format("study.realizations={}", place.realizations));
+        const Study study = read_study(file.file, settings);
+        if (study.surface && study.surface->adaptive)
+            throw InputError(
+                file.file, 0,
+                "surface.adaptive: a claim is tested on cells with equal numbers of realizations; leave it "
+                "out");
+        if (study.kept == KeptRealizations::none)
+            throw InputError(
+                file.file, 0,
+                "output.realizations = \"none\": a claim is tested on the rows of all realizations; omit this key");
+        const std::vector<std::string> record = record_setting(study, place);
+        settings.insert(settings.end(), record.begin(), record.end());
+
+        Sample sample;
+        if (!record.empty() && !fs::exists(place.data / study.excitation.file)) {
+            sample.why_not = "record absent: " + study.excitation.file;
+        } else {
+            const LoadedStudy loaded = load(file.file, settings, law_of(file.axes, levels));
+            const fs::path results = folder / file_name(variant_key(file.axes, levels));
+            const Found found = look_for(results, loaded.result_header());
+            if (found != Found::complete && place.begins)
+                place.begins(levels);
+            if (found != Found::complete && !compute(loaded, results, found == Found::unfinished, options, observer))
+                return samples;
+            const ResultReader reader(results);
+            sample = make_sample(loaded.study(), loaded.sampler(), loaded.record(), reader.rows(), path_needed);
+            sample.version = reader.header().code_version;
+        }
+        sample.levels = levels;
+        samples.push_back(std::move(sample));
+    }
+    return samples;
 }
 
 } // namespace stylobate::claims

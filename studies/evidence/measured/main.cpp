@@ -7,16 +7,13 @@
 ///
 /// Exit status: 0 done (data that are absent are skipped, with a message), 2 bad input, 1 anything else.
 
-#include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/app/command.hpp"
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
+#include "studies/evidence/picture/page_program.hpp"
 #include "studies/version.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include "studies/workflow/console.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -33,24 +30,19 @@ struct Options {
     std::vector<double> pulse; ///< distance and velocity of the one that is to be written
     fs::path to;
     std::vector<std::string> names;
-    CommonOptions common;
+    Machine machine;
+    bool quiet = false;
 };
 
-std::vector<PageCase> chosen(const std::vector<std::string>& names)
-{
-    std::vector<PageCase> cases = all_page_cases();
-    for (const std::string& name : names)
-        if (std::none_of(cases.begin(), cases.end(), [&](const PageCase& c) { return c.name == name; })) {
-            std::string known;
-            for (const PageCase& c : cases)
-                known += (known.empty() ? "" : ", ") + c.name;
-            throw InputError(fmt::format("--case {}: unknown case.\n  Known: {}.", name, known));
-        }
-    if (!names.empty())
-        std::erase_if(cases,
-                      [&](const PageCase& c) { return std::find(names.begin(), names.end(), c.name) == names.end(); });
-    return cases;
-}
+/// One set of measured data against the engine.
+struct PageCase {
+    std::string name;                ///< of the page
+    std::string folder;              ///< in the data folder; a case whose folder is absent is skipped
+    void (*write)(const PagePlace&); ///< computes, draws, writes the page
+};
+const std::vector<PageCase> page_cases{{"ceh2016", "published", ceh2016},
+                                       {"planar_impact", "planar_impact", planar_impact},
+                                       {"rock_shake_table", "rock_shake_table", rock_shake_table}};
 
 /// time_s and acceleration_m_s2, at rest before the first line.
 void write_motion(const Motion& motion, const fs::path& file)
@@ -82,18 +74,18 @@ int write_one_motion(const Options& o)
     return exit_done;
 }
 
-int run(Options o)
+int run(Options& o)
 {
     if (o.boulder_test > 0 || !o.pulse.empty())
         return write_one_motion(o);
     o.place.data = fs::absolute(o.place.data);
     o.place.docs = fs::absolute(o.place.docs);
     o.place.studies = o.place.studies.empty() ? o.place.docs : fs::absolute(o.place.studies);
-    o.place.run = {o.common.isa(), o.common.thread_count()};
+    o.place.run = {o.machine.isa(), o.machine.thread_count()};
     if (!o.place.predict.empty())
         o.place.predict = fs::absolute(o.place.predict);
-    o.place.quiet = o.common.quiet;
-    for (const PageCase& c : chosen(o.names)) {
+    o.place.quiet = o.quiet;
+    for (const PageCase& c : chosen(page_cases, o.names, "--case {}: unknown case")) {
         if (!fs::is_directory(o.place.data / c.folder)) {
             fmt::print("{}: skipped, there is no folder {}\n", c.name, (o.place.data / c.folder).string());
             continue;
@@ -125,20 +117,9 @@ int main(int argc, char** argv)
     app.add_option(
         "--predict", o.place.predict,
         "a table of planar impacts: writes the predictions of the fitted laws beside the page planar_impact");
-    app.add_option("--threads", o.common.threads, "threads to use (default: all that the process may use)")
+    app.add_option("--threads", o.machine.threads, "threads to use (default: all that the process may use)")
         ->check(CLI::Range(1, 4096));
-    app.add_flag("--quiet", o.common.quiet, "no progress: only errors");
+    app.add_flag("--quiet", o.quiet, "no progress: only errors");
     app.set_version_flag("--version", code_version());
-    try {
-        app.parse(argc, argv);
-        return run(o);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_done : exit_bad_input;
-    } catch (const InputError& error) {
-        fmt::print(stderr, "stylobate_measured: {}\n", error.what());
-        return exit_bad_input;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "stylobate_measured: {}\n", error.what());
-        return exit_failed;
-    }
+    return page_program(app, argc, argv, "stylobate_measured", [&] { return run(o); });
 }

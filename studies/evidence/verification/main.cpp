@@ -2,14 +2,11 @@
 ///
 /// Exit status: 0 all passed, 1 at least one failed, 2 bad input.
 
-#include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
-#include "studies/evidence/verification/page.hpp"
+#include "studies/evidence/picture/page_program.hpp"
+#include "studies/evidence/verification/case.hpp"
 #include "studies/version.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <chrono>
 #include <filesystem>
@@ -32,32 +29,9 @@ std::string processor()
     return "unknown processor";
 }
 
-Cases chosen(const std::vector<std::string>& names)
-{
-    const Cases all = all_cases();
-    if (names.empty())
-        return all;
-    Cases some;
-    for (const std::string& name : names) {
-        bool found = false;
-        for (const Case& c : all)
-            if (c.name == name) {
-                some.push_back(c);
-                found = true;
-            }
-        if (!found) {
-            std::string known;
-            for (const Case& c : all)
-                known += (known.empty() ? "" : ", ") + c.name;
-            throw InputError(fmt::format("'{}' is not a verification case.\n  Known: {}.", name, known));
-        }
-    }
-    return some;
-}
-
 int run(const std::vector<std::string>& names, const std::filesystem::path& out, std::filesystem::path images)
 {
-    const Cases cases = chosen(names);
+    const Cases cases = chosen(all_cases(), names, "'{}' is not a verification case");
     if (images.empty())
         images = out.parent_path() / "images" / "verification";
     const auto begin = std::chrono::steady_clock::now();
@@ -79,9 +53,7 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
         draw(runs, images);
         const std::string made_by =
             fmt::format("Version {}, {}, {}.", code_version(), processor(), to_string(best_isa()));
-        AtomicFile file(out);
-        file.write(page(runs, images.lexically_relative(out.parent_path()).generic_string() + "/", made_by));
-        file.commit();
+        write_whole(out, page(runs, images.lexically_relative(out.parent_path()).generic_string() + "/", made_by));
         fmt::print("{}\n", out.string());
     }
     fmt::print("{} cases in {:.0f} s\n", runs.size(), seconds);
@@ -98,17 +70,5 @@ int main(int argc, char** argv)
     app.add_option("-o,--output", out, "the page to write (Markdown)");
     app.add_option("--images", images, "folder for the pictures [images/verification beside the page]");
     app.add_option("cases", names, "names of the cases to run (default: all)");
-    try {
-        app.parse(argc, argv);
-        return run(names, out, images);
-    } catch (const CLI::ParseError& e) {
-        const int status = app.exit(e);
-        return status == 0 ? 0 : 2;
-    } catch (const InputError& e) {
-        fmt::print(stderr, "stylobate_verify: {}\n", e.what());
-        return 2;
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "stylobate_verify: {}\n", e.what());
-        return 1;
-    }
+    return page_program(app, argc, argv, "stylobate_verify", [&] { return run(names, out, images); });
 }

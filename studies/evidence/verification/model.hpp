@@ -44,6 +44,20 @@ inline double bed_rate(const Bed& bed, const Stone& stone)
     return std::sqrt(bed.K_n * stone.width / stone.mass);
 }
 
+/// A free block with its foot at a place.
+inline Block block_of(const Stone& s, double x, double bottom)
+{
+    const double inertia = s.mass * (s.width * s.width + s.height * s.height) / 12;
+    return {0.5 * s.width, 0.5 * s.height, s.mass, inertia, x, bottom + 0.5 * s.height, false};
+}
+
+/// @param length of the contact, by which the dashpots are chosen   @param width of K_T = K_N B
+inline Joint joint_of(const Bed& bed, int lower, int upper, double mass, double length, double width)
+{
+    const double C = 2 * bed.xi * std::sqrt(bed.K_n * length * mass);
+    return {lower, upper, bed.K_n, bed.K_n * width, C, C, bed.per_chord ? length : 0, bed.mu};
+}
+
 /// A stack on a fixed block.
 /// @param base_width of the fixed block [m]; 0: that of the lowest stone (flush, as in the specimen)
 inline Realization stack(const std::vector<Stone>& stones, const Bed& bed, double step_s, double base_width = 0)
@@ -53,14 +67,11 @@ inline Realization stack(const std::vector<Stone>& stones, const Bed& bed, doubl
     const double base_height = first.height;
     r.blocks.push_back(
         {0.5 * (base_width > 0 ? base_width : first.width), 0.5 * base_height, 1, 1, 0, -0.5 * base_height, true});
-    const double k = bed.K_n * first.width;
-    const double C = 2 * bed.xi * std::sqrt(k * first.mass);
     double top = 0;
     for (const Stone& s : stones) {
-        const double inertia = s.mass * (s.width * s.width + s.height * s.height) / 12;
         const int upper = static_cast<int>(r.blocks.size());
-        r.blocks.push_back({0.5 * s.width, 0.5 * s.height, s.mass, inertia, s.offset, top + 0.5 * s.height, false});
-        r.joints.push_back({upper - 1, upper, bed.K_n, k, C, C, bed.per_chord ? first.width : 0, bed.mu});
+        r.blocks.push_back(block_of(s, s.offset, top));
+        r.joints.push_back(joint_of(bed, upper - 1, upper, first.mass, first.width, first.width));
         top += s.height;
     }
     r.drums = static_cast<int>(r.blocks.size());
@@ -84,6 +95,12 @@ inline Realization single(const Stone& stone, const Bed& bed, double step_s, dou
     return stack({stone}, bed, step_s, base_width);
 }
 
+/// A stone that moves vertically on its bed: a mass on a spring of rate w, 1 kg on 1 m, tall enough to let it sink in.
+inline Realization oscillator(double w, double xi, double step_s)
+{
+    return single({1, 20, 1}, {w * w, xi, 1}, step_s, 2);
+}
+
 /// p = sqrt(3 g / (4 R)) of a rigid block [rad/s], and its slenderness angle [rad].
 inline double rocking_rate(const Stone& s)
 {
@@ -92,6 +109,88 @@ inline double rocking_rate(const Stone& s)
 inline double slenderness(const Stone& s)
 {
     return std::atan(s.width / s.height);
+}
+
+/// Columns of equal drums on wide ground, one epistyle over each bay or one over all.
+struct Colonnade {
+    int columns = 2;
+    int drums = 1; ///< of each column
+    double spacing = 0.09;
+    Stone drum{0.06, 0.1, 0.75};
+    Stone epistyle{0.15, 0.06, 1.14};
+    bool one_epistyle = true; ///< over all bays
+};
+
+/// COLO of the paper: two columns of 60 x 100 mm with a flush epistyle of 150 x 60 mm.
+inline Colonnade paper_colonnade(int drums)
+{
+    Colonnade c;
+    c.drums = drums;
+    c.drum = {0.06, 0.1 / drums, 0.75 / drums};
+    return c;
+}
+
+/// @param watch also lists all pairs that are no beds, so that whatever falls is caught
+inline Realization colonnade(const Colonnade& c, const Bed& bed, double step_s, bool watch = true)
+{
+    Realization r;
+    const auto add = [&](const Stone& s, double x, double bottom, BlockRole role, int column) {
+        r.blocks.push_back(block_of(s, x, bottom));
+        r.blocks.back().role = role;
+        r.blocks.back().column = column;
+        return static_cast<int>(r.blocks.size()) - 1;
+    };
+    const int ground = c.columns * c.drums + (c.one_epistyle ? 1 : c.columns - 1);
+    const auto join = [&](int lower, int upper, double mass, double width) {
+        r.joints.push_back(joint_of(bed, lower, upper, mass, width, c.drum.width));
+    };
+    for (int column = 0; column < c.columns; ++column)
+        for (int i = 0; i < c.drums; ++i) {
+            const int at = add(c.drum, column * c.spacing, i * c.drum.height, BlockRole::drum, column);
+            join(i == 0 ? ground : at - 1, at, c.drum.mass, c.drum.width);
+        }
+    for (int k = 0; k < ground - c.columns * c.drums; ++k) {
+        const double middle = c.one_epistyle ? 0.5 * (c.columns - 1) : k + 0.5;
+        const int at = add(c.epistyle, middle * c.spacing, c.drums * c.drum.height, BlockRole::epistyle, -1);
+        for (int column = c.one_epistyle ? 0 : k; column <= (c.one_epistyle ? c.columns - 1 : k + 1); ++column) {
+            const double right =
+                std::min(c.epistyle.width / 2 + middle * c.spacing, column * c.spacing + c.drum.width / 2);
+            const double left =
+                std::max(-c.epistyle.width / 2 + middle * c.spacing, column * c.spacing - c.drum.width / 2);
+            join(column * c.drums + c.drums - 1, at, c.drum.mass, right - left);
+        }
+    }
+    const double far = 50 * c.columns * c.spacing;
+    r.blocks.push_back({far, c.drum.height, 1, 1, 0, -c.drum.height, true, BlockRole::ground, -1});
+    r.drums = ground;
+    const auto lie_together = [&](int a, int b) {
+        for (const Joint& joint : r.joints)
+            if ((joint.lower == a && joint.upper == b) || (joint.lower == b && joint.upper == a))
+                return true;
+        return false;
+    };
+    if (watch) {
+        std::vector<std::pair<int, int>> pairs;
+        for (int a = 0; a < ground; ++a)
+            for (int b = a + 1; b < ground; ++b)
+                pairs.emplace_back(a, b);
+        for (int b = 0; b < ground; ++b)
+            pairs.emplace_back(ground, b);
+        for (const auto& [a, b] : pairs) {
+            if (lie_together(a, b))
+                continue;
+            const auto long_face = [&](int i) {
+                const Block& block = r.blocks[static_cast<std::size_t>(i)];
+                return 2 * std::max(block.half_width_m, block.half_height_m);
+            };
+            const double chord = std::min(long_face(a), long_face(b));
+            join(a, b, c.drum.mass, chord);
+            r.joints.back().damping_chord_m = chord;
+            ++r.watched;
+        }
+    }
+    r.step_s = step_s;
+    return r;
 }
 
 inline Study still(double duration_s)

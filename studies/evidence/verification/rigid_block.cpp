@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <stdexcept>
 
 namespace stylobate::verification {
 
@@ -25,6 +26,85 @@ double edge(const std::function<bool(double)>& yes, double low, double high)
     }
     return 0.5 * (low + high);
 }
+
+/// From stick to stick, piece by piece; each piece in closed form, its end by halving.
+class Slider {
+public:
+    Slider(Real eta, Real last) : eta_(eta), last_(last) {}
+
+    /// Slides and sticks until `end`; sums up.
+    void run_to(Real end)
+    {
+        while (t_ < end) {
+            if (r_ == 0 && std::fabs(push(t_)) <= 1 + 1e-15L) {
+                t_ = std::min(next_break(end), end);
+                if (t_ >= end)
+                    return;
+            }
+            slide(end);
+        }
+    }
+    Real total = 0, net = 0;
+
+private:
+    Real push(Real t) const { return t < last_ ? eta_ * std::sin(t) : 0; }
+
+    /// Time at which the push exceeds the friction.
+    Real next_break(Real end) const
+    {
+        if (eta_ <= 1)
+            return end;
+        const Real half = std::floor(t_ / pi), phase = t_ - half * pi, first = std::asin(1 / eta_);
+        const Real begins = phase <= first ? half * pi + first : (half + 1) * pi + first;
+        return begins < last_ ? begins : end;
+    }
+
+    /// Velocity a time after the piece began, in the direction `sign`, and its integral.
+    Real velocity(Real sign, Real t) const
+    {
+        const Real u = t < last_ ? t : last_; // the push is over then
+        return r_ + (t_ < last_ ? eta_ * (std::cos(t_) - std::cos(u)) : 0) - sign * (t - t_);
+    }
+    Real way(Real sign, Real t) const
+    {
+        const Real span = t - t_;
+        Real s = r_ * span - 0.5L * sign * span * span;
+        if (t_ < last_) {
+            const Real u = t < last_ ? t : last_;
+            s += eta_ * (std::cos(t_) * (u - t_) - (std::sin(u) - std::sin(t_)));
+            s += eta_ * (std::cos(t_) - std::cos(u)) * (t - u);
+        }
+        return s;
+    }
+
+    void slide(Real end)
+    {
+        const Real sign = r_ != 0 ? std::copysign(Real(1), r_) : std::copysign(Real(1), eta_ * std::sin(t_ + 1e-9L));
+        // the first sign change of the velocity, in strides far shorter than a cycle
+        const Real stride = 2 * pi / 400;
+        Real before = t_, after = t_;
+        bool stops = false;
+        while (!stops && after < end) {
+            before = after;
+            after = after + stride < end ? after + stride : end;
+            stops = sign * velocity(sign, after) < 0;
+        }
+        if (stops) {
+            for (int i = 0; i < 80; ++i) {
+                const Real middle = 0.5L * (before + after);
+                (sign * velocity(sign, middle) < 0 ? after : before) = middle;
+            }
+        }
+        const Real s = way(sign, after);
+        total += std::fabs(s);
+        net += s;
+        r_ = stops ? 0 : velocity(sign, after);
+        t_ = after;
+    }
+
+    Real eta_, last_;
+    Real t_ = 0, r_ = 0;
+};
 
 } // namespace
 
@@ -166,6 +246,95 @@ FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double resti
             break;
         }
     return edges;
+}
+
+Slip pulse_slip(double eta, double cycles)
+{
+    const Real last = 2 * pi * static_cast<Real>(cycles);
+    Slider slider(eta, last);
+    slider.run_to(last + 4 * eta);
+    return {static_cast<double>(slider.total), static_cast<double>(slider.net)};
+}
+
+double steady_slip_ratio(double eta)
+{
+    // where it sticks, the start is forgotten at once; else it fades by some 4 / eta in a cycle
+    Slider slider(eta, 1e30L);
+    const Real cycles = 30 + std::ceil(5 * static_cast<Real>(eta));
+    slider.run_to(cycles * 2 * pi);
+    const Real before = slider.total;
+    slider.run_to((cycles + 1) * 2 * pi);
+    return static_cast<double>((slider.total - before) / (4 * static_cast<Real>(eta)));
+}
+
+const char* to_string(Regime regime)
+{
+    switch (regime) {
+    case Regime::rest:
+        return "rest";
+    case Regime::slide:
+        return "slide";
+    case Regime::rock:
+        return "rock";
+    default:
+        return "slide and rock";
+    }
+}
+
+double rock_friction(double a, double slenderness)
+{
+    const double B = slenderness;
+    return (a * (1 + 4 * B * B) + 3 * B) / (4 + B * B + 3 * a * B);
+}
+
+Regime shenton(double a, double mu, double slenderness)
+{
+    if (a <= std::min(mu, slenderness))
+        return Regime::rest;
+    if (mu < slenderness)
+        return Regime::slide;
+    return mu >= rock_friction(a, slenderness) ? Regime::rock : Regime::slide_rock;
+}
+
+Start two_block_start(const TwoBlocks& k, double a)
+{
+    // Inertia forces point to +x, and a turn that way (clockwise) is positive: the lower block turns about its corner
+    // at (b1, 0), the upper one against it about the corner of its foot at corner x b2. Lagrange's equations
+    // M (lower, upper)'' = Q of that pair of hinges:
+    struct Pair {
+        double M11, M12, M22, Q1, Q2;
+    };
+    const double g = k.gravity;
+    const auto pair = [&](double corner) {
+        const double c = corner * k.b2, d = k.b1 - c; // lifts of the upper centre per turn of the upper and lower block
+        const double I1 = k.m1 * (k.b1 * k.b1 + k.h1 * k.h1) / 3, I2 = k.m2 * (k.b2 * k.b2 + k.h2 * k.h2) / 3;
+        return Pair{I1 + k.m1 * (k.b1 * k.b1 + k.h1 * k.h1) + k.m2 * (4 * k.h1 * k.h1 + d * d),
+                    k.m2 * (2 * k.h1 * k.h2 + d * c), I2 + k.m2 * (k.h2 * k.h2 + c * c),
+                    k.m1 * (a * k.h1 - g * k.b1) + k.m2 * (2 * a * k.h1 - g * d), k.m2 * (a * k.h2 - g * c)};
+    };
+    const auto both = [](const Pair& p) {
+        const double det = p.M11 * p.M22 - p.M12 * p.M12;
+        return Start{(p.M22 * p.Q1 - p.M12 * p.Q2) / det, (p.M11 * p.Q2 - p.M12 * p.Q1) / det};
+    };
+    const Pair front = pair(1), back = pair(-1);
+
+    if (front.Q2 <= 0 && front.Q1 + front.Q2 <= 0)
+        return {};
+    const double upper = front.Q2 / front.M22;
+    if (upper > 0 && front.Q1 - front.M12 * upper <= 0)
+        return {0, upper};
+    const double one = (front.Q1 + front.Q2) / (front.M11 + 2 * front.M12 + front.M22);
+    if (one > 0 && front.Q2 - (front.M12 + front.M22) * one <= 0 && back.Q2 - (back.M12 + back.M22) * one >= 0)
+        return {one, one};
+    // where two patterns meet they are the same, and rounding may refuse both: so not too strict
+    const double slack = 1e-9 * g / (k.h1 + k.h2);
+    const Start same = both(front);
+    if (same.lower > -slack && same.upper > same.lower - slack)
+        return same;
+    const Start opposite = both(back);
+    if (opposite.lower > 0 && opposite.upper < opposite.lower + slack)
+        return opposite;
+    throw std::logic_error("no pattern of two blocks fits this acceleration");
 }
 
 } // namespace stylobate::verification

@@ -1,5 +1,7 @@
 #pragma once
-/// Housner's rigid block on a rigid base, integrated in extended precision: the oracle of rocking and overturning.
+/// Rigid blocks on a rigid base: the oracles of rocking and overturning, of sliding, and of the start of motion.
+///
+/// Rocking is Housner's, integrated in extended precision:
 ///
 ///   theta'' = -p2 [sin(+-alpha - theta) + (u''/g) cos(+-alpha - theta)],  + for theta > 0, - for theta < 0
 ///
@@ -50,5 +52,47 @@ struct FullSineEdges {
     double direct_pressure = 1; ///< least one on the base in that motion, see `PulseEnd`
 };
 FullSineEdges full_sine_edges(const RigidBlock& block, double rate, double restitution);
+
+/// A rigid block that can only slide on its base, with Coulomb friction, in units in which mu g = 1 and w = 1: the
+/// acceleration of the base is eta sin t, slip is in mu g / w2. The velocity r of the base against the block obeys
+/// r' = eta sin t - sgn r while it slides; it sticks where r = 0 and |eta sin t| <= 1.
+///
+/// Slip, and the base's way less the block's.
+struct Slip {
+    double total = 0, net = 0;
+};
+
+/// Under `cycles` (0.5 or 1) of the sine; the base then keeps its velocity.
+Slip pulse_slip(double eta, double cycles);
+
+/// Slip path over the base's path in the steady state under a harmonic without end.
+double steady_slip_ratio(double eta);
+
+/// Shenton's regimes of one block on a base that is accelerated at once.
+enum class Regime { rest, slide, rock, slide_rock };
+const char* to_string(Regime regime);
+
+/// @param a base acceleration over g;  @param mu friction;  @param slenderness b / h
+Regime shenton(double a, double mu, double slenderness);
+
+/// Friction below which a block that rocks slides as well (a > slenderness).
+double rock_friction(double a, double slenderness);
+
+/// Two rectangles, one on the other, each centred: half widths and heights [m], masses [kg].
+struct TwoBlocks {
+    double b1 = 0, h1 = 0, m1 = 0, b2 = 0, h2 = 0, m2 = 0;
+    double gravity = 9.81;
+};
+
+/// Angular accelerations at the start, positive in the sense in which the inertia forces topple [rad/s2].
+struct Start {
+    double lower = 0, upper = 0;
+};
+
+/// Of the pattern that the acceleration sets going (no slip): rest, the upper block alone, both as one, both in the
+/// same sense with a gap between them, or the upper one back over its other corner while the lower one tips. Each
+/// pattern is solved as if it were so; the one is right whose gaps open and whose joints press within their faces.
+/// @throws std::logic_error if none is
+Start two_block_start(const TwoBlocks& blocks, double acceleration_m_s2);
 
 } // namespace stylobate::verification

@@ -2,7 +2,7 @@
 
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
-#include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>

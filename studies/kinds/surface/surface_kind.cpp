@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "io/plots/plot_axis.hpp"
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 #include "studies/kinds/law_band.hpp"
 #include "studies/kinds/nearest_on_axis.hpp"
 #include "studies/report/html_figure.hpp"
@@ -63,7 +63,7 @@ HtmlTable cell_table(const SurfaceTable& surface)
 }
 
 /// The edges of an axis' cells in the unit interval.
-std::vector<double> unit_edges(const PlotAxis& axis)
+std::vector<double> unit_edges(const CellAxis& axis)
 {
     std::vector<double> edges;
     for (const double edge : axis.edges)
@@ -81,18 +81,10 @@ CellMap surface_map(const SurfaceTable& table)
     map.value_label = "probability of collapse";
     map.x = table.frequency_hz;
     map.y = table.pga_m_s2;
-    map.x_edges = unit_edges(make_plot_axis(map.x, "frequency_hz"));
-    map.y_edges = unit_edges(make_plot_axis(map.y, "pga_m_s2"));
+    map.x_edges = unit_edges(make_cell_axis(map.x, "frequency_hz"));
+    map.y_edges = unit_edges(make_cell_axis(map.y, "pga_m_s2"));
     map.value = table.probability;
-    for (const SurfaceContour& contour : surface_contours(table)) {
-        MapLines lines{{}, fmt::format("{}", contour.level), {contour.label.x, contour.label.y}};
-        for (const ContourLine& line : contour.lines) {
-            lines.lines.emplace_back();
-            for (const ContourPoint& point : line)
-                lines.lines.back().push_back({point.x, point.y});
-        }
-        map.lines.push_back(std::move(lines));
-    }
+    map.contours = surface_contours(table);
     return map;
 }
 
@@ -103,7 +95,7 @@ Figure slice_figure(const SurfaceTable& table)
     figure.title = "Probability of collapse over PGA at some frequencies";
     figure.x_label = "PGA [m/s²]";
     figure.y_label = "probability of collapse";
-    figure.x_log = make_plot_axis(table.pga_m_s2, "pga_m_s2").log;
+    figure.x_log = make_cell_axis(table.pga_m_s2, "pga_m_s2").log;
     const std::size_t np = table.pga_m_s2.size();
     for (const std::size_t row : slice_rows(table, {})) {
         FigureSeries series{

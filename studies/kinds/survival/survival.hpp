@@ -2,8 +2,8 @@
 /// Inference from the survival of a structure: counts of the realizations that agree with what is known of it, and what
 /// follows from them. The statistics are those of `ensemble/estimators/past`.
 
+#include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/estimators/past/exclusion.hpp"
-#include "ensemble/estimators/past/final_state.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
 #include "ensemble/estimators/past/motion_tally.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"

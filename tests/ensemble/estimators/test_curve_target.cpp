@@ -3,7 +3,6 @@
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
-#include "ensemble/estimators/fragility/record_bootstrap.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

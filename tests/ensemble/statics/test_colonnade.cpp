@@ -4,7 +4,7 @@
 #include "ensemble/statics/settle.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "studies/evidence/verification/colonnade.hpp"
+#include "studies/evidence/verification/model.hpp"
 #include "tests/kernels/uneven_drums.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/tracking/following.hpp"
+#include "ensemble/tracking/tracking.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -80,10 +80,10 @@ inline Campaign measure(const SyntheticCampaign& c)
         s.rest_y_m.push_back(0.0435 + 0.029 * i);
         s.joints.emplace_back(i - 1, i);
     }
-    std::vector<FollowJob> jobs;
+    std::vector<TrackingJob> jobs;
     for (int r = 0; r < c.runs; ++r) {
         const auto run = static_cast<std::uint64_t>(r);
-        FollowJob job;
+        TrackingJob job;
         job.realization = sampler.realization(run);
         Realization& realization = job.realization;
         const Motion& drawn = *realization.motion;
@@ -118,10 +118,10 @@ inline Campaign measure(const SyntheticCampaign& c)
         jobs.push_back(std::move(job));
     }
     Observer observer;
-    const FollowReport report = follow(jobs, {best_isa(), 1}, observer);
+    const TrackingReport report = track(jobs, {best_isa(), 1}, observer);
     for (int r = 0; r < c.runs; ++r) {
         const auto run = static_cast<std::uint64_t>(r);
-        const FollowJob& job = jobs[static_cast<std::size_t>(r)];
+        const TrackingJob& job = jobs[static_cast<std::size_t>(r)];
         const Readings& seen = report.results[static_cast<std::size_t>(r)].watched;
         const Motion& base = *job.realization.motion;
         MeasuredRun m;

@@ -2,6 +2,7 @@
 /// is damaged is refused.
 
 #include "io/measured/measured_file.hpp"
+#include "tests/io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 /// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
 
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_axis.hpp"
 #include "io/plots/plot_maps.hpp"
 #include "io/plots/plot_rare.hpp"
 #include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "io/plots/plot_surface.hpp"
+#include "io/store/surface_axis.hpp"
 #include "tests/io/plots/pixels.hpp"
 #include "tests/io/store/export_cases.hpp"
 
@@ -45,23 +45,23 @@ private:
     std::string old_;
 };
 
-TEST(PlotAxis, ScaleAndCells)
+TEST(CellAxis, ScaleAndCells)
 {
-    const PlotAxis log = make_plot_axis({1, 10, 100}, "frequency_hz");
+    const CellAxis log = make_cell_axis({1, 10, 100}, "frequency_hz");
     EXPECT_TRUE(log.log);
     EXPECT_NEAR(log.edges[0], std::pow(10, -0.5), 1e-12);
     EXPECT_NEAR(log.edges[1], std::pow(10, 0.5), 1e-12);
     EXPECT_NEAR(log.edges[3], std::pow(10, 2.5), 1e-10);
-    const PlotAxis linear = make_plot_axis({1, 2, 3}, "pga_m_s2");
+    const CellAxis linear = make_cell_axis({1, 2, 3}, "pga_m_s2");
     EXPECT_FALSE(linear.log);
     EXPECT_EQ(linear.edges, (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
-    EXPECT_EQ(make_plot_axis({1, 12}, "pga_m_s2").edges.front(), 0);
-    const PlotAxis lone = make_plot_axis({4}, "pga_m_s2");
+    EXPECT_EQ(make_cell_axis({1, 12}, "pga_m_s2").edges.front(), 0);
+    const CellAxis lone = make_cell_axis({4}, "pga_m_s2");
     EXPECT_LT(lone.edges[0], 4);
     EXPECT_GT(lone.edges[1], 4);
-    EXPECT_THROW(make_plot_axis({}, "pga_m_s2"), InputError);
-    EXPECT_THROW(make_plot_axis({1, 1}, "pga_m_s2"), InputError);
-    EXPECT_THROW(make_plot_axis({1, no_number}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_cell_axis({}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_cell_axis({1, 1}, "pga_m_s2"), InputError);
+    EXPECT_THROW(make_cell_axis({1, no_number}, "pga_m_s2"), InputError);
 }
 
 TEST(Texts, Words)

@@ -1,6 +1,6 @@
 /// The drawing of a structure: that it is to scale, what is drawn, and in which formats.
 
-#include "io/drawing/plot_structure.hpp"
+#include "io/plots/plot_structure.hpp"
 #include "tests/io/plots/pixels.hpp"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 /// NumPy gave for real records (`summary.csv` beside them, whose README.md states how each was computed).
 
 #include "ensemble/model/input_error.hpp"
-#include "io/motion/band_pass.hpp"
 #include "io/motion/ground_motion.hpp"
 #include "tests/io/store/csv_line.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "studies/check/run_cost.hpp"
 #include "studies/check/study_trial.hpp"
-#include "studies/check/trial_order.hpp"
 #include "tests/studies/check/ready_study.hpp"
 
 #include <gtest/gtest.h>

@@ -3,13 +3,13 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/temporary_folder.hpp"
-#include "studies/app/file_kind.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/risk/risk_change_file.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
+#include "studies/workflow/file_kind.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
 
 #include <iterator>

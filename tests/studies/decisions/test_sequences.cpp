@@ -3,7 +3,7 @@
 #include "io/files/temporary_folder.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/risk/sequences.hpp"
-#include "studies/results/whole_run.hpp"
+#include "studies/results/study_run.hpp"
 #include "tests/studies/decisions/interval_equations.hpp"
 
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ protected:
         std::filesystem::remove(file);
         Observer observer;
         const RunOptions run{best_isa(), 1};
-        WholeRun whole(LoadedStudy::from_file(study, settings), study, file);
-        EXPECT_TRUE(whole.run(run, observer));
+        StudyRun whole(LoadedStudy::from_file(study, settings), study, file);
+        EXPECT_TRUE(whole.run(run, observer).complete);
         const Results results(file);
         const auto found = simulate_sequences(results, risk_, options, run, observer);
         EXPECT_TRUE(found);

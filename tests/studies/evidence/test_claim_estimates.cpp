@@ -1,6 +1,6 @@
 /// Limits of claims' numbers by hand.
 
-#include "studies/evidence/claims/estimate.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,8 @@
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim.hpp"
 #include "studies/evidence/claims/claim_page.hpp"
-#include "studies/evidence/claims/claim_text.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,11 +4,9 @@
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/evidence/claims/claim_figure.hpp"
-#include "studies/evidence/claims/claim_file.hpp"
+#include "studies/evidence/claims/claim.hpp"
 #include "studies/evidence/claims/claim_page.hpp"
-#include "studies/evidence/claims/claim_run.hpp"
-#include "studies/evidence/claims/claim_text.hpp"
+#include "studies/evidence/claims/sample.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,8 @@
 /// and the oracles know cases that can be done by hand.
 
 #include "ensemble/statics/limit_analysis.hpp"
-#include "studies/evidence/verification/initiation.hpp"
+#include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
-#include "studies/evidence/verification/page.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 /// Limit states counted by hand, and what the program says and draws of them.
 
-#include "studies/app/console.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
 #include "studies/kinds/surface/surface.hpp"
-#include "studies/results/fall_order.hpp"
+#include "studies/results/result_picture.hpp"
+#include "studies/workflow/console.hpp"
 #include "tests/program/program.hpp"
 
 #include <cmath>

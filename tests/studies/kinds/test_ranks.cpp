@@ -22,24 +22,12 @@ bool run_by(int size, const LoadedStudy& loaded, const std::string& file, const 
 {
     std::atomic<int> complete = 0;
     test::ThreadRanks(size).run([&](Ranks& ranks) {
-        const ResultHeader header = loaded.result_header();
-        const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);
-        kind->prepare(loaded.experiment(), file);
-        const bool found = fs::exists(file);
-        ranks.of_first({}); // all have looked
-        const std::unique_ptr<RunStore> store = ranks.leads() ? open_store(file, header, found) : no_store();
-        store->give_to(*kind);
+        StudyRun run(loaded, loaded.result_header(), file, file, &ranks);
+        run.agree();
         RunOptions options{best_isa(), 1};
         options.ranks = &ranks;
         const auto told = observer(ranks);
-        const StudyRun ran = run_study(loaded.experiment(), *kind, *store, options, *told);
-        complete += ran.complete;
-        if (ranks.leads() && ran.complete) {
-            kind->conclude();
-            store->finish(*kind);
-        }
-        if (ranks.leads() && !ran.complete)
-            store->flush();
+        complete += run.run(options, *told).complete;
     });
     EXPECT_TRUE(complete == 0 || complete == size) << "the ranks do not agree on whether all is done";
     return complete == size;

@@ -6,7 +6,6 @@
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/reference/study_reference.hpp"
-#include "studies/reference/study_schema.hpp"
 #include "studies/reference/study_template.hpp"
 #include "tests/program/json.hpp"
 
@@ -50,6 +49,14 @@ TEST(StudyReference, HasEveryKey)
         EXPECT_FALSE(key.meaning.empty()) << path;
         EXPECT_FALSE(key.meaning.ends_with('.')) << path << ": a phrase";
     });
+}
+
+TEST(StudyReference, StatesTheModelsOfAKeyThatDoesNotHoldForAll)
+{
+    const NumberKey all("drift_m", Range{0, 1}, "drift"), one("drift_m", Range{0, 1}, "drift", {.models = {"planar"}});
+    EXPECT_EQ(use_words(all), "");
+    EXPECT_EQ(use_words(one), "model = \"planar\"");
+    for_each_key([&](const std::string& path, const TomlKey& key) { EXPECT_TRUE(key.models.empty()) << path; });
 }
 
 TEST(StudySchema, IsJsonAndHasEveryTable)

@@ -3,17 +3,17 @@
 #include "ensemble/model/collapse_criterion.hpp"
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/calibration/calibration_file.hpp"
-#include "studies/calibration/calibration_page.hpp"
-#include "studies/diagnosis/findings/diagnosis_page.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/calibration/calibration_page.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 #include "studies/report/json.hpp"
 #include "studies/results/study_facts.hpp"
 #include "tests/program/json.hpp"
-#include "tests/studies/calibration/calibration_sample.hpp"
-#include "tests/studies/diagnosis/diagnosis_sample.hpp"
+#include "tests/studies/measured/calibration/calibration_sample.hpp"
+#include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -164,7 +164,7 @@ TEST(HtmlMap, PutsCellsWhereTheyLie)
     map.x_edges = {0, 0.25, 1};
     map.y_edges = {0, 0.5, 0.75, 1};
     map.value = {0, 0.5, 1, std::nan(""), 0.5, 1};
-    map.lines = {{{{{0, 0}, {1, 1}}}, "0.5", {0.5, 0.5}}};
+    map.contours = {{0.5, {{{0, 0}, {1, 1}}}, {0.5, 0.5}}};
     const std::string svg = map_svg(map).markup;
     EXPECT_EQ(count_of(svg, "data-cell="), 6U);
     EXPECT_EQ(count_of(svg, "class=\"empty-cell\""), 1U); // of which nothing is known

@@ -7,7 +7,7 @@
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"
-#include "studies/results/run_study.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,17 +59,8 @@ inline void make_results(const LoadedStudy& loaded, const std::string& file, con
 {
     ResultHeader header = loaded.result_header();
     header.shard = shard;
-    const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);
-    kind->prepare(loaded.experiment(), file);
-    const std::unique_ptr<RunStore> store = open_store(file, header, false);
     Observer patient;
-    const StudyRun ran = run_study(loaded.experiment(), *kind, *store, {best_isa(), 2}, patient, shard);
-    if (ran.complete && shard.whole()) {
-        kind->conclude();
-        store->finish(*kind);
-    } else {
-        store->flush();
-    }
+    StudyRun(loaded, header, file, file).run({best_isa(), 2}, patient);
 }
 
 /// What is altered in a copy.

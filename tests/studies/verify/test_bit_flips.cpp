@@ -1,7 +1,7 @@
 /// A flipped bit in any byte of a results file is noticed: the file is refused with one message, or `verify-file` finds
 /// a difference. Nothing crashes, hangs, or reports other numbers.
 
-#include "studies/verify/verify_file.hpp"
+#include "studies/verify/verification.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/file_handle.hpp"

@@ -1,14 +1,14 @@
 /// `verify-file` finds each kind of error that leaves the checksums right, names it, and finds nothing where there is
 /// none. (That it finds nothing in any ready study is in tests/program/test_pinned_outcomes.cpp.)
 
-#include "studies/verify/verify_file.hpp"
+#include "studies/verify/verification.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_seal.hpp"
 #include "io/store/tally_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/verify/replay_sample.hpp"
+#include "studies/verify/recorded_rounds.hpp"
 #include "tests/studies/verify/results_made.hpp"
 
 #include <bit>

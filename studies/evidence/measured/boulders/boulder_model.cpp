@@ -4,6 +4,7 @@
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,14 @@ namespace stylobate::measured {
 namespace {
 
 constexpr double gravity = 9.81;
+
+std::vector<bool> fell(const std::vector<BoulderTest>& tests, std::size_t boulder)
+{
+    std::vector<bool> falls;
+    for (const BoulderTest& test : tests)
+        falls.push_back(test.fell[boulder]);
+    return falls;
+}
 
 } // namespace
 
@@ -77,24 +86,42 @@ double restitution(const BoulderModel& model)
     study.excitation = {};
     study.excitation.kind = ExcitationKind::none;
     study.excitation.duration_s = 20 / model.rocking_rate_rad_s();
-    const double alpha = std::atan(model.slenderness);
-    study.initial.tilt_rad = 0.5 * alpha;
-    const Realization r = Sampler(study, nullptr).realization(0);
-    LaneSet set(study, nullptr, kernels(Isa::scalar), r);
-    set.load(0, r);
-    double lowest = 0;
-    while (!set.outcome(0)) {
-        for (int k = 0; k < chunk_steps; ++k) {
-            set.advance(k, k + 1);
-            const double now = set.snapshot(0).theta_rad[0];
-            if (lowest < -1e-3 * alpha && now > lowest) {
-                const auto energy = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
-                return std::sqrt(energy(-lowest) / energy(r.initial_tilt_rad));
+    study.initial.tilt_rad = 0.5 * std::atan(model.slenderness);
+    return verification::impact_restitution(Sampler(study, nullptr).realization(0), study.contact, 0);
+}
+
+BoulderTable simulate(const BoulderModel& variant, const std::vector<BoulderTest>& tests, const RunOptions& run)
+{
+    const auto study = [&](double slenderness) {
+        BoulderModel model = variant;
+        model.slenderness = slenderness;
+        return boulder_study(model);
+    };
+    const auto motion = [&](std::size_t i) { return tests[i].motion; };
+    return {variant, simulated_falls(equal_ratios(0.1, 0.45, 24), tests.size(), motion, study, run)};
+}
+
+BoulderFit best_fit(const std::vector<BoulderTable>& tables, const std::vector<BoulderTest>& tests,
+                    const std::vector<bool>& use, const std::vector<double>& spreads)
+{
+    BoulderFit best;
+    best.log_likelihood = -std::numeric_limits<double>::infinity();
+    for (const BoulderTable& table : tables)
+        for (const double spread : spreads)
+            for (const double slip : slips) {
+                BoulderFit now;
+                now.slip = slip;
+                for (std::size_t s = 0; s < boulders; ++s) {
+                    const LikelySlenderness likely = likely_slenderness(table.falls, fell(tests, s), use, spread, slip);
+                    now.model[s] = table.variant;
+                    now.model[s].slenderness = table.falls.slenderness[likely.median];
+                    now.model[s].slenderness_spread = spread;
+                    now.log_likelihood += likely.log_likelihood;
+                }
+                if (now.log_likelihood > best.log_likelihood)
+                    best = now;
             }
-            lowest = std::min(lowest, now);
-        }
-    }
-    return std::numeric_limits<double>::quiet_NaN();
+    return best;
 }
 
 } // namespace stylobate::measured

@@ -7,6 +7,7 @@
 #include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/parts/fall_table.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,26 @@ Ends ensemble_ends(const Study& study, const Motion& motion, const RunOptions& r
 /// What the block keeps of its rocking speed at an impact: from free rocking, released at half of alpha, by the energy
 /// of the highest point after the impact (still base; compliance of the bed included).
 double restitution(const BoulderModel& model);
+
+/// One choice of all but the slenderness, and what it does to every test.
+struct BoulderTable {
+    BoulderModel variant; ///< its slenderness and spread are of no meaning
+    FallTable falls;
+};
+
+/// Simulates every test with every slenderness; on several threads.
+BoulderTable simulate(const BoulderModel& variant, const std::vector<BoulderTest>& tests, const RunOptions& run);
+
+/// A fitted model of both boulders: they share all but the slenderness.
+struct BoulderFit {
+    std::array<BoulderModel, boulders> model;
+    double slip = 0.05;        ///< share of tests that end as they like: P = slip / 2 + (1 - slip) share
+    double log_likelihood = 0; ///< of the tests that were fitted on [nat]
+};
+
+/// The most likely table, slendernesses, spread and slip.
+/// @param use which of the tests are fitted on   @param spreads that are tried
+BoulderFit best_fit(const std::vector<BoulderTable>& tables, const std::vector<BoulderTest>& tests,
+                    const std::vector<bool>& use, const std::vector<double>& spreads);
 
 } // namespace stylobate::measured

@@ -20,11 +20,6 @@ namespace {
 using verification::PictureAxis;
 using verification::Series;
 
-std::string signed_interval(const Estimate& e)
-{
-    return fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", e.mean, e.low, e.high);
-}
-
 std::string dashpot_text(const BoulderModel& m)
 {
     return fmt::format("{}, {:g}", m.ends ? "ends" : "centroid", m.damping_ratio);
@@ -93,9 +88,8 @@ std::string error_table(const BoulderResults& r, const std::string& heading, con
             }
             ++k;
         }
-    std::string text = fmt::format("| {} | tests | fell | baseline: false falls | false stands | extended: false falls "
-                                   "| false stands |\n|---|---|---|---|---|---|---|\n",
-                                   heading);
+    std::string text = markdown_head(
+        heading + " | tests | fell | baseline: false falls | false stands | extended: false falls | false stands");
     for (std::size_t b = 0; b < bins.size(); ++b) {
         const std::string range = b == 0              ? fmt::format("below {:g}", edges.front())
                                   : b == edges.size() ? fmt::format("from {:g}", edges.back())

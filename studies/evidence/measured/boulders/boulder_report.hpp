@@ -1,10 +1,10 @@
 #pragma once
 /// The page of the boulders: what was computed, as plain data, and its text and pictures.
 
-#include "studies/evidence/measured/boulders/boulder_fit.hpp"
-#include "studies/evidence/measured/boulders/mesh_stance.hpp"
+#include "studies/evidence/measured/boulders/boulder_data.hpp"
+#include "studies/evidence/measured/boulders/boulder_model.hpp"
+#include "studies/evidence/measured/parts/forecast.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
-#include "studies/evidence/measured/parts/score.hpp"
 
 #include <array>
 #include <string>

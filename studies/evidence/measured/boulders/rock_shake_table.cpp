@@ -3,8 +3,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/evidence/measured/boulders/boulder_report.hpp"
-#include "studies/evidence/measured/parts/logistic.hpp"
-#include "studies/evidence/measured/parts/split.hpp"
+#include "studies/evidence/measured/parts/forecast.hpp"
 
 #include <fmt/format.h>
 
@@ -225,7 +224,7 @@ std::vector<BoulderTable> simulate_all(BoulderResults& r, const PagePlace& place
                 variant.ends = dashpot.ends;
                 variant.damping_ratio = dashpot.ratio;
                 tables.push_back(simulate(variant, r.data.tests, place.run));
-                const BoulderFit now = fit(tables.back(), r.data.tests, r.fits, spreads);
+                const BoulderFit now = best_fit({tables.back()}, r.data.tests, r.fits, spreads);
                 say(place, fmt::format("{}, {}, K_N {:g}, height {}: log-likelihood {:.1f}",
                                        dashpot.ends ? "ends" : "centroid", dashpot.ratio, stiffness, height,
                                        now.log_likelihood));

@@ -1,8 +1,12 @@
 #include "studies/evidence/measured/parts/fall_table.hpp"
 
+#include "ensemble/engine/drive.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "studies/evidence/measured/parts/score.hpp"
+#include "studies/evidence/measured/parts/forecast.hpp"
+
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
@@ -67,26 +71,36 @@ std::vector<char> falls_in(const Motion& motion, const std::vector<Study>& studi
     LaneSet set(studies.front(), &motion, kernels(isa), realization(0), studies.size());
     std::vector<std::size_t> in_lane(static_cast<std::size_t>(set.lanes()));
     std::size_t next = 0;
-    const auto refill = [&](int lane) {
-        set.clear(lane);
-        if (next < studies.size()) {
-            in_lane[static_cast<std::size_t>(lane)] = next;
-            set.load(lane, realization(next++));
-        }
+    const auto source = [&](int lane) {
+        if (next == studies.size())
+            return false;
+        in_lane[static_cast<std::size_t>(lane)] = next;
+        set.load(lane, realization(next++));
+        return true;
     };
-    for (int lane = 0; lane < set.lanes(); ++lane)
-        refill(lane);
-    while (set.active() > 0) {
-        set.advance();
-        for (int lane = 0; lane < set.lanes(); ++lane)
-            if (!set.free(lane) && set.outcome(lane)) {
-                falls[in_lane[static_cast<std::size_t>(lane)]] = has_fallen(*set.outcome(lane));
-                if (ends)
-                    ends->add(*set.outcome(lane));
-                refill(lane);
-            }
-    }
+    const auto sink = [&](int lane) {
+        falls[in_lane[static_cast<std::size_t>(lane)]] = has_fallen(*set.outcome(lane));
+        if (ends)
+            ends->add(*set.outcome(lane));
+        set.clear(lane);
+    };
+    drive(set, source, sink, [](int, bool) { return true; });
     return falls;
+}
+
+FallTable simulated_falls(const std::vector<double>& slenderness, std::size_t tests,
+                          const std::function<Motion(std::size_t)>& motion, const std::function<Study(double)>& study,
+                          const RunOptions& run)
+{
+    FallTable table{slenderness, std::vector<std::vector<char>>(tests), std::vector<Ends>(tests)};
+    std::vector<Study> studies;
+    for (const double one : slenderness)
+        studies.push_back(study(one));
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(run.threads));
+    in_parallel(std::size_t(0), tests,
+                [&](std::size_t i) { table.falls[i] = falls_in(motion(i), studies, run.isa, &table.ends[i]); });
+    return table;
 }
 
 double log_likelihood(const FallTable& table, std::size_t median, const std::vector<bool>& fell,

@@ -7,6 +7,7 @@
 #include "ensemble/run/executor.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace stylobate::measured {
@@ -32,6 +33,12 @@ struct FallTable {
     /// @param median index into `slenderness`   @param spread sigma of the logarithm; 0: that one alone
     double share(std::size_t test, std::size_t median, double spread) const;
 };
+
+/// Simulates every test with every slenderness, on several threads.
+/// @param motion, study of a test, of a slenderness
+FallTable simulated_falls(const std::vector<double>& slenderness, std::size_t tests,
+                          const std::function<Motion(std::size_t)>& motion, const std::function<Study(double)>& study,
+                          const RunOptions& run);
 
 /// `count` values from `from` to `to` in equal ratios.
 std::vector<double> equal_ratios(double from, double to, int count);

@@ -4,9 +4,6 @@
 #include "ensemble/run/executor.hpp"
 
 #include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace stylobate::measured {
 
@@ -22,19 +19,9 @@ struct PagePlace {
     std::filesystem::path images() const { return docs / "images"; }
 };
 
-/// One set of measured data against the engine.
-struct PageCase {
-    std::string name;                            ///< of the page
-    std::string folder;                          ///< in the data folder; a case whose folder is absent is skipped
-    std::function<void(const PagePlace&)> write; ///< computes, draws, writes the page
-};
-
 /// The cases.
 void ceh2016(const PagePlace& place);
 void planar_impact(const PagePlace& place);
 void rock_shake_table(const PagePlace& place);
-
-/// All of them, in the order of their names.
-std::vector<PageCase> all_page_cases();
 
 } // namespace stylobate::measured

@@ -69,16 +69,10 @@ Finding static_overlap()
     return f;
 }
 
-/// A stone that moves vertically on its bed: a mass on a spring of rate w, 1 kg on 1 m, tall enough to let it sink in.
-Realization oscillator(double w, double xi, double step_s)
-{
-    return model::single({1, 20, 1}, {w * w, xi, 1}, step_s, 2);
-}
-
 Finding restitution()
 {
     const auto measured = [](double xi, double dt) {
-        Realization r = oscillator(2 * model::pi, xi, dt);
+        Realization r = model::oscillator(2 * model::pi, xi, dt);
         r.gravity_m_s2 = 0;
         model::BareColumn column(r);
         column.at(OfBlock::dy, 1) = -0.1 * dt;

@@ -4,11 +4,9 @@
 #include "ensemble/statics/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
-#include "studies/evidence/verification/colonnade.hpp"
-#include "studies/evidence/verification/held_load.hpp"
-#include "studies/evidence/verification/reference_runs.hpp"
+#include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <fmt/format.h>
 

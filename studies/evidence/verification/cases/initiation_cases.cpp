@@ -3,8 +3,8 @@
 #include "ensemble/statics/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
-#include "studies/evidence/verification/initiation.hpp"
 #include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <fmt/format.h>
 

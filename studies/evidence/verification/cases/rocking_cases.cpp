@@ -3,9 +3,8 @@
 #include "io/tables/markdown.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
-#include "studies/evidence/verification/reference_runs.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <fmt/format.h>
 

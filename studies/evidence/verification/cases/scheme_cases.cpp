@@ -15,11 +15,6 @@ namespace {
 
 constexpr const char* subject = "Time integration";
 
-Realization oscillator(double w, double xi, double step_s)
-{
-    return model::single({1, 20, 1}, {w * w, xi, 1}, step_s, 2);
-}
-
 Finding damped_oscillation()
 {
     const double w = 2 * model::pi, xi = 0.05, size = 0.01;
@@ -27,7 +22,7 @@ Finding damped_oscillation()
     const double exact = std::exp(-xi * w) * (std::cos(wd) + xi * w / wd * std::sin(wd));
     const auto at_one_second = [&](int n) {
         const double dt = 1.0 / n, rest = -model::gravity / (w * w);
-        model::BareColumn column(oscillator(w, xi, dt));
+        model::BareColumn column(model::oscillator(w, xi, dt));
         column.at(OfBlock::y, 1) = rest + size;
         column.at(OfBlock::dy, 1) = 0.5 * w * w * size * dt * dt; // U(-dt) = U0 + a0 dt2 / 2
         for (int i = 0; i < n; ++i)

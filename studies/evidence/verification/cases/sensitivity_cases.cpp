@@ -8,8 +8,8 @@
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
-#include "studies/evidence/verification/rocking_block.hpp"
 #include "studies/evidence/verification/stack_vibration.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <fmt/format.h>
 

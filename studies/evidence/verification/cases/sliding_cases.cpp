@@ -3,7 +3,7 @@
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
-#include "studies/evidence/verification/rigid_slider.hpp"
+#include "studies/evidence/verification/rigid_block.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "ensemble/statics/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
-#include "studies/evidence/verification/held_load.hpp"
 #include "studies/evidence/verification/model.hpp"
+#include "studies/evidence/verification/trials.hpp"
 
 #include <fmt/format.h>
 

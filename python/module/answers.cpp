@@ -1,0 +1,97 @@
+#include "python/module/arrays.hpp"
+#include "python/module/interruptible.hpp"
+#include "python/module/module.hpp"
+#include "stylobate/stylobate.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace stylobate::python {
+
+namespace {
+
+namespace sb = stylobate::api;
+using namespace pybind11::literals;
+
+/// Its attributes, and name: (unit, values). Texts are a list, numbers a view that keeps the owner alive.
+py::tuple table(const py::object& owner, const sb::Table& from)
+{
+    py::dict attributes, columns;
+    for (const auto& [name, value] : from.attributes)
+        attributes[py::str(name)] = value;
+    for (const sb::Column& column : from.columns)
+        columns[py::str(column.name)] = std::visit(
+            [&](const auto& values) {
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<std::string>>)
+                    return py::make_tuple(column.unit, values);
+                else
+                    return py::make_tuple(column.unit, view(owner, values, {column.shape.begin(), column.shape.end()}));
+            },
+            column.values);
+    return py::make_tuple(attributes, columns);
+}
+
+} // namespace
+
+void add_answers(py::module_& module)
+{
+    using A = sb::Answer;
+    py::class_<A>(module, "Answer")
+        .def("text", &A::text)
+        .def("json", &A::json)
+        .def("rows", [](const py::object& self) { return table(self, self.cast<const A&>().rows()); })
+        .def("tables",
+             [](const py::object& self) {
+                 py::dict all;
+                 for (const sb::Table& each : self.cast<const A&>().tables())
+                     all[py::str(each.name)] = table(self, each);
+                 return all;
+             })
+        .def("write", &A::write, "file"_a)
+        .def("draw", &A::draw, "picture"_a, "limit_state"_a, py::call_guard<py::gil_scoped_release>());
+    py::class_<sb::Comparison, A>(module, "Comparison").def_static("from_file", &sb::Comparison::from_file, "file"_a);
+    py::class_<sb::Risk, A>(module, "Risk").def_static("from_file", &sb::Risk::from_file, "file"_a);
+    py::class_<sb::Past, A>(module, "Past");
+    using Files = std::vector<std::filesystem::path>;
+    using C = sb::CompareOptions;
+    add_options<C>(module, "CompareOptions", "settings", &C::settings, "folder", &C::folder, "level", &C::level,
+                   "adaptive", &C::adaptive, "margin", &C::margin, "threads", &C::threads, "simd", &C::simd);
+    module.def(
+        "compare",
+        [](const Files& files, const C& options, const py::object& progress) {
+            return interruptible_lines<std::optional<sb::Comparison>>(
+                options, progress, [&](const C& told) { return sb::compare(files, told); });
+        },
+        "files"_a, "options"_a, "progress"_a);
+    using R = sb::RiskOptions;
+    add_options<R>(module, "RiskOptions", "site", &R::site, "limit_state", &R::limit_state, "years", &R::years, "level",
+                   &R::level, "most_outside", &R::most_outside, "sequences", &R::sequences, "threshold", &R::threshold,
+                   "pause_s", &R::pause_s, "seed", &R::seed, "settings", &R::settings, "threads", &R::threads, "simd",
+                   &R::simd);
+    module.def(
+        "risk",
+        [](const std::filesystem::path& file, const std::vector<std::string>& hazard, const R& options,
+           const py::object& progress) {
+            return interruptible_lines<std::optional<sb::Risk>>(
+                options, progress, [&](const R& told) { return sb::risk(file, hazard, told); });
+        },
+        "file"_a, "hazard"_a, "options"_a, "progress"_a);
+    module.def(
+        "past", [](const Files& files) { return sb::past(files); }, "files"_a,
+        py::call_guard<py::gil_scoped_release>());
+    using P = sb::ReportOptions;
+    add_options<P>(module, "ReportOptions", "title", &P::title, "animate", &P::animate, "animate_mb", &P::animate_mb,
+                   "animate_seconds", &P::animate_seconds, "settings", &P::settings, "threads", &P::threads, "simd",
+                   &P::simd);
+    attributes(py::class_<sb::Page>(module, "Page"), "html", &sb::Page::html, "warnings", &sb::Page::warnings)
+        .def("write", &sb::Page::write, "file"_a);
+    module.def(
+        "report",
+        [](const std::filesystem::path& file, const P& options, const py::object& progress) {
+            return interruptible_lines<std::optional<sb::Page>>(options, progress,
+                                                                [&](const P& told) { return sb::report(file, told); });
+        },
+        "file"_a, "options"_a, "progress"_a);
+}
+
+} // namespace stylobate::python

@@ -1,0 +1,303 @@
+"""Comparisons, risk estimates, the past of a site, and pages of any file."""
+
+import html
+import json
+import os
+import warnings
+
+from . import _core
+from ._forward import forwarded, options
+from ._study import _settings, number, whole_number
+
+
+class Table:
+    """Columns of one length or shape: `table["name"]` is a read-only NumPy array, or a list of texts. A number with an
+    interval has the columns NAME, NAME_lower and NAME_upper.
+
+    attributes  what holds of the whole: a dictionary
+    units       the unit of each column; "": none, or that in its name
+    """
+
+    def __init__(self, core):
+        self.attributes, columns = core
+        self.units = {name: unit for name, (unit, _) in columns.items()}
+        self._columns = {name: values for name, (_, values) in columns.items()}
+
+    def __getitem__(self, column):
+        return self._columns[column]
+
+    def __iter__(self):
+        return iter(self._columns)
+
+    def __len__(self):
+        return len(self._columns)
+
+    def keys(self):
+        """Names of the columns."""
+        return self._columns.keys()
+
+    def to_pandas(self):
+        """A pandas.DataFrame of the columns that are lists; `attrs["units"]`: the unit of each column."""
+        import pandas
+
+        frame = pandas.DataFrame({name: values for name, values in self._columns.items()
+                                  if getattr(values, "ndim", 1) == 1})
+        frame.attrs["units"] = {name: self.units[name] for name in frame}
+        return frame
+
+    def __repr__(self):
+        return f"<Table: {', '.join(self)}>"
+
+
+class Answer:
+    """What comparisons, risk estimates and pasts have in common."""
+
+    def __init__(self, core):
+        self._core = core
+
+    @property
+    def rows(self):
+        """The numbers that are asked for, a row each: a Table."""
+        return Table(self._core.rows())
+
+    def tables(self):
+        """All tables (io/FORMAT.md): a Table by its name."""
+        return {name: Table(table) for name, table in self._core.tables().items()}
+
+    def to_pandas(self):
+        """`rows` as a pandas.DataFrame."""
+        return self.rows.to_pandas()
+
+    def text(self):
+        """What the program prints."""
+        return self._core.text()
+
+    def to_dict(self):
+        """All of it, as the program prints it with `--json`; the names of its files are not in it."""
+        return json.loads(self._core.json())
+
+    def write(self, path):
+        """Writes the file of the program, which `report` accepts."""
+        self._core.write(os.fspath(path))
+
+    def draw(self, path, limit_state=""):
+        """Draws the picture of the program: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.
+
+        limit_state: "": the principal one.
+        """
+        self._core.draw(os.fspath(path), limit_state)
+
+    def _repr_html_(self):
+        rows = self.rows
+        body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row) + "</tr>"
+                       for row in zip(*(rows[name] for name in rows)))
+        head = "".join(f"<th>{html.escape(name)}</th>" for name in rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+    def __repr__(self):
+        return f"<{type(self).__name__}: {len(self.rows[next(iter(self.rows))])} rows>"
+
+
+class Comparison(Answer):
+    """What interventions change (docs/compare.md). `Comparison(path)` reads the file of a comparison; `compare` makes
+    one.
+
+    `rows` has one for each variant, limit state and place ("all", or a cell): variant, limit_state, place, verdict;
+    pairs by which study reached the limit state: both, base_only, variant_only, neither; base_probability,
+    variant_probability and difference with their intervals; p and p_adjusted.
+    """
+
+    def __init__(self, path):
+        super().__init__(_core.Comparison.from_file(os.fspath(path)))
+
+    def plot(self, ax=None, limit_state="collapse"):
+        """Draws the difference of the probability of a limit state over all cells, for each variant, with its interval;
+        returns the axes (Matplotlib)."""
+        rows = [row for row in _records(self.rows) if row["limit_state"] == limit_state and row["place"] == "all"]
+        if not rows:
+            raise _core.InputError(f"plot: the comparison has no limit state {limit_state!r}")
+        return _intervals(ax, rows, "variant", "difference", f"change of the probability of {limit_state}")
+
+
+class Risk(Answer):
+    """How often limit states are reached at a site, and how likely that is over years (docs/risk.md). `Risk(path)` reads
+    the file of an estimate; `risk` makes one.
+
+    `rows` of a study has one for each limit state: limit_state, meaning, determined (0: only bounds hold), and with
+    their intervals annual_frequency [1/year] and probability_50_years for each of the years. Of a comparison it has one
+    for each variant and limit state: variant, limit_state, meaning, verdict, these numbers as base_NAME and
+    variant_NAME, and annual_frequency_change, annual_frequency_ratio and probability_50_years_change.
+    """
+
+    def __init__(self, path):
+        super().__init__(_core.Risk.from_file(os.fspath(path)))
+
+    def plot(self, ax=None):
+        """Draws the probabilities of the limit states over the last of the years, or their changes by the variants, with
+        their intervals; returns the axes (Matplotlib)."""
+        rows = _records(self.rows)
+        change = "variant" in self.rows
+        ending = "_years_change" if change else "_years"
+        name = [name for name in self.rows if name.startswith("probability_") and name.endswith(ending)][-1]
+        for row in rows:
+            row["name"] = f"{row['variant']}: {row['limit_state']}" if change else row["limit_state"]
+        return _intervals(ax, rows, "name", name, name.replace("_", " "))
+
+
+class Past(Answer):
+    """The past shaking of a site from several structures (docs/past.md); `past` makes one.
+
+    `rows` has what is excluded by each structure and by all together: structure (its file, or "together"), events, and
+    with their intervals the peak ground accelerations by_likelihood_m_s2, by_profile_m_s2 and by_posterior_m_s2, from
+    which shaking is excluded (infinite: none), and weaker_m_s2, below which it is too weak (0: none). The table
+    "likelihood" has structure, events, pga_m_s2 and likelihood.
+    """
+
+    def plot(self, ax=None):
+        """Draws the likelihoods over the peak ground acceleration, of one event; returns the axes (Matplotlib)."""
+        ax = _axes(ax)
+        rows = [row for row in _records(self.tables()["likelihood"]) if row["events"] == 1]
+        for name in dict.fromkeys(row["structure"] for row in rows):
+            own = [row for row in rows if row["structure"] == name]
+            largest = max(row["likelihood"] for row in own)
+            ax.plot([row["pga_m_s2"] for row in own], [row["likelihood"] / largest for row in own], label=name)
+        ax.set_xlabel("peak ground acceleration [m/s²]")
+        ax.set_ylabel("likelihood / largest likelihood")
+        ax.legend()
+        return ax
+
+
+class Page:
+    """A self-contained page (HTML), by `report`. In a notebook it is shown in a frame."""
+
+    def __init__(self, core):
+        self._core = core
+
+    html = forwarded("html", "The page as text.")
+
+    def write(self, path):
+        """Writes it, whole or not at all. A file that is there is replaced."""
+        self._core.write(os.fspath(path))
+
+    def _repr_html_(self):
+        return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="600"></iframe>'
+
+
+def compare(*files, settings=None, folder="", level=0.95, adaptive=None, margin=0.05, threads=0, simd="auto",
+            progress=None):
+    """Runs studies under the same draws and the same shaking, and compares them: a Comparison.
+
+    files     study files, the base first (one alone: its [variants]); or finished results of them
+    settings  {"contact.friction": 0.7}, of every study file
+    folder    of the results of study files, which are continued where they are there; "": the working folder
+    level     of intervals and verdicts
+    adaptive  most pairs of each variant of a surface, run where the difference is undecided; None: all pairs
+    margin    adaptive: a difference that does not matter
+    threads, simd   as of `run`; the result does not depend on them
+    progress  called with a line of text; returns False to stop, and None is returned: what was run is kept
+
+    InputError: as the program, exit status 2.
+    """
+    asked = options(_core.CompareOptions(), settings=_settings(settings), folder=os.fspath(folder),
+                    level=number(level, "level"), margin=number(margin, "margin"), simd=simd,
+                    adaptive=None if adaptive is None else whole_number(adaptive, "adaptive"),
+                    threads=whole_number(threads, "threads"))
+    found = _core.compare(_paths(files), asked, progress)
+    return None if found is None else _made(Comparison, found)
+
+
+def risk(file, hazard, *, site="", limit_state="", years=(50, 100), level=0.9, most_outside=0.25, sequences=0,
+         threshold=None, pause_s=None, seed=1, settings=None, threads=0, simd="auto", progress=None):
+    """How often limit states are reached at a site, and how likely that is over years: a Risk.
+
+    file          results of a fragility study, or a comparison of fragility studies
+    hazard        a file (CSV, OpenQuake's CSV or NRML) or several, or "k0=1e-4,k=2.5,measure=pga_g,sigma_ln=0.5"
+    site          of several in the hazard: "LON,LAT" or its number from 0
+    limit_state   one of the study; "": all
+    years         for the probabilities
+    level         of the intervals
+    most_outside  largest share of a frequency from outside of the intensities of study or hazard
+    sequences     histories of the last of the years, with the damage carried along; threshold, pause_s and seed are
+                  theirs (None: by the results, and until the structure rests)
+    settings      only {"excitation.file": path}, the present place of the study's record
+    threads, simd   as of `run`
+    progress      called with a line of text; returns False to stop, and None is returned
+
+    InputError: as the program, exit status 2.
+    """
+    hazards = [hazard] if isinstance(hazard, (str, os.PathLike)) else hazard
+    asked = options(_core.RiskOptions(), site=str(site), limit_state=limit_state,
+                    years=[number(each, "years") for each in years], level=number(level, "level"),
+                    most_outside=number(most_outside, "most_outside"), sequences=whole_number(sequences, "sequences"),
+                    threshold=threshold, pause_s=pause_s, seed=whole_number(seed, "seed"),
+                    settings=_settings(settings), threads=whole_number(threads, "threads"), simd=simd)
+    found = _core.risk(os.fspath(file), _paths(hazards), asked, progress)
+    return None if found is None else _made(Risk, found)
+
+
+def past(*files):
+    """The past shaking of a site, from results of survival studies of several of its structures: a Past.
+
+    InputError: as the program, exit status 2.
+    """
+    return _made(Past, _core.past(_paths(files)))
+
+
+def report(file, *, title="", animate=None, animate_mb=None, animate_seconds=None, settings=None, threads=0,
+           simd="auto", progress=None):
+    """The page of results, a comparison, a diagnosis, a calibration or a risk estimate: a Page.
+
+    title     "": by the study or the file
+    animate   N realizations in motion that fell and N that stood, of each cell; None: one of each
+    animate_mb, animate_seconds   most for all of them: size [1e6 bytes], and time to run them again [s]
+    settings  only {"excitation.file": path}, the present place of the study's record
+    threads, simd   as of `run`
+    progress  called with a line of text; returns False to stop, and None is returned
+
+    What the program prints as a warning is given to `warnings.warn`. InputError: as the program, exit status 2.
+    """
+    asked = options(_core.ReportOptions(), title=title, animate_mb=animate_mb, animate_seconds=animate_seconds,
+                    animate=None if animate is None else whole_number(animate, "animate"),
+                    settings=_settings(settings), threads=whole_number(threads, "threads"), simd=simd)
+    page = _core.report(os.fspath(file), asked, progress)
+    if page is None:
+        return None
+    for warning in page.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return Page(page)
+
+
+def _made(cls, core):
+    """Without its file."""
+    made = cls.__new__(cls)
+    Answer.__init__(made, core)
+    return made
+
+
+def _paths(files):
+    return [os.fspath(file) for file in files]
+
+
+def _records(table):
+    return [dict(zip(table, row)) for row in zip(*(table[name] for name in table))]
+
+
+def _cell(value):
+    return html.escape(value if isinstance(value, str) else f"{value:.4g}")
+
+
+def _axes(ax):
+    import matplotlib.pyplot as plt
+
+    return plt.figure().subplots() if ax is None else ax
+
+
+def _intervals(ax, rows, name, value, label):
+    """A point with its interval for each row."""
+    ax = _axes(ax)
+    values = [row[value] for row in rows]
+    errors = [[row[value] - row[f"{value}_lower"] for row in rows], [row[f"{value}_upper"] - row[value] for row in rows]]
+    ax.errorbar(values, range(len(rows)), xerr=errors, fmt="o", capsize=3)
+    ax.set_yticks(range(len(rows)), [row[name] for row in rows])
+    ax.set_xlabel(label)
+    return ax

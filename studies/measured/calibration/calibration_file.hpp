@@ -1,0 +1,51 @@
+#pragma once
+/// A calibration as an HDF5 file; `io/FORMAT.md` describes its content.
+
+#include "studies/measured/calibration/calibration.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// One contact form of a calibration, as it lies in the file.
+struct StoredForm {
+    std::string name;       ///< "area"
+    std::string study_toml; ///< with the calibrated values
+    double score = 0;       ///< of the calibrated model, all runs [nats]
+    double nominal_score = 0;
+    double roughness = 0;
+    PairedGain held_out; ///< of no groups where no motion was left out
+    std::vector<FittedParameter> parameters;
+    std::vector<double> correlation; ///< (parameters x parameters)
+    std::vector<RunScore> runs;
+};
+
+/// A calibration, as it lies in the file.
+struct StoredCalibration {
+    std::string measured;  ///< the file that it began from
+    std::string evidence;  ///< "histories" or "outcomes"
+    std::string best_form; ///< name of one of the forms
+    std::string code_version;
+    std::string start_toml;              ///< the study that it began from
+    std::vector<std::string> notes;      ///< what could not be used or judged
+    std::optional<WindowMotions> motion; ///< nothing of outcomes, and in files of format version 3
+    std::uint64_t parameter_sets = 0, simulations = 0, window_simulations = 0, block_steps = 0;
+    double seconds = 0;            ///< that it took
+    std::vector<StoredForm> forms; ///< by name; never empty
+
+    const StoredForm& best() const;
+};
+
+/// @throws InputError if the file is none, of another format version, or damaged
+StoredCalibration read_calibration(const std::filesystem::path& file);
+
+/// Writes a calibration over a file.
+/// @param start the study that it began from   @throws InputError if it cannot be written
+void write_calibration(const Calibration& calibration, const Study& start, const std::string& code_version,
+                       const std::filesystem::path& file);
+
+} // namespace stylobate

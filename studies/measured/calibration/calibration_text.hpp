@@ -1,0 +1,29 @@
+#pragma once
+/// A calibration in words, as JSON, and as the study that it leads to.
+
+#include "studies/measured/calibration/calibration.hpp"
+#include "studies/report/json.hpp"
+
+#include <string>
+
+namespace stylobate {
+
+/// The parameters of each contact form with their intervals, what is gained on held-out motions, the best form, and the
+/// notes: lines.
+std::string calibration_text(const Calibration& calibration);
+
+/// What it took: "350 parameter sets, 2800 runs and 38150 windows simulated in 33 s".
+std::string calibration_cost(const Calibration& calibration);
+
+/// How far a calibration is: "scan: 48 of at most 350 parameter sets, at most 20 s left".
+/// @param stage what is being done, as `CalibrationOptions::stage` is told
+std::string calibration_progress(const std::string& stage, const Progress& progress);
+
+/// All of it but the profiles and correlations, which are in the file.
+Json calibration_json(const Calibration& calibration);
+
+/// The study with the calibrated values of the best form, which `stylobate run` takes; comments at its beginning state
+/// the values with their intervals. @param measured the file, for its name
+std::string calibrated_text(const Calibration& calibration, const std::string& measured);
+
+} // namespace stylobate

@@ -1,0 +1,289 @@
+#include "studies/measured/diagnosis/campaigns/campaign_ensemble.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
+#include "io/files/atomic_file.hpp"
+#include "studies/measured/diagnosis/campaigns/evidence_rows.hpp"
+#include "studies/measured/diagnosis/campaigns/proposals.hpp"
+#include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+
+namespace stylobate {
+
+namespace {
+
+/// Campaigns that are simulated together: many bundles with full lanes, and often enough a word on progress.
+constexpr std::uint64_t together = 72;
+
+std::string line_of(const SimulatedCampaign& campaign)
+{
+    std::string text = fmt::format("{}\t{}\t{:.17g}", campaign.number, campaign.cause, campaign.z);
+    for (const auto* values : {&campaign.numbers.descriptors, &campaign.numbers.values, &campaign.scores})
+        for (const double value : *values)
+            text += fmt::format("\t{:.17g}", value);
+    return text;
+}
+
+/// How many numbers a row has of each kind.
+struct RowShape {
+    std::size_t descriptors, statistics, scores;
+};
+
+/// A line as above. False: it is none, or of another shape.
+bool read_line(const std::string& line, const RowShape& shape, SimulatedCampaign& campaign)
+{
+    std::vector<double> numbers;
+    std::stringstream in(line);
+    for (std::string part; std::getline(in, part, '\t');) {
+        char* end = nullptr;
+        numbers.push_back(std::strtod(part.c_str(), &end));
+        if (end == part.c_str() || *end != '\0')
+            return false;
+    }
+    if (numbers.size() != 3 + shape.descriptors + shape.statistics + shape.scores)
+        return false;
+    campaign.number = static_cast<std::uint64_t>(numbers[0]);
+    campaign.cause = static_cast<int>(numbers[1]);
+    campaign.z = numbers[2];
+    const auto statistics = numbers.begin() + 3 + static_cast<std::ptrdiff_t>(shape.descriptors);
+    const auto scores = statistics + static_cast<std::ptrdiff_t>(shape.statistics);
+    campaign.numbers.descriptors.assign(numbers.begin() + 3, statistics);
+    campaign.numbers.values.assign(statistics, scores);
+    campaign.scores.assign(scores, numbers.end());
+    return true;
+}
+
+constexpr std::string_view head = "# stylobate simulated campaigns ";
+
+/// What a file of rows is of: another campaign, plan or version has another key.
+std::string key_of(const Campaign& measured, const Study& study, const std::vector<CandidateCause>& causes,
+                   const std::vector<SizedCause>& known, const EnsemblePlan& plan, const SimulatedCampaign& shown)
+{
+    std::string key = std::string(head) + campaign_key(measured, study, plan.seed) +
+                      fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
+                                  plan.parents, plan.nulls, plan.of_each_cause);
+    key += fmt::format(" far {:g}", plan.far);
+    for (const OwnRound& round : plan.own)
+        key += fmt::format(" own {} {} {} {:g} {:g}", round.causes, round.of_each, round.parents, round.spread,
+                           round.size_spread);
+    for (const ContactForm form : plan.family.forms)
+        key += fmt::format(" form {}", static_cast<int>(form));
+    for (const DampingKind kind : plan.family.kinds)
+        key += fmt::format(" damping {}", to_string(kind));
+    for (const CandidateCause& cause : causes)
+        key += fmt::format(" {} {:.17g} {:.17g} {:g} {:g}", cause.cause.label(), cause.cause.fixed, cause.at_one,
+                           cause.least, cause.most);
+    for (const SizedCause& cause : known)
+        key += fmt::format(" {} {:.17g}", cause.cause.label(), cause.size);
+    for (const auto* values :
+         {&shown.numbers.descriptors, &shown.numbers.values, &shown.scores}) // proposals depend on them
+        for (const double value : *values)
+            key += fmt::format(" {:.17g}", value);
+    return key;
+}
+
+/// The campaigns that are simulated next, and by several processes those of them that this one simulates.
+struct Portion {
+    /// @param ranks null: this process is alone
+    Portion(const Ranks* ranks, std::uint64_t begin, std::uint64_t end)
+    {
+        const std::uint64_t rank = ranks ? static_cast<std::uint64_t>(ranks->rank()) : 0;
+        const std::uint64_t size = ranks ? static_cast<std::uint64_t>(ranks->size()) : 1;
+        const std::uint64_t all = std::min(together * size, end - begin);
+        first = begin + all * rank / size;
+        count = begin + all * (rank + 1) / size - first;
+    }
+    std::uint64_t first = 0, count = 0;
+};
+
+/// Gives every rank what each has simulated.
+/// @param lines of this one; afterwards of all
+std::vector<SimulatedCampaign> of_all_ranks(Ranks& ranks, std::string& lines, const RowShape& shape)
+{
+    std::vector<SimulatedCampaign> rows;
+    std::string all;
+    for (const std::string& text : ranks.of_all(lines)) {
+        all += text;
+        std::istringstream in(text);
+        SimulatedCampaign campaign;
+        for (std::string line; std::getline(in, line);)
+            if (read_line(line, shape, campaign))
+                rows.push_back(campaign);
+    }
+    lines = std::move(all);
+    return rows;
+}
+
+/// Makes the cost that of all ranks.
+void add_costs(Ranks& ranks, CampaignEnsemble& out)
+{
+    const std::vector<std::string> costs =
+        ranks.of_all(fmt::format("{} {}", out.cost.simulations, out.cost.block_steps));
+    out.cost = {};
+    for (const std::string& text : costs) {
+        std::istringstream numbers(text);
+        SimulationCount cost;
+        numbers >> cost.simulations >> cost.block_steps;
+        out.cost += cost;
+    }
+}
+
+} // namespace
+
+EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
+{
+    const EnsemblePlan all;
+    const auto part = [&](std::uint64_t of, std::uint64_t least) { return std::max(of * nulls / all.nulls, least); };
+    EnsemblePlan plan;
+    plan.wide = part(all.wide, 24);
+    plan.pairs = std::min(part(all.pairs, 12), plan.wide);
+    plan.of_each_round = part(all.of_each_round, 12);
+    plan.of_each_cause = part(all.of_each_cause, 3);
+    plan.nulls = nulls;
+    for (OwnRound& round : plan.own)
+        round.of_each = part(round.of_each, 2);
+    return plan;
+}
+
+std::uint64_t EnsemblePlan::round(std::uint64_t number) const
+{
+    return number < scouts()
+               ? 0
+               : std::min(1 + (number - scouts()) / std::max<std::uint64_t>(of_each_round, 1), rounds + 1);
+}
+
+std::uint64_t EnsemblePlan::begin_of(std::uint64_t round) const
+{
+    return round == 0 ? 0 : scouts() + (round - 1) * of_each_round;
+}
+
+std::pair<int, double> EnsemblePlan::label(const std::vector<CandidateCause>& causes, std::uint64_t number) const
+{
+    if (number < healthy())
+        return {-1, 0};
+    const std::uint64_t k = number - healthy();
+    const auto cause = static_cast<std::size_t>(k % causes.size());
+    const std::uint64_t place = k / causes.size();
+    const CandidateCause& c = causes[cause];
+    // from weak to strong, each side where there are two; the neutral size is that of the nulls
+    const std::uint64_t sides = c.least < 0 ? 2 : 1, of_a_side = (of_each_cause + sides - 1) / sides;
+    const std::uint64_t rank = place / sides + 1;
+    const double part = static_cast<double>(rank) / static_cast<double>(of_a_side);
+    return {static_cast<int>(cause), (place % sides == 0 ? c.most : c.least) * part};
+}
+
+void refuse_foreign_cache(const std::filesystem::path& cache)
+{
+    std::ifstream in(cache);
+    std::string line;
+    std::getline(in, line);
+    // (of one that was cut there may be a part of the first line)
+    if (!line.empty() && !line.starts_with(head) && !head.starts_with(line))
+        throw InputError(cache.string(), 1,
+                         "keeps no simulated campaigns of a diagnosis, and nothing was written.\n  Remove it, or name "
+                         "another output.");
+}
+
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
+                        double kept, const std::vector<double>& least)
+{
+    std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
+    for (std::uint64_t i = 0; i < plan.pairs; ++i)
+        pairs.emplace_back(numbers(rows[i]), numbers(rows[plan.wide + i]));
+    return {pairs, kept, least};
+}
+
+CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
+                                   const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
+                                   const EnsemblePlan& plan, const SimulatedCampaign& shown,
+                                   const std::filesystem::path& cache, const RunOptions& options,
+                                   const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                                   Observer& observer)
+{
+    CampaignEnsemble out;
+    const CampaignScales scales = campaign_scales(measured);
+    const std::vector<StatisticLabel> labels = statistic_labels(measured);
+    const ScorePlan scored = score_plan(measured.specimen, scales);
+    const std::string key = key_of(measured, study, causes, known, plan, shown);
+    const RowShape shape{shown.numbers.descriptors.size(), labels.size(), scored.size()};
+    std::string kept;
+    if (options.leads() && !cache.empty()) {
+        std::ifstream in(cache, std::ios::binary);
+        kept.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    std::istringstream in(options.ranks ? options.ranks->of_first(kept) : std::move(kept));
+    std::string text = key + "\n", line;
+    if (std::getline(in, line) && line == key)
+        for (SimulatedCampaign campaign; std::getline(in, line) && !in.eof() && // one without its end is cut
+                                         read_line(line, shape, campaign) && campaign.number == out.campaigns.size();
+             text += line + "\n")
+            out.campaigns.push_back(campaign);
+    out.cached = out.campaigns.size();
+    const EvidenceRows evidence(labels, scored);
+    Proposals proposals(plan, causes, labels, evidence, shown);
+    const VirtualLaboratory laboratory(measured);
+    const auto tell = [&](std::uint64_t end) {
+        progress(out.campaigns.size(), std::max(end, plan.total(causes.size())));
+    };
+    for (;;) {
+        const std::uint64_t first = out.campaigns.size(), end = proposals.end_of_round(first, out.campaigns);
+        tell(end);
+        if (first >= end)
+            break;
+        const Portion portion(options.ranks, first, end);
+        HealthyScatter scatter;
+        scatter.placed_as_seen = true;
+        std::vector<std::vector<SizedCause>> acting(portion.count, known);
+        std::vector<SimulatedCampaign> rows(portion.count);
+        for (std::uint64_t i = 0; i < portion.count; ++i) {
+            const Proposal proposal = proposals.of(portion.first + i, out.campaigns);
+            scatter.laws.push_back(proposal.law);
+            rows[i].number = portion.first + i;
+            rows[i].cause = proposal.cause;
+            rows[i].z = proposal.z;
+            if (proposal.cause >= 0) {
+                const CandidateCause& candidate = causes[static_cast<std::size_t>(proposal.cause)];
+                acting[i].push_back({candidate.cause, candidate.size_of(proposal.z)});
+            }
+        }
+        const VirtualCampaigns made = virtual_campaigns(laboratory, study, plan.seed, portion.first, portion.count,
+                                                        scatter, acting, options, observer);
+        out.cost += made.cost;
+        if (!all_agree(options.ranks, made.complete))
+            return out;
+        tbb::task_arena(options.threads).execute([&] {
+            in_parallel(std::uint64_t{0}, portion.count, [&](std::uint64_t i) {
+                rows[i].numbers = statistics_of(made.campaigns[i], scales, made.base_m);
+                rows[i].scores = balance_scores(fit_balance(made.campaigns[i], scales, made.base_m), scored);
+            });
+        });
+        std::string lines;
+        for (const SimulatedCampaign& row : rows)
+            lines += line_of(row) + "\n";
+        if (options.ranks)
+            rows = of_all_ranks(*options.ranks, lines, shape);
+        for (SimulatedCampaign& row : rows)
+            out.campaigns.push_back(std::move(row));
+        text += lines;
+        if (options.leads() && !cache.empty())
+            write_whole(cache, text);
+    }
+    if (options.ranks)
+        add_costs(*options.ranks, out);
+    out.distance = proposals.law_distances(out.campaigns);
+    proposals.find_nearness(out);
+    out.complete = true;
+    return out;
+}
+
+} // namespace stylobate

@@ -1,0 +1,75 @@
+#pragma once
+/// What the statistics of a campaign show of its joints and blocks, by campaigns that are simulated for it.
+
+#include "studies/measured/diagnosis/campaigns/campaign_ensemble.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_verdict.hpp"
+#include "studies/measured/diagnosis/campaigns/force_test.hpp"
+#include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
+#include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+
+/// One number that carries a verdict, of the measured campaign and of simulated ones.
+struct CarryingNumber {
+    std::string text; ///< what it is
+    double measured = 0;
+    std::vector<double> nulls;                       ///< of healthy campaigns; without those that do not have it
+    std::size_t hidden = 0;                          ///< so many do not
+    std::vector<std::pair<double, double>> labelled; ///< size and number of the campaigns with the cause
+
+    void add_healthy(double value)
+    {
+        if (std::isfinite(value))
+            nulls.push_back(value);
+        else
+            ++hidden;
+    }
+    void add_labelled(double size, double value)
+    {
+        if (std::isfinite(value))
+            labelled.emplace_back(size, value);
+    }
+};
+
+struct EnsembleDiagnosis {
+    std::vector<CandidateCause> causes;
+    std::vector<std::string> mechanisms; ///< names by the numbers of the verdicts' mechanisms
+    std::vector<StatisticLabel> statistics;
+    CampaignStatistics measured;
+    std::vector<double> scores;           ///< (scored) of the measured campaign; NaN: not shown
+    std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
+    ScorePlan scored;                     ///< of which the scores are
+    CampaignEnsemble ensemble;
+    double law_p_value = 1; ///< of the measured law in the family
+    // default where the observer stopped it
+    EnsembleVerdict by_statistics; ///< with the cause that is named by nearness, where one is
+    NearestCause by_nearness;
+    ForceTest listed, forces; ///< of the scores of the causes, and of those of forces of no known kind
+
+    /// Share of labelled campaigns of a mechanism, with z of at least this, that are named rightly: what these data can
+    /// show. Nothing: no campaign has it.
+    std::optional<double> power(int mechanism, double least_z) const;
+    CarryingNumber carrying; ///< what of the statistics speaks most for their best cause
+
+    /// Number of a cause's mechanism.
+    int mechanism_of(const Cause& cause) const;
+};
+
+/// @param campaign with its base corrected for what the direct tests found
+/// @param study    contacts about which healthy laws are drawn
+/// @param known    causes that act in every simulated campaign
+/// @param base_m   (runs)(nt) as in `balance_evidence`
+EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const CampaignScales& scales,
+                                     const std::vector<SizedCause>& known,
+                                     const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
+                                     const std::filesystem::path& cache, const RunOptions& options,
+                                     const std::function<void(std::uint64_t, std::uint64_t)>& progress,
+                                     Observer& observer);
+
+} // namespace stylobate

@@ -1,0 +1,99 @@
+#pragma once
+/// From evidence to a verdict. The rule stands here, was fixed before it was assessed, and is explained in
+/// `docs/diagnosis.md`:
+///
+///   1  What a direct test of base or sensors finds is named: its thresholds are its rule. If it is something that the
+///      simulated campaigns cannot contain, joints and blocks are not judged.
+///   2  The largest gain of the campaign's statistics over all simulated causes is one number. Its p-value is its rank
+///      among healthy simulated campaigns whose laws are like the measured one. The cause is named at
+///      `EnsembleRule::named` or less.
+///   3  Its probability is calibrated on simulated campaigns with a known cause. Others that explain nearly as much are
+///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
+///      probability of one half, nothing is named: the cause is called possible. More friction of a joint is named
+///      only where the balance of forces sees it, too.
+///   4  A second cause is judged with the first one given.
+///      The balance of forces is a test of its own (`named_by_forces.hpp`), which other contact laws move little. Where
+///      it names what the statistics name too, place and size are its own. Where it alone names something, that is
+///      named; the statistics choose between causes that explain its forces about as well. Where the statistics name
+///      another cause, both are in the set.
+///      Simulated ties of a block to the base compete with the causes and stand for forces of no known kind: where one
+///      would be named, the verdict is 'unexplained'.
+///   5  A force of no known kind beside the cause that the balance of forces would name and those that the statistics
+///      name, which no cause of another kind explains, makes the verdict 'unexplained'. So does one in the place of all
+///      causes, where a cause of a size that no specimen may have explains the forces clearly better than each of a
+///      possible size. So does one whose score is far beyond healthy campaigns', that explains much more of the balance
+///      of forces than any cause, and not by one run alone; and, where forces name nothing, what the best cause leaves
+///      of the statistics, beyond 99 % of healthy and of labelled campaigns.
+
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
+#include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// By which of three ways a cause is found.
+enum class Channel {
+    direct,    ///< base and sensors, while the lowest block rides on the table; blocks at rest
+    forces,    ///< the balance of forces, compared with that of simulated campaigns
+    statistics ///< statistics of the whole campaign, compared with simulated campaigns
+};
+
+/// Less probable causes are not named.
+inline constexpr double least_probability = 0.5;
+
+/// Of the balance of forces; p-values and what is in a set are those of `EnsembleRule`.
+struct DecisionRule {
+    double clear = 8;           ///< nats by which a cause, or a force beside it, explains the forces better
+    double shown = 1.5;         ///< score of a cause that forces name, in units of healthy campaigns
+    double of_known_kind = 0.8; ///< probability that what forces name is in the list of causes at all
+    double without_best = 0.4;  ///< part of the gain of a force of no known kind that must be left without the best run
+    double structure_clear = 6; ///< nats beyond the 95 % quantile of healthy campaigns, for 'unexplained'
+    double structure_better = 8; ///< nats by which it must explain more of the balance of forces than every cause
+};
+
+/// A cause as it was judged.
+struct JudgedCause {
+    CauseFit fit;
+    Channel channel = Channel::statistics;
+    double chance95 = 0;
+    double chance = 1;                 ///< probability of such a gain where nothing is hidden
+    std::optional<double> probability; ///< nothing: not computed
+    bool considered = false;           ///< named, or in a set with what is named
+    /// Named by nearness: how far its campaigns are from the measured one, over healthy ones; `chance` is then that of
+    /// these being so far. 0: not by it.
+    double nearer = 0;
+    /// Named by the statistics and by the balance of forces: the p-value of the latter. `fit` has its place and size,
+    /// and the gain of the statistics.
+    std::optional<double> forces_too;
+    std::string why_not;
+};
+
+struct Decided {
+    Verdict verdict = Verdict::none;
+    std::vector<JudgedCause> named;  ///< most probable first, direct findings included
+    std::vector<JudgedCause> in_set; ///< that these data do not distinguish from a named one
+    std::vector<JudgedCause> judged; ///< all
+    std::optional<StructureFit> unexplained;
+    std::optional<CauseFit> beside; ///< the cause beside which it is left; nothing: it stands by itself
+    std::vector<Cause> beside_too;  ///< and those that the statistics name
+    bool by_tie =
+        false; ///< a simulated force on a block is the likeliest: `in_set` has what the data do not distinguish from it
+    double unexplained_chance = 1;
+    double structure95 = 0; ///< 95 % quantile of the gain of a force of no known kind in healthy campaigns [nats]
+};
+
+/// Whether a direct test found what simulated campaigns cannot contain (a vertical motion of a frequency of its own):
+/// joints and blocks cannot be judged beside it.
+bool beyond_simulation(const DirectResult& direct);
+
+/// @param ensemble null: no campaigns were simulated, and only direct tests name a cause
+Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const EnsembleDiagnosis* ensemble,
+               const DecisionRule& rule);
+
+/// What the tests found, named or not, in one line each.
+std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble);
+
+} // namespace stylobate

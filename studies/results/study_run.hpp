@@ -1,0 +1,94 @@
+#pragma once
+/// A study on its way to results: looked at, opened, run, concluded, finished. The only place that has this order.
+
+#include "ensemble/model/observer.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/kinds/kind.hpp"
+#include "studies/results/run_store.hpp"
+#include "studies/results/run_study.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+class StudyRun {
+public:
+    /// Looks at the study and at its file, and changes nothing.
+    /// @param name of the study, for messages
+    /// @param results its file, which need not be there; empty: its rows go into a store that `open` is given
+    /// @param shard the part of it that is run
+    /// @param ranks that run it together; null: this process is alone
+    /// @throws InputError if the study cannot be run, or if the file is another study's
+    StudyRun(LoadedStudy loaded, std::string name, std::string results, const Shard& shard = {},
+             Ranks* ranks = nullptr);
+    /// A study that has been judged already. @param header of its results   @param warnings what was found
+    StudyRun(LoadedStudy loaded, ResultHeader header, std::string name, std::string results, Ranks* ranks = nullptr,
+             std::vector<std::string> warnings = {});
+    ~StudyRun();
+    StudyRun(const StudyRun&) = delete;
+    StudyRun& operator=(const StudyRun&) = delete;
+
+    const std::string& name() const { return name_; }
+    const std::string& results() const { return results_; }
+    const Study& study() const { return loaded_.study(); }
+    const LoadedStudy& loaded() const { return loaded_; }
+    const ResultHeader& header() const { return header_; }
+    const Kind& kind() const { return *kind_; }
+    /// What of the study can hardly be meant, in sentences.
+    const std::vector<std::string>& warnings() const { return warnings_; }
+    /// What its kind has chosen, in sentences; empty: nothing.
+    const std::string& notice() const { return notice_; }
+    /// Whether a file of the study is there.
+    bool found() const { return found_; }
+    /// Whether nothing is left to run.
+    bool finished() const { return finished_; }
+
+    /// Collective: what rank 0 has found holds for all ranks.
+    void agree();
+    /// Draws the realizations once, where the file is not there; ranks draw a part each.
+    /// @throws InputError if one cannot be run
+    void check_drawn() const;
+    /// Opens the file, or makes it. @param store instead of a file; null: the file
+    void open(std::unique_ptr<RunStore> store = nullptr);
+    /// Takes what another file of the study has. @pre it is open, and has none of it
+    void take(const ResultReader& other) { store_->add(other); }
+
+    /// Runs what is left, up to a complete file; where the observer stops it, and of a shard, what is there is kept.
+    RunEnd run(const RunOptions& options, Observer& observer);
+    /// Runs those of the realizations that are not in the file, which stays one to be continued.
+    /// @returns false if the observer has asked to stop
+    bool run_some(std::span<const std::uint64_t> indices, const RunOptions& options, Observer& observer);
+    /// Keeps what is there for another run, and gives it to the kind. @pre it is open
+    void keep();
+    /// Gives the kind what a finished file has. @returns what its run would have reported, as far as the file has it
+    Progress restore();
+
+    /// All rows that are there, in any order.
+    void for_each_row(const std::function<void(const ResultRow&)>& f) const;
+    /// Realizations that are in the file.
+    std::uint64_t done() const;
+    /// How many of these are invalid.
+    std::uint64_t invalid() const;
+
+private:
+    bool leads() const { return !ranks_ || ranks_->leads(); }
+
+    const LoadedStudy loaded_;
+    const std::string name_, results_;
+    const ResultHeader header_;
+    Ranks* const ranks_;
+    const std::vector<std::string> warnings_;
+    const std::unique_ptr<Kind> kind_;
+    const std::string notice_;
+    bool found_ = false, finished_ = false;
+    std::unique_ptr<RunStore> store_; ///< while it is open
+};
+
+using StudyRuns = std::vector<std::unique_ptr<StudyRun>>;
+
+} // namespace stylobate

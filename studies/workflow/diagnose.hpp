@@ -1,0 +1,32 @@
+#pragma once
+/// A diagnosis of a measured campaign, from its file to what the simulation gets wrong.
+
+#include "studies/measured/diagnosis/pipeline.hpp"
+#include "studies/workflow/workflow.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct DiagnosisRequest {
+    std::string measured;
+    std::optional<Study> start{};          ///< contacts to begin with; none: a bed of stone
+    std::string start_name = "study";      ///< for messages
+    std::vector<std::string> settings{};   ///< of the start where none is given
+    std::uint64_t nulls = 192;             ///< healthy campaigns that are simulated near the measured contact law
+    std::uint64_t seed = 1;                ///< of what is drawn in them
+    std::filesystem::path cache{};         ///< `DiagnosisOptions::cache`
+    std::filesystem::path extension{};     ///< `DiagnosisOptions::extension`
+    std::function<void()> check_outputs{}; ///< called where nothing else is refused any more; may be empty
+};
+
+/// Collective, of all ranks of the machine; rank 0 has the diagnosis. The stages are notes.
+/// @returns nothing if the observer has asked to stop
+/// @throws InputError if the campaign cannot be read or diagnosed
+std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, const Machine& machine,
+                                           WorkObserver& observer);
+
+} // namespace stylobate

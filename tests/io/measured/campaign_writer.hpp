@@ -1,0 +1,16 @@
+#pragma once
+/// Measured campaigns written as files: what laboratories have programs of their own for.
+
+#include "ensemble/model/campaign.hpp"
+
+#include <filesystem>
+
+namespace stylobate {
+
+/// Writes a campaign: as HDF5 where the name ends in .h5 or .hdf5, else as a new folder. Reading it again gives the
+/// same bits. An HDF5 file of that name is replaced; either appears whole or not at all.
+///
+/// @throws InputError if it cannot be written, or if a folder is there already
+void write_campaign(const Campaign& campaign, const std::filesystem::path& path);
+
+} // namespace stylobate
