@@ -249,12 +249,14 @@ Kind kind_of_type(hid_t type, const std::string& what)
 {
     if (H5Tequal(type, H5T_IEEE_F64LE) > 0)
         return Kind::real;
-    if (H5Tequal(type, H5T_STD_U64LE) > 0)
+    if (H5Tequal(type, H5T_STD_U64LE) > 0 || H5Tequal(type, H5T_STD_U32LE) > 0)
         return Kind::count;
     if (H5Tequal(type, H5T_STD_I32LE) > 0)
         return Kind::integer;
     if (H5Tequal(type, text_type().id()) > 0)
         return Kind::text;
+    if (H5Tget_class(type) == H5T_ENUM && H5Tget_size(type) == 1)
+        return Kind::word;
     throw Error(what + " is not of a type that it can have");
 }
 
@@ -305,6 +307,11 @@ std::vector<std::string> names_in(hid_t group)
 bool exists(hid_t parent, const std::string& path)
 {
     return call("cannot look for '" + path + "'", [&] { return H5Lexists(parent, path.c_str(), H5P_DEFAULT); }) > 0;
+}
+
+bool is_group(hid_t parent, const std::string& path)
+{
+    return H5Iget_type(open_object(parent, path).id()) == H5I_GROUP;
 }
 
 Handle create_dataset(hid_t parent, const std::string& path, hid_t type, const Dims& dims, const void* fill)
@@ -378,6 +385,18 @@ void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::v
     write_new(parent, path, type, type, values, dims, "");
 }
 
+void write_words(hid_t parent, const std::string& path, const std::vector<std::string>& texts,
+                 const std::vector<std::string>& words)
+{
+    std::vector<std::pair<const char*, std::uint8_t>> members;
+    for (const std::string& word : words)
+        members.emplace_back(word.c_str(), static_cast<std::uint8_t>(members.size()));
+    std::vector<std::uint8_t> values;
+    for (const std::string& text : texts)
+        values.push_back(static_cast<std::uint8_t>(std::find(words.begin(), words.end(), text) - words.begin()));
+    write_bytes(parent, path, byte_enumeration(members).id(), values, {values.size()});
+}
+
 void write_texts(hid_t parent, const std::string& path, const std::vector<std::string>& texts)
 {
     const Handle type = text_type();
@@ -408,6 +427,22 @@ std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, c
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
 {
     return read_whole<std::uint8_t>(parent, path, type, type, dims);
+}
+
+std::vector<std::string> read_words(hid_t parent, const std::string& path, const Dims& dims)
+{
+    const Handle dataset =
+        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    const Handle type = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    std::vector<std::string> words;
+    for (const std::uint8_t value : read_bytes(parent, path, type.id(), dims)) {
+        char word[64] = "";
+        const Quiet quiet;
+        if (H5Tenum_nameof(type.id(), &value, word, sizeof word - 1) < 0)
+            throw Error("'" + path + "' has a value that stands for nothing");
+        words.emplace_back(word);
+    }
+    return words;
 }
 
 std::vector<std::string> read_texts(hid_t parent, const std::string& path, const Dims& dims)

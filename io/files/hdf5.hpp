@@ -51,6 +51,7 @@ Handle open_group(hid_t parent, const std::string& path);
 std::vector<std::string> names_in(hid_t group);
 /// True if the last part of the path is there; the parts before it must be.
 bool exists(hid_t parent, const std::string& path);
+bool is_group(hid_t parent, const std::string& path);
 
 /// A contiguous data set whose space in the file is allocated at once.
 /// @param fill value of the type `type` that is written at once; nullptr = zeros, not written
@@ -63,7 +64,7 @@ Dims dims_of(hid_t parent, const std::string& path);
 std::uint64_t offset_of(hid_t dataset);
 
 /// What `write_array`, `write_texts` and the scalar attributes write.
-enum class Kind { real, count, integer, text };
+enum class Kind { real, count, integer, text, word /*!< of an enumeration in one byte */ };
 /// @throws Error if it is of another type
 Kind kind_of(hid_t parent, const std::string& path);
 Kind kind_of_attribute(hid_t object, const std::string& name);
@@ -80,6 +81,9 @@ void write_array(hid_t parent, const std::string& path, const std::vector<std::i
 /// Of one byte each, as `byte_enumeration` makes the type.
 void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::vector<std::uint8_t>& values,
                  const Dims& dims);
+/// An enumeration of these words in one byte each. @pre the texts are among the words
+void write_words(hid_t parent, const std::string& path, const std::vector<std::string>& texts,
+                 const std::vector<std::string>& words);
 /// UTF-8 of variable length, without NUL.
 void write_texts(hid_t parent, const std::string& path, const std::vector<std::string>& texts);
 /// @throws Error if it has another type or shape
@@ -88,6 +92,7 @@ std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, co
 std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, const Dims& dims);
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims);
 std::vector<std::string> read_texts(hid_t parent, const std::string& path, const Dims& dims);
+std::vector<std::string> read_words(hid_t parent, const std::string& path, const Dims& dims);
 
 /// Scalar attributes. Text is UTF-8 of variable length; a number has the given type in the file.
 void write_text(hid_t object, const std::string& name, const std::string& text);

@@ -4,6 +4,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
+#include "io/tables/table_hdf5.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@
 namespace stylobate {
 
 void write_sealed_file(const std::filesystem::path& file, const SealedFormat& format, const std::string& code_version,
-                       const std::function<void(hid_t root)>& content)
+                       const Table& content)
 {
     AtomicFile target(file);
     try {
@@ -22,7 +23,7 @@ void write_sealed_file(const std::filesystem::path& file, const SealedFormat& fo
         hdf5::write_number(made.id(), "format_version", H5T_STD_U32LE, format.version);
         hdf5::write_text(made.id(), "kind", format.kind);
         hdf5::write_text(made.id(), "code_version", code_version);
-        content(made.id());
+        write_content(made.id(), content);
         made.close();
         FileHandle handle = FileHandle::open(target.temporary(), true);
         write_seal(handle, block, {});
@@ -34,8 +35,7 @@ void write_sealed_file(const std::filesystem::path& file, const SealedFormat& fo
     target.commit();
 }
 
-void read_sealed_file(const std::filesystem::path& file, const SealedFormat& format,
-                      const std::function<void(hid_t root, std::uint64_t version)>& content)
+SealedContent read_sealed_file(const std::filesystem::path& file, const SealedFormat& format)
 {
     const FileHandle handle = FileHandle::open(file, false);
     check_seal(handle, file.string());
@@ -49,7 +49,7 @@ void read_sealed_file(const std::filesystem::path& file, const SealedFormat& for
                              fmt::format("is a {} of format version {}; this program reads versions {} to {}. Read it "
                                          "with the version that wrote it, or {}.",
                                          format.kind, version, format.oldest_version, format.version, format.again));
-        content(open.id(), version);
+        return {read_content(open.id(), format.kind, file.string()), version};
     } catch (const hdf5::Error& error) {
         throw InputError(file.string(), 0,
                          fmt::format("is damaged: {}. Use a backup copy, or {}.", error.what(), format.again));

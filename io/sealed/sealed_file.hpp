@@ -1,11 +1,10 @@
 #pragma once
 /// HDF5 files with a seal, written whole or not at all: for what is computed from results and is none itself.
 
-#include "io/files/hdf5.hpp"
+#include "io/tables/table.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 namespace stylobate {
@@ -19,15 +18,18 @@ struct SealedFormat {
     const char* again;            ///< how to make it again: "make it anew"
 };
 
-/// Writes the attributes of the format and what `content` adds; the same content gives the same bytes.
+/// Writes the attributes of the format and what the table holds; equal content gives equal bytes.
 /// @throws InputError if it cannot be written
 void write_sealed_file(const std::filesystem::path& file, const SealedFormat& format, const std::string& code_version,
-                       const std::function<void(hid_t root)>& content);
+                       const Table& content);
+
+struct SealedContent {
+    Table content;         ///< its tables by name, in the order of their characters
+    std::uint64_t version; ///< of the file
+};
 
 /// Verifies the seal and the format.
-/// @param content takes what the file has; it may throw `hdf5::Error` for what is damaged
 /// @throws InputError if the file is none of this format, of another version, truncated or damaged
-void read_sealed_file(const std::filesystem::path& file, const SealedFormat& format,
-                      const std::function<void(hid_t root, std::uint64_t version)>& content);
+SealedContent read_sealed_file(const std::filesystem::path& file, const SealedFormat& format);
 
 } // namespace stylobate

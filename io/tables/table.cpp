@@ -32,6 +32,12 @@ void Table::add(std::string name, Values values)
     add(std::move(name), std::move(values), {size});
 }
 
+void Table::add_words(std::string name, std::vector<std::string> texts, std::vector<std::string> words)
+{
+    add(std::move(name), std::move(texts));
+    columns_.back().words = std::move(words);
+}
+
 void Table::add(const std::string& name, const IntervalArray& array, const Shape& shape)
 {
     add(name, array.value, shape);
@@ -39,10 +45,17 @@ void Table::add(const std::string& name, const IntervalArray& array, const Shape
     add(name + "_upper", array.upper, shape);
 }
 
+void Table::rename(const std::string& column, std::string name)
+{
+    const auto found = std::ranges::find(columns_, column, &Column::name);
+    if (found == columns_.end())
+        refuse("there is no '" + name_ + "/" + column + "'");
+    found->name = std::move(name);
+}
+
 const Table::Column* Table::find(const std::string& column) const
 {
-    const auto found =
-        std::find_if(columns_.begin(), columns_.end(), [&](const Column& each) { return each.name == column; });
+    const auto found = std::ranges::find(columns_, column, &Column::name);
     return found == columns_.end() ? nullptr : &*found;
 }
 
@@ -60,36 +73,47 @@ const Table::Shape& Table::shape(const std::string& column) const
     return found->shape;
 }
 
-template <class T>
-const std::vector<T>& Table::values(const std::string& column, const Shape* shape) const
+const Table::Shape& Table::list_shape(const std::string& column) const
 {
-    if (shape && this->shape(column) != *shape)
+    const Shape& found = shape(column);
+    if (found.size() != 1)
+        refuse("'" + name_ + "/" + column + "' is no list");
+    return found;
+}
+
+template <class T>
+const std::vector<T>& Table::values(const std::string& column, const Shape& shape) const
+{
+    if (this->shape(column) != shape)
         refuse("'" + name_ + "/" + column + "' does not have the required shape");
-    const Column* found = find(column);
-    const auto* list = found ? std::get_if<std::vector<T>>(&found->values) : nullptr;
+    const auto* list = std::get_if<std::vector<T>>(&find(column)->values);
     if (!list)
-        refuse("'" + name_ + "/" + column + "' is missing, or does not have the required type");
+        refuse("'" + name_ + "/" + column + "' does not have the required type");
     return *list;
 }
+template const std::vector<double>& Table::values(const std::string&, const Shape&) const;
+template const std::vector<std::uint64_t>& Table::values(const std::string&, const Shape&) const;
+template const std::vector<std::int32_t>& Table::values(const std::string&, const Shape&) const;
+template const std::vector<std::string>& Table::values(const std::string&, const Shape&) const;
 
 const std::vector<double>& Table::numbers(const std::string& column, const Shape& shape) const
 {
-    return values<double>(column, &shape);
+    return values<double>(column, shape);
 }
 
 const std::vector<std::uint64_t>& Table::counts(const std::string& column, const Shape& shape) const
 {
-    return values<std::uint64_t>(column, &shape);
+    return values<std::uint64_t>(column, shape);
 }
 
 const std::vector<std::int32_t>& Table::integers(const std::string& column, const Shape& shape) const
 {
-    return values<std::int32_t>(column, &shape);
+    return values<std::int32_t>(column, shape);
 }
 
 const std::vector<std::string>& Table::texts(const std::string& column) const
 {
-    return values<std::string>(column, nullptr);
+    return values<std::string>(column, list_shape(column));
 }
 
 IntervalArray Table::intervals(const std::string& column, const Shape& shape) const
@@ -98,33 +122,47 @@ IntervalArray Table::intervals(const std::string& column, const Shape& shape) co
 }
 
 template <class T>
-const T& Table::value(const std::string& attribute) const
+const T& Table::attribute(const std::string& name) const
 {
-    for (const auto& [name, value] : attributes_)
-        if (const T* found = std::get_if<T>(&value); found && name == attribute)
+    for (const auto& [known, value] : attributes_)
+        if (const T* found = std::get_if<T>(&value); found && known == name)
             return *found;
-    refuse("'" + name_ + "' does not have its attribute '" + attribute + "'");
+    refuse("'" + name_ + "' does not have its attribute '" + name + "'");
 }
+template const std::string& Table::attribute(const std::string&) const;
+template const double& Table::attribute(const std::string&) const;
+template const std::uint64_t& Table::attribute(const std::string&) const;
 
 const std::string& Table::text(const std::string& attribute) const
 {
-    return value<std::string>(attribute);
+    return this->attribute<std::string>(attribute);
 }
 
 double Table::number(const std::string& attribute) const
 {
-    return value<double>(attribute);
+    return this->attribute<double>(attribute);
 }
 
 std::uint64_t Table::count(const std::string& attribute) const
 {
-    return value<std::uint64_t>(attribute);
+    return this->attribute<std::uint64_t>(attribute);
+}
+
+const Table& Table::table(const std::string& name) const
+{
+    return table_named(tables_, name, file_);
+}
+
+const Table* find_table(const std::vector<Table>& tables, const std::string& name)
+{
+    const auto found = std::ranges::find(tables, name, &Table::name);
+    return found == tables.end() ? nullptr : &*found;
 }
 
 const Table& table_named(const std::vector<Table>& tables, const std::string& name, const std::string& file)
 {
-    const auto found = std::ranges::find(tables, name, &Table::name);
-    if (found == tables.end())
+    const Table* found = find_table(tables, name);
+    if (!found)
         Table(name, file).refuse("the table " + name + " is missing");
     return *found;
 }

@@ -30,18 +30,22 @@ public:
     struct Column {
         std::string name;
         Values values;
-        Shape shape;      ///< of the array, which lies row by row
-        std::string unit; ///< empty: none
+        Shape shape;                         ///< of the array, which lies row by row
+        std::string unit;                    ///< empty: none
+        std::vector<std::string> words = {}; ///< those that texts are taken from, where the file enumerates them
     };
     using Attribute = std::variant<std::string, double, std::uint64_t>;
 
     /// @param name  of its group in HDF5, and of its file without the ending
     /// @param file  that it was read from, for messages; else empty
     explicit Table(std::string name, std::string file = {}) : name_(std::move(name)), file_(std::move(file)) {}
+    /// Without columns of its own.
+    Table(std::string name, std::vector<Table> tables) : name_(std::move(name)), tables_(std::move(tables)) {}
 
     const std::string& name() const { return name_; }
     const std::vector<Column>& columns() const { return columns_; }
     const std::vector<std::pair<std::string, Attribute>>& attributes() const { return attributes_; }
+    const std::vector<Table>& tables() const { return tables_; }
     bool empty() const { return columns_.empty() && attributes_.empty(); }
 
     void set(std::string name, Attribute value) { attributes_.emplace_back(std::move(name), std::move(value)); }
@@ -51,12 +55,26 @@ public:
     void add(std::string name, Values values);
     /// NAME, NAME_lower, NAME_upper. @throws std::invalid_argument if the values do not fit the shape
     void add(const std::string& name, const IntervalArray& array, const Shape& shape);
+    /// Texts that the file stores as an enumeration of these words.
+    void add_words(std::string name, std::vector<std::string> texts, std::vector<std::string> words);
+    /// Gives a column another name. @throws InputError "FILE: is damaged" if it is missing
+    void rename(const std::string& column, std::string name);
+    /// A table below this one.
+    void add(Table below) { tables_.push_back(std::move(below)); }
 
     /// @name What a table that was read must have.
     /// @throws InputError "FILE: is damaged" if it is missing, or has another type or shape
     /// @{
     bool has(const std::string& column) const { return find(column) != nullptr; }
     const Shape& shape(const std::string& column) const;
+    /// The shape of a column that is a list.
+    const Shape& list_shape(const std::string& column) const;
+    /// @tparam T double, std::uint64_t, std::int32_t or std::string
+    template <class T>
+    const std::vector<T>& values(const std::string& column, const Shape& shape) const;
+    /// @tparam T std::string, double or std::uint64_t
+    template <class T>
+    const T& attribute(const std::string& name) const;
     const std::vector<double>& numbers(const std::string& column, const Shape& shape) const;
     const std::vector<std::uint64_t>& counts(const std::string& column, const Shape& shape) const;
     const std::vector<std::int32_t>& integers(const std::string& column, const Shape& shape) const;
@@ -65,21 +83,22 @@ public:
     const std::string& text(const std::string& attribute) const;
     double number(const std::string& attribute) const;
     std::uint64_t count(const std::string& attribute) const;
+    /// One of the tables below.
+    const Table& table(const std::string& name) const;
     [[noreturn]] void refuse(const std::string& what) const;
     /// @}
 
 private:
     const Column* find(const std::string& column) const;
-    template <class T>
-    const std::vector<T>& values(const std::string& column, const Shape* shape) const;
-    template <class T>
-    const T& value(const std::string& attribute) const;
 
     std::string name_, file_;
     std::vector<std::pair<std::string, Attribute>> attributes_;
     std::vector<Column> columns_;
+    std::vector<Table> tables_;
 };
 
+/// Null if there is none of this name.
+const Table* find_table(const std::vector<Table>& tables, const std::string& name);
 /// @param file for messages   @throws InputError "FILE: is damaged" if there is no table of this name
 const Table& table_named(const std::vector<Table>& tables, const std::string& name, const std::string& file);
 

@@ -10,7 +10,7 @@
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/compare/law_runs.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/motion_film.hpp"
 #include "studies/results/result_picture.hpp"

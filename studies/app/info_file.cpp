@@ -13,7 +13,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/compare/law_runs.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 /// Limit states of a structure: which a realization has reached, and how often that happened.
 
+#include "ensemble/model/fields.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/model/time_counts.hpp"
 #include "io/store/result_store.hpp"
@@ -49,6 +50,15 @@ struct Share {
     double lower = 0;       ///< Jeffreys' interval, or that of the motions; NaN: there is none
     double upper = 1;
 };
+template <class F>
+void visit_fields(std::type_identity<Share>, F&& f)
+{
+    f("trials", &Share::trials);
+    f("count", &Share::count);
+    f("probability", &Share::probability);
+    f("lower", &Share::lower);
+    f("upper", &Share::upper);
+}
 Share share_of(std::uint64_t trials, std::uint64_t count);
 
 /// Counts the outcomes of the realizations of a study; those that are invalid are no trials.

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "studies/decisions/adaptive/adaptive_comparison.hpp"
+#include "studies/decisions/compare/adaptive_comparison.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/workflow/file_kind.hpp"

@@ -4,7 +4,7 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"
-#include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/compare/law_runs.hpp"
 #include "studies/measured/calibration/calibration_page.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_page.hpp"

@@ -5,7 +5,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/cluster/shard_files.hpp"
 #include "studies/cluster/together.hpp"
-#include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/compare/law_runs.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/file_kind.hpp"

@@ -5,11 +5,8 @@
 
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/risk/risk_answer.hpp"
-#include "studies/decisions/risk/risk_change_file.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"

@@ -4,7 +4,6 @@
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"
-#include "studies/kinds/replicas/followed_table.hpp"
 
 #include <cmath>
 
@@ -58,7 +57,7 @@ TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
         EXPECT_EQ(said.items[kind]["cells"]["certain"].number, 0) << realizations << " pairs in each cell";
         EXPECT_GT(said.items[kind]["cells"]["too few pairs to say"].number, 0);
     }
-    EXPECT_EQ(followed_twins(with_twins.table("twins")).size(), 16U * 2 * 2);
+    EXPECT_EQ(with_twins.table("twins").list_shape("original")[0], 16U * 2 * 2);
 }
 
 TEST_F(TwinsProgram, EveryTwinIsReplayed)

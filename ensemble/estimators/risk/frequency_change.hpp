@@ -43,6 +43,20 @@ struct ChangeNumber {
     Limits fragility, total;
 };
 
+template <class F>
+void visit_fields(std::type_identity<ChangeNumber>, F&& f)
+{
+    f("value", &ChangeNumber::value);
+    f(
+        "lower", [](auto& n) -> auto& { return n.total.lower; });
+    f(
+        "upper", [](auto& n) -> auto& { return n.total.upper; });
+    f(
+        "fragility_lower", [](auto& n) -> auto& { return n.fragility.lower; });
+    f(
+        "fragility_upper", [](auto& n) -> auto& { return n.fragility.upper; });
+}
+
 struct ChangeOptions {
     double level = 0.9;
     std::vector<double> years = {50, 100};

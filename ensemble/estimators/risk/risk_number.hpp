@@ -3,6 +3,7 @@
 
 #include "ensemble/estimators/fragility/limits.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
+#include "ensemble/model/fields.hpp"
 
 #include <optional>
 
@@ -23,6 +24,25 @@ struct RiskNumber {
     /// interval, or of its upper half where the lower limit is 0. NaN where the width is 0 or not finite.
     double fragility_part = 0;
 };
+
+template <class F>
+void visit_fields(std::type_identity<RiskNumber>, F&& f)
+{
+    f("value", &RiskNumber::value);
+    f(
+        "lower", [](auto& n) -> auto& { return n.total.lower; });
+    f(
+        "upper", [](auto& n) -> auto& { return n.total.upper; });
+    f(
+        "fragility_lower", [](auto& n) -> auto& { return n.fragility.lower; });
+    f(
+        "fragility_upper", [](auto& n) -> auto& { return n.fragility.upper; });
+    f(
+        "hazard_lower", [](auto& n) -> auto& { return n.hazard.lower; });
+    f(
+        "hazard_upper", [](auto& n) -> auto& { return n.hazard.upper; });
+    f("fragility_part", &RiskNumber::fragility_part, {.unit = "1"});
+}
 
 /// Both intervals together, by their distances from the value on the scale of the logarithm: the limits of a sum of
 /// independent terms are at the root of the sum of their squared distances (MOVER; Zou & Donner, "Construction of

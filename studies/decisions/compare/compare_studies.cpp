@@ -4,7 +4,7 @@
 #include "ensemble/model/motion_set.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparable.hpp"
-#include "studies/decisions/compare/input_dependence.hpp"
+#include "studies/decisions/compare/drawn_quantities.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/version.hpp"
 
@@ -130,6 +130,16 @@ Comparison comparison_facts(const Study& base, const ResultHeader& header, const
     return comparison;
 }
 
+void add_variant(Comparison& comparison, VariantComparison found, const std::string& name, const std::string& file,
+                 const ResultHeader& base, const ResultHeader& variant)
+{
+    found.name = name;
+    found.results = fs::path(file).filename().string();
+    found.study_toml = variant.study_toml;
+    found.notes = differences_to_know(base, variant);
+    comparison.variants.push_back(std::move(found));
+}
+
 Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level)
 {
     const ReadStudy base(files.front());
@@ -148,11 +158,7 @@ Comparison comparison_of(const std::vector<std::string>& names, const std::vecto
             found.depends = input_dependences(base.reader, base.side, variant.side, number(base.side),
                                               number(variant.side), layout);
         }
-        found.name = names[i];
-        found.results = fs::path(files[i]).filename().string();
-        found.study_toml = variant.reader.header().study_toml;
-        found.notes = differences_to_know(header, variant.reader.header());
-        comparison.variants.push_back(std::move(found));
+        add_variant(comparison, std::move(found), names[i], files[i], header, variant.reader.header());
     }
     return comparison;
 }

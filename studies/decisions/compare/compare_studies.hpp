@@ -30,6 +30,11 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
 /// @param names of the studies   @param files their results   @param level of intervals and verdicts
 Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level);
 
+/// Adds a variant to a comparison with the base: its name, results file and study, and what else differs.
+/// @param found of the pairs   @param file of its results
+void add_variant(Comparison& comparison, VariantComparison found, const std::string& name, const std::string& file,
+                 const ResultHeader& base, const ResultHeader& variant);
+
 /// A comparison with the base and without variants. @param file of its results
 Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
                             const std::string& file, double level);

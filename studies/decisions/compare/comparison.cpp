@@ -12,36 +12,13 @@ namespace stylobate {
 
 const char* to_string(ChangeVerdict verdict)
 {
-    switch (verdict) {
-    case ChangeVerdict::better:
-        return "better";
-    case ChangeVerdict::worse:
-        return "worse";
-    case ChangeVerdict::less:
-        return "less";
-    case ChangeVerdict::more:
-        return "more";
-    case ChangeVerdict::open:
-        return "open";
-    }
-    return "?";
+    constexpr const char* words[] = {"better", "worse", "less", "more", "open"};
+    return words[static_cast<std::size_t>(verdict)];
 }
 
 const char* to_string(CommonDraws draws)
 {
-    switch (draws) {
-    case CommonDraws::same:
-        return "same numbers";
-    case CommonDraws::quantiles:
-        return "same quantiles";
-    case CommonDraws::other:
-        return "other numbers";
-    case CommonDraws::base_only:
-        return "base alone";
-    case CommonDraws::variant_only:
-        return "variant alone";
-    }
-    return "?";
+    return FieldWords<CommonDraws>::words[static_cast<std::size_t>(draws)];
 }
 
 double PlaceComparison::largest() const

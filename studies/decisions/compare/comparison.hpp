@@ -4,6 +4,7 @@
 #include "ensemble/estimators/paired/capacity_ratio.hpp"
 #include "ensemble/estimators/paired/dependence.hpp"
 #include "ensemble/estimators/paired/paired_counts.hpp"
+#include "io/tables/rows.hpp"
 #include "studies/experiment/limit_state.hpp"
 
 #include <algorithm>
@@ -63,6 +64,13 @@ enum class CommonDraws {
     variant_only, ///< the base does not draw it
 };
 const char* to_string(CommonDraws draws);
+
+template <>
+struct FieldWords<CommonDraws> {
+    static constexpr const char* words[] = {"same numbers", "same quantiles", "other numbers", "base alone",
+                                            "variant alone"};
+    static constexpr WordsAs as = WordsAs::numbers;
+};
 
 struct CommonInput {
     std::string name; ///< "friction"
@@ -130,5 +138,110 @@ std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const Limit
 
 /// The measure in which the capacity is: "PGA".
 std::string capacity_measure(const Comparison& comparison);
+
+// ---- fields, in the file, in JSON and in tables ---------------------------------------------------------------------
+
+template <class F>
+void visit_fields(std::type_identity<PairedCounts>, F&& f)
+{
+    f("both", &PairedCounts::both);
+    f("base_only", &PairedCounts::base_only);
+    f("variant_only", &PairedCounts::variant_only);
+    f("neither", &PairedCounts::neither);
+}
+
+template <class F>
+void visit_fields(std::type_identity<PairedDifference>, F&& f)
+{
+    f("value", &PairedDifference::value);
+    f("lower", &PairedDifference::lower);
+    f("upper", &PairedDifference::upper);
+}
+
+template <class F>
+void visit_fields(std::type_identity<PlaceComparison>, F&& f)
+{
+    f("", &PlaceComparison::counts);
+    f(
+        "base_probability", [](auto& p) -> auto& { return p.base.probability; });
+    f(
+        "base_probability_lower", [](auto& p) -> auto& { return p.base.lower; });
+    f(
+        "base_probability_upper", [](auto& p) -> auto& { return p.base.upper; });
+    f(
+        "variant_probability", [](auto& p) -> auto& { return p.variant.probability; });
+    f(
+        "variant_probability_lower", [](auto& p) -> auto& { return p.variant.lower; });
+    f(
+        "variant_probability_upper", [](auto& p) -> auto& { return p.variant.upper; });
+    f("difference", &PlaceComparison::difference);
+    f("difference_lower", &PlaceComparison::lower);
+    f("difference_upper", &PlaceComparison::upper);
+    f("unpaired_realizations", &PlaceComparison::unpaired);
+    f("p", &PlaceComparison::p);
+    f("p_adjusted", &PlaceComparison::p_adjusted);
+}
+
+template <class F>
+void visit_fields(std::type_identity<LimitComparison>, F&& f)
+{
+    f("limit_states", &LimitComparison::name);
+    f("descriptions", &LimitComparison::describe);
+    f("damage", &LimitComparison::damage);
+}
+
+template <class F>
+void visit_fields(std::type_identity<CommonInput>, F&& f)
+{
+    f("inputs", &CommonInput::name);
+    f("input_draws", &CommonInput::draws);
+    f("input_numbers", &CommonInput::numbers);
+}
+
+template <class F>
+void visit_fields(std::type_identity<InputDependence>, F&& f)
+{
+    f("on", &InputDependence::input);
+    f(
+        "z", [](auto& d) -> auto& { return d.found.z; });
+    f(
+        "p", [](auto& d) -> auto& { return d.found.p; });
+    f("p_adjusted", &InputDependence::p_adjusted);
+}
+
+template <class F>
+void visit_fields(std::type_identity<VariantComparison>, F&& f)
+{
+    f("name", &VariantComparison::name);
+    f("results", &VariantComparison::results);
+    f("study_toml", &VariantComparison::study_toml);
+    f("pairs", &VariantComparison::pairs);
+    f("invalid_base", &VariantComparison::invalid_base);
+    f("invalid_variant", &VariantComparison::invalid_variant);
+    f("dropped_pairs", &VariantComparison::dropped);
+    f("notes", &VariantComparison::notes);
+}
+
+template <class F>
+void visit_fields(std::type_identity<Comparison>, F&& f)
+{
+    f("study_kind", &Comparison::kind);
+    f("title", &Comparison::title);
+    f("base", &Comparison::base_name);
+    f("base_results", &Comparison::base_results);
+    f("base_study_toml", &Comparison::base_toml);
+    f("level", &Comparison::level);
+    f("false_names", &Comparison::rate);
+    f("adjustment", &Comparison::adjustment);
+    f("measure", &Comparison::measure);
+    f("motions", &Comparison::motions);
+    f("adaptive_budget", &Comparison::adaptive_budget);
+    f("adaptive_margin", &Comparison::adaptive_margin);
+    f("adaptive_rounds", &Comparison::adaptive_rounds);
+    f("code_version", &Comparison::code_version);
+    f("frequency_hz", &Comparison::frequency_hz, {.none = "no surface"});
+    f("pga_m_s2", &Comparison::pga_m_s2, {.none = "no surface"});
+    f("intensity", &Comparison::intensity, {.none = "no stripes"});
+}
 
 } // namespace stylobate

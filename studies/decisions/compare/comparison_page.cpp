@@ -4,7 +4,6 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/comparison_answer.hpp"
 #include "studies/decisions/compare/comparison_picture.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/experiment/conventions.hpp"
@@ -23,11 +22,6 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string side_text(const Share& share)
-{
-    return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
-}
 
 std::string unknown_text(const VariantComparison& variant, const LimitComparison& limit)
 {
@@ -207,8 +201,8 @@ private:
             if (variant.dropped > 0)
                 table.caption += fmt::format(", {} dropped as invalid in either", variant.dropped);
             for (const LimitComparison& limit : variant.limits)
-                table.rows.push_back({limit.describe + unknown_text(variant, limit), side_text(limit.overall.base),
-                                      side_text(limit.overall.variant), difference_text(limit.overall),
+                table.rows.push_back({limit.describe + unknown_text(variant, limit), share_text(limit.overall.base),
+                                      share_text(limit.overall.variant), difference_text(limit.overall),
                                       std::isfinite(limit.overall.unpaired)
                                           ? fmt::format("a factor of {:.2g}", limit.overall.saving())
                                           : "unknown",

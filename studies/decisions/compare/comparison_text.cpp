@@ -1,23 +1,37 @@
 #include "studies/decisions/compare/comparison_text.hpp"
 
-#include "studies/decisions/compare/comparison_answer.hpp"
+#include "io/files/suggest.hpp"
 #include "studies/experiment/conventions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace stylobate {
+
+/// A line of the table of all places.
+struct ComparisonRow {
+    const VariantComparison& variant;
+    const LimitComparison& limit;
+    const PlaceComparison& at;
+    std::string place;
+};
+
+template <class F>
+void visit_fields(std::type_identity<ComparisonRow>, F&& f)
+{
+    f("variant", [](const ComparisonRow& r) { return r.variant.name; });
+    f("limit_state", [](const ComparisonRow& r) { return r.limit.name; });
+    f("place", &ComparisonRow::place);
+    f("", [](const ComparisonRow& r) -> const PlaceComparison& { return r.at; });
+    f("verdict", [](const ComparisonRow& r) { return to_string(r.limit.verdict(r.at)); });
+}
 
 namespace {
 
 constexpr std::size_t most_named = 10; ///< cells in a line of text
-
-std::string share_text(const Share& share)
-{
-    return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
-}
 
 /// Cells of one direction: their number, and the largest differences.
 std::string named_text(const Comparison& comparison, const LimitComparison& limit, bool worse)
@@ -38,26 +52,13 @@ std::string named_text(const Comparison& comparison, const LimitComparison& limi
     return text;
 }
 
-Json share_json(const Share& share)
-{
-    return Json::object()
-        .member("trials", share.trials)
-        .member("count", share.count)
-        .member("probability", share.probability)
-        .member("lower", share.lower)
-        .member("upper", share.upper);
-}
-
 Json place_json(const LimitComparison& limit, const PlaceComparison& place)
 {
     Json json = Json::object();
-    json.member("pairs", place.counts.pairs())
-        .member("both", place.counts.both)
-        .member("base_only", place.counts.base_only)
-        .member("variant_only", place.counts.variant_only)
-        .member("neither", place.counts.neither)
-        .member("base", share_json(place.base))
-        .member("variant", share_json(place.variant))
+    json.member("pairs", place.counts.pairs());
+    add_members(json, place.counts)
+        .member("base", json_of(place.base))
+        .member("variant", json_of(place.variant))
         .member("difference", place.difference)
         .member("lower", place.lower)
         .member("upper", place.upper)
@@ -86,43 +87,34 @@ Json cells_json(const Comparison& comparison, const LimitComparison& limit)
     return list;
 }
 
-Json named_json(const Comparison& comparison, const LimitComparison& limit, bool worse)
+Json third_json(const PairedDifference& third)
 {
-    Json list = Json::list();
-    for (const std::size_t cell : limit.named(comparison.rate, worse))
-        list.item_as_is(fmt::format("{}", cell));
-    return list;
+    return json_of(third, {{"difference", "value"}, "lower", "upper"});
 }
 
 Json dependence_json(const InputDependence& input)
 {
-    Json thirds = Json::list();
-    for (const PairedDifference& third : input.found.thirds)
-        thirds.item(
-            Json::object().member("difference", third.value).member("lower", third.lower).member("upper", third.upper));
-    return Json::object()
-        .member("quantity", input.input)
-        .member("z", input.found.z)
-        .member("p", input.found.p)
-        .member("p_adjusted", input.p_adjusted)
-        .member("between_low", input.found.between[0])
+    Json json = json_of(input, {{"quantity", "on"}, "z", "p", "p_adjusted"});
+    return json.member("between_low", input.found.between[0])
         .member("between_high", input.found.between[1])
-        .member("thirds", thirds);
+        .member("thirds", json_list(input.found.thirds, third_json));
 }
 
-Json capacity_json(const Comparison& comparison, const LimitComparison& limit)
+Json capacity_json(const CapacityRow& row)
 {
-    Json rows = Json::list();
-    for (const CapacityRow& row : capacity_rows(comparison, limit))
-        rows.item(Json::object()
-                      .member("place", row.place)
-                      .member("ratio", row.ratio.value)
-                      .member("lower", row.ratio.lower)
-                      .member("upper", row.ratio.upper)
-                      .member("steps", row.ratio.grid)
-                      .member("at_least", row.ratio.at_least)
-                      .member("at_most", row.ratio.at_most));
-    return rows;
+    return Json::object()
+        .member("place", row.place)
+        .member("ratio", row.ratio.value)
+        .member("lower", row.ratio.lower)
+        .member("upper", row.ratio.upper)
+        .member("steps", row.ratio.grid)
+        .member("at_least", row.ratio.at_least)
+        .member("at_most", row.ratio.at_most);
+}
+
+Json input_json(const CommonInput& input)
+{
+    return json_of(input, {{"quantity", "inputs"}, {"numbers", "input_numbers"}, {"draws", "input_draws"}});
 }
 
 /// Of the first limit state, over the frequencies.
@@ -138,37 +130,21 @@ std::string capacities_text(const Comparison& comparison, const VariantCompariso
 
 Json variant_json(const Comparison& comparison, const VariantComparison& variant)
 {
-    Json inputs = Json::list();
-    for (const CommonInput& input : variant.inputs)
-        inputs.item(Json::object()
-                        .member("quantity", input.name)
-                        .member("numbers", input.numbers)
-                        .member("draws", to_string(input.draws)));
     Json limits = Json::object();
     for (const LimitComparison& limit : variant.limits)
-        limits.member(limit.name, Json::object()
-                                      .member("describe", limit.describe)
-                                      .member("unknown_pairs", variant.unknown(limit))
-                                      .member("overall", place_json(limit, limit.overall))
-                                      .member("worse_cells", named_json(comparison, limit, true))
-                                      .member("better_cells", named_json(comparison, limit, false))
-                                      .member("capacity_ratios", capacity_json(comparison, limit))
-                                      .member("cells", cells_json(comparison, limit)));
-    Json depends = Json::list();
-    for (const InputDependence& input : variant.depends)
-        depends.item(dependence_json(input));
-    Json json = Json::object();
-    json.member("name", variant.name)
-        .member("results", variant.results)
-        .member("pairs", variant.pairs)
-        .member("invalid_base", variant.invalid_base)
-        .member("invalid_variant", variant.invalid_variant)
-        .member("dropped_pairs", variant.dropped)
-        .member("common", inputs)
-        .member("depends_on", depends)
-        .member("notes", Json::list(variant.notes))
-        .member("limit_states", limits);
-    return json;
+        limits.member(limit.name,
+                      Json::object()
+                          .member("describe", limit.describe)
+                          .member("unknown_pairs", variant.unknown(limit))
+                          .member("overall", place_json(limit, limit.overall))
+                          .member("worse_cells", json_of(limit.named(comparison.rate, true)))
+                          .member("better_cells", json_of(limit.named(comparison.rate, false)))
+                          .member("capacity_ratios", json_list(capacity_rows(comparison, limit), capacity_json))
+                          .member("cells", cells_json(comparison, limit)));
+    Json json = json_of(variant, {"name", "results", "pairs", "invalid_base", "invalid_variant", "dropped_pairs"});
+    json.member("common", json_list(variant.inputs, input_json))
+        .member("depends_on", json_list(variant.depends, dependence_json));
+    return add_members(json, variant, {"notes"}).member("limit_states", limits);
 }
 
 std::string variant_text(const Comparison& comparison, const VariantComparison& variant)
@@ -216,6 +192,11 @@ std::string points_text(const PlaceComparison& place)
         return std::abs(share) < 0.00095 ? fmt::format("{:+.1g}", 100 * share) : fmt::format("{:+.1f}", 100 * share);
     };
     return points(place.lower) + " to " + points(place.upper) + " percentage points";
+}
+
+std::string share_text(const Share& share)
+{
+    return fmt::format("{:.3f} ({:.3f} to {:.3f})", share.probability, share.lower, share.upper);
 }
 
 std::string difference_text(const PlaceComparison& place)
@@ -285,74 +266,182 @@ std::string comparison_text(const Comparison& comparison)
 
 Json comparison_json(const Comparison& comparison)
 {
-    Json variants = Json::list();
-    for (const VariantComparison& variant : comparison.variants)
-        variants.item(variant_json(comparison, variant));
-    Json json = Json::object();
-    json.member("kind", comparison.kind)
-        .member("base", comparison.base_name)
-        .member("base_results", comparison.base_results)
-        .member("conventions", conventions_text_of(comparison.base_toml))
+    Json json = json_of(comparison, {{"kind", "study_kind"}, "base", "base_results"});
+    json.member("conventions", conventions_text_of(comparison.base_toml))
         .member("level", comparison.level)
-        .member("common", common_text(comparison))
-        .member("adjustment", comparison.adjustment)
-        .member("false_names", comparison.rate)
-        .member("motions", comparison.motions)
-        .member("measure", comparison.measure);
+        .member("common", common_text(comparison));
+    add_members(json, comparison, {"adjustment", "false_names", "motions", "measure"});
     if (comparison.adaptive_budget > 0)
-        json.member("adaptive", Json::object()
-                                    .member("budget", comparison.adaptive_budget)
-                                    .member("margin", comparison.adaptive_margin)
-                                    .member("rounds", comparison.adaptive_rounds));
-    return json.member("variants", variants);
+        json.member("adaptive", json_of(comparison, {{"budget", "adaptive_budget"},
+                                                     {"margin", "adaptive_margin"},
+                                                     {"rounds", "adaptive_rounds"}}));
+    return json.member("variants", json_list(comparison.variants, [&](const VariantComparison& variant) {
+                           return variant_json(comparison, variant);
+                       }));
 }
 
 Table comparison_rows(const Comparison& comparison)
 {
-    std::vector<std::string> variants, limits, places, verdicts;
-    std::vector<std::uint64_t> both, base_only, variant_only, neither;
-    IntervalArray base, variant, difference;
-    std::vector<double> unpaired, p, adjusted;
-    const auto add = [&](const VariantComparison& of, const LimitComparison& limit, const PlaceComparison& place,
-                         const std::string& name) {
-        variants.push_back(of.name);
-        limits.push_back(limit.name);
-        places.push_back(name);
-        verdicts.emplace_back(to_string(limit.verdict(place)));
-        both.push_back(place.counts.both);
-        base_only.push_back(place.counts.base_only);
-        variant_only.push_back(place.counts.variant_only);
-        neither.push_back(place.counts.neither);
-        base.add(place.base.probability, place.base.lower, place.base.upper);
-        variant.add(place.variant.probability, place.variant.lower, place.variant.upper);
-        difference.add(place.difference, place.lower, place.upper);
-        unpaired.push_back(place.unpaired);
-        p.push_back(place.p);
-        adjusted.push_back(place.p_adjusted);
-    };
+    std::vector<ComparisonRow> rows;
     for (const VariantComparison& each : comparison.variants)
         for (const LimitComparison& limit : each.limits) {
-            add(each, limit, limit.overall, "all");
+            rows.push_back({each, limit, limit.overall, "all"});
             for (std::size_t cell = 0; limit.cells.size() > 1 && cell < limit.cells.size(); ++cell)
-                add(each, limit, limit.cells[cell], comparison.place(cell));
+                rows.push_back({each, limit, limit.cells[cell], comparison.place(cell)});
         }
-    const std::size_t n = variants.size();
     Table table("comparison");
-    table.add("variant", variants);
-    table.add("limit_state", limits);
-    table.add("place", places);
-    table.add("both", both);
-    table.add("base_only", base_only);
-    table.add("variant_only", variant_only);
-    table.add("neither", neither);
-    table.add("base_probability", base, {n});
-    table.add("variant_probability", variant, {n});
-    table.add("difference", difference, {n});
-    table.add("unpaired_realizations", unpaired);
-    table.add("p", p);
-    table.add("p_adjusted", adjusted);
-    table.add("verdict", verdicts);
+    add_rows(table, rows);
     return table;
+}
+
+namespace {
+
+/// Where the pairs come from: "over the 64 cells of the study".
+std::string over_all(const Comparison& c)
+{
+    if (c.motions > 0)
+        return fmt::format("over {}{}", counted(c.motions, "motion"),
+                           c.cells() > 1 ? fmt::format(" at {} intensities", c.cells()) : "");
+    return c.cells() > 1 ? fmt::format("over the {} cells of the study, each with the same weight", c.cells())
+                         : "under the study's shaking";
+}
+
+std::string interval_text(const PairedDifference& d)
+{
+    return fmt::format("{:.3f} ({:.3f} to {:.3f})", d.value, d.lower, d.upper);
+}
+
+bool depends(const Comparison& c, const InputDependence& input)
+{
+    return input.p_adjusted <= c.rate;
+}
+
+enum class Sign { none, less, more };
+template <class Interval>
+Sign sign_of(const Interval& interval)
+{
+    return interval.upper < 0 ? Sign::less : interval.lower > 0 ? Sign::more : Sign::none;
+}
+
+/// The third of a quantity in words: "friction below 0.65".
+std::string third_text(const InputDependence& input, std::size_t third)
+{
+    const auto& between = input.found.between;
+    switch (third) {
+    case 0:
+        return fmt::format("{} below {:.3g}", input.input, between[0]);
+    case 1:
+        return fmt::format("{} from {:.3g} to {:.3g}", input.input, between[0], between[1]);
+    default:
+        return fmt::format("{} above {:.3g}", input.input, between[1]);
+    }
+}
+
+/// The cells in which it harms, or helps, with the number of them and the one of the largest difference; empty where
+/// none is named.
+std::string cells_text(const Comparison& c, const VariantComparison& variant, bool worse)
+{
+    const LimitComparison& limit = variant.limits.front();
+    if (c.cells() == 1 || !limit.damage)
+        return {};
+    const std::vector<std::size_t> cells = limit.named(c.rate, worse); // the largest difference first
+    if (cells.empty())
+        return {};
+    const PlaceComparison& most = limit.cells[cells.front()];
+    return fmt::format("It {} in {} of {} {} ({}), most at {}: {:.3f} instead of {:.3f}, difference {}.",
+                       worse ? "harms" : "helps", cells.size(), limit.cells.size(),
+                       c.motions > 0 ? "intensities" : "cells", adjustment_text(c), c.place(cells.front()),
+                       most.variant.probability, most.base.probability, difference_text(most));
+}
+
+/// How many pairs, or motions, would show the difference that was found: the distance of the interval's limit from it
+/// falls with the root of their number. @pre the interval contains 0
+std::string more_pairs_text(const Comparison& c, const PlaceComparison& all)
+{
+    const char* what = c.motions > 0 ? "motions" : "pairs";
+    if (all.difference == 0)
+        return fmt::format("More {} would exclude smaller differences; the one that was found is 0.", what);
+    const auto number = static_cast<double>(c.motions > 0 ? c.motions : all.counts.pairs());
+    const double reach = all.difference < 0 ? all.upper - all.difference : all.difference - all.lower;
+    const double needed = std::max(number + 1, number * std::pow(reach / all.difference, 2));
+    const double step = std::pow(10, std::max(0.0, std::floor(std::log10(needed)) - 1)); // two digits, upwards
+    return fmt::format("More {}: were the difference the one that was found, about {:.0f} instead of {:.0f} would "
+                       "show it.",
+                       what, std::ceil(needed / step - 1e-6) * step, number);
+}
+
+} // namespace
+
+std::string answer_text(const Comparison& c, const VariantComparison& variant)
+{
+    const LimitComparison& limit = variant.limits.front();
+    const PlaceComparison& all = limit.overall;
+    if (all.counts.pairs() == 0)
+        return fmt::format("With {} nothing can be said: no pair of realizations is valid in both studies.",
+                           variant.name);
+    std::string text = fmt::format(
+        "With {} the probability of {} is {:.3f} instead of {:.3f} {}: a difference of {} at {:g} %. ", variant.name,
+        limit.name, all.variant.probability, all.base.probability, over_all(c), difference_text(all), 100 * c.level);
+    switch (limit.verdict(all)) {
+    case ChangeVerdict::better:
+    case ChangeVerdict::less:
+        return text + (limit.damage ? "It helps." : "It is less.");
+    case ChangeVerdict::worse:
+    case ChangeVerdict::more:
+        return text + (limit.damage ? "It harms." : "It is more.");
+    default:
+        return text + (all.largest() < 1 ? "Undecided: " + points_text(all) + "."
+                                         : std::string("Undecided: no difference is excluded."));
+    }
+}
+
+std::string harm_text(const Comparison& c, const VariantComparison& variant)
+{
+    return cells_text(c, variant, true);
+}
+
+std::vector<std::string> dependence_texts(const Comparison& c, const VariantComparison& variant)
+{
+    std::vector<std::string> all;
+    for (const InputDependence& input : variant.depends)
+        if (depends(c, input))
+            all.push_back(fmt::format("{}: the difference is {} at {}, and {} at {} (adjusted p = {:.2g}).",
+                                      input.input, interval_text(input.found.thirds[0]), third_text(input, 0),
+                                      interval_text(input.found.thirds[2]), third_text(input, 2), input.p_adjusted));
+    return all;
+}
+
+std::vector<std::string> what_would_change_it(const Comparison& c, const VariantComparison& variant)
+{
+    const LimitComparison& limit = variant.limits.front();
+    const PlaceComparison& overall = limit.overall;
+    if (overall.counts.pairs() == 0)
+        return {"Pairs that are valid in both studies; there is none."};
+    const Sign answer = sign_of(overall);
+    std::vector<std::string> all;
+    for (const InputDependence& input : variant.depends) {
+        if (!depends(c, input))
+            continue;
+        for (std::size_t third = 0; third < input.found.thirds.size(); ++third) {
+            const PairedDifference& d = input.found.thirds[third];
+            if (const Sign sign = sign_of(d); sign != answer)
+                all.push_back(fmt::format("{}: {} {}.", third_text(input, third),
+                                          sign == Sign::none     ? "no difference is shown,"
+                                          : answer == Sign::none ? "a difference is shown,"
+                                                                 : "the difference has the other sign,",
+                                          interval_text(d)));
+        }
+    }
+    for (const bool worse : {true, false}) // cells that are not as the answer is
+        if (const std::string cells = cells_text(c, variant, worse);
+            !cells.empty() && answer != (worse ? Sign::more : Sign::less))
+            all.push_back(cells);
+    if (answer == Sign::none)
+        all.push_back(more_pairs_text(c, overall));
+    if (all.empty())
+        all.push_back(variant.depends.empty() ? "Nothing that was examined: no test by drawn quantity was made."
+                                              : "None of the drawn quantities is shown to change it.");
+    return all;
 }
 
 } // namespace stylobate

@@ -1,11 +1,13 @@
 #pragma once
-/// A comparison as lines for a terminal, as JSON and as a table of all its places.
+/// A comparison as lines for a terminal, as JSON and as a table of all its places; and what it comes to, for a reader
+/// who decides about a monument: the answer in a sentence, what it depends on, and what would change it.
 
 #include "io/tables/table.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/report/json.hpp"
 
 #include <string>
+#include <vector>
 
 namespace stylobate {
 
@@ -18,6 +20,8 @@ Table comparison_rows(const Comparison& comparison);
 std::string verdict_text(const LimitComparison& limit, const PlaceComparison& place);
 /// The interval of a difference: "-0.7 to +4.0 percentage points".
 std::string points_text(const PlaceComparison& place);
+/// "0.231 (0.205 to 0.259)"
+std::string share_text(const Share& share);
 /// "-0.043 [-0.060, -0.027]"
 std::string difference_text(const PlaceComparison& place);
 /// "1.20 (1.12 to 1.29; steps x 1.1)", "at least 3.1 (2.9 to 3.3; steps x 1.1)", "not in this range" where no intensity
@@ -32,5 +36,21 @@ std::string inputs_text(const VariantComparison& variant);
 std::string adjustment_text(const Comparison& comparison);
 /// How draws and motions are common by construction, in a sentence.
 std::string common_text(const Comparison& comparison);
+
+/// "With dowels the probability of collapse is 0.231 instead of 0.274 over the 64 cells of the study: a
+/// difference of -0.043 [-0.060, -0.027] at 95 %. It helps." Of the first limit state.
+std::string answer_text(const Comparison& comparison, const VariantComparison& variant);
+
+/// Where it harms, with the number of cells and the worst one; empty where no cell is named.
+std::string harm_text(const Comparison& comparison, const VariantComparison& variant);
+
+/// One sentence for each quantity on which the gain depends: "Friction: the difference is -0.08 [-0.10, -0.06] where it
+/// is below 0.65, and -0.01 [-0.03, 0.01] where it is above 0.71 (adjusted p = 1e-5)." Those of an adjusted p-value of
+/// at most the comparison's rate of false names.
+std::vector<std::string> dependence_texts(const Comparison& comparison, const VariantComparison& variant);
+
+/// What would change the answer: the other sign, or no difference shown, in a third of a quantity; cells in which it
+/// harms though it helps over all, or the other way round; what more pairs would decide. At least one sentence.
+std::vector<std::string> what_would_change_it(const Comparison& comparison, const VariantComparison& variant);
 
 } // namespace stylobate

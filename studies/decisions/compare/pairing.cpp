@@ -4,7 +4,7 @@
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/paired/paired_tests.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "studies/decisions/compare/common_draws.hpp"
+#include "studies/decisions/compare/drawn_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>

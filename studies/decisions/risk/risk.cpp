@@ -18,10 +18,8 @@ std::vector<const StateRisk*> Risk::chosen() const
 const StateRisk& Risk::principal() const
 {
     const auto all = chosen();
-    for (const StateRisk* s : all)
-        if (s->state == "collapse")
-            return *s;
-    return *all.back();
+    const auto collapse = std::ranges::find(all, "collapse", &StateRisk::state);
+    return collapse == all.end() ? *all.back() : **collapse;
 }
 
 const char* StateChange::verdict() const

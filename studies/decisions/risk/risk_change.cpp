@@ -92,16 +92,11 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
                           const RiskOptions& options)
 {
     check_has_risk(comparison, file);
-    RiskChange change;
+    RiskChange change{facts_of(hazard, options), {}, {}, {}, 0, {}};
     change.title = comparison.title.empty() ? comparison.base_name : comparison.title;
     change.base_name = comparison.base_name;
-    change.hazard = hazard;
-    change.level = options.level;
-    change.most_outside = options.most_outside;
-    change.years = options.years;
     change.intensity = comparison.intensity;
     change.motions = comparison.motions;
-    change.says = hazard_notes(hazard);
     for (const VariantComparison& variant : comparison.variants) {
         VariantChange of{variant.name, variant.results, {}};
         std::vector<const LimitComparison*> wanted;

@@ -34,14 +34,11 @@ struct VariantChange {
     const StateChange& principal() const;
 };
 
-struct RiskChange {
-    std::string comparison_file, title, base_name, code_version;
-    HazardModel hazard;
-    double level = 0.9, most_outside = 0.25;
-    std::vector<double> years, intensity; ///< intensities of the stripes
+struct RiskChange : RiskFacts {
+    std::string comparison_file, base_name;
+    std::vector<double> intensity; ///< of the stripes
     std::uint64_t motions = 0;
     std::vector<VariantChange> variants;
-    std::vector<std::string> says;
 };
 
 /// @throws InputError if the comparison is not of fragility studies with two stripes or more, has no pairs of motions
@@ -51,5 +48,47 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
 
 /// Refuses what has no risk, before a hazard is read. @throws InputError
 void check_has_risk(const Comparison& comparison, const std::string& file);
+
+// ---- fields, in the file, in JSON and in tables ---------------------------------------------------------------------
+
+template <class F>
+void visit_fields(std::type_identity<StateChange>, F&& f)
+{
+    f("state", &StateChange::state);
+    f("meaning", &StateChange::meaning);
+    f("damage", &StateChange::damage);
+    f("determined", &StateChange::determined);
+    f("verdict", [](const StateChange& s) { return s.verdict(); });
+    f(
+        "base_annual_frequency", [](auto& s) -> auto& { return s.change.base.frequency; }, per_year);
+    f(
+        "variant_annual_frequency", [](auto& s) -> auto& { return s.change.variant.frequency; }, per_year);
+    f(
+        "change", [](auto& s) -> auto& { return s.change.frequency; }, per_year);
+    f(
+        "ratio", [](auto& s) -> auto& { return s.change.ratio; });
+    f(
+        "base_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.base.unseen; }, per_year);
+    f(
+        "variant_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.variant.unseen; }, per_year);
+    f("note", &StateChange::note);
+}
+
+template <class F>
+void visit_fields(std::type_identity<VariantChange>, F&& f)
+{
+    f("variants", &VariantChange::name);
+    f("variant_results", &VariantChange::results);
+}
+
+template <class F>
+void visit_fields(std::type_identity<RiskChange>, F&& f)
+{
+    visit_fields(std::type_identity<RiskFacts>(), f);
+    f("comparison_file", &RiskChange::comparison_file);
+    f("base", &RiskChange::base_name);
+    f("motions", &RiskChange::motions);
+    f("intensity", &RiskChange::intensity);
+}
 
 } // namespace stylobate

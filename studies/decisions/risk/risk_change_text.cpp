@@ -67,43 +67,30 @@ std::string intervals_text(const RiskChange& change)
                        change.motions, change.hazard.fractiles.empty() ? "" : " and the hazard");
 }
 
-Json json_of(const ChangeNumber& n)
-{
-    return Json::object()
-        .member("value", n.value)
-        .member("lower", n.total.lower)
-        .member("upper", n.total.upper)
-        .member("fragility_lower", n.fragility.lower)
-        .member("fragility_upper", n.fragility.upper);
-}
-
+/// Without what each part of the interval is of.
 Json limits_json(const RiskNumber& n)
 {
-    return Json::object().member("value", n.value).member("lower", n.total.lower).member("upper", n.total.upper);
+    return json_of(n, {"value", "lower", "upper"});
 }
 
-Json json_of(const StateChange& s, const std::vector<double>& years)
+Json state_json(const StateChange& s, const std::vector<double>& years)
 {
-    Json json = Json::object();
-    json.member("state", s.state)
-        .member("limit_state", s.meaning)
-        .member("determined", s.determined)
-        .member("verdict", s.verdict())
-        .member("note", s.note);
+    Json json = json_of(s, {"state", {"limit_state", "meaning"}, "determined", "verdict", "note"});
     if (!s.determined)
         return json;
-    json.member("base_1_year", limits_json(s.change.base.frequency))
-        .member("variant_1_year", limits_json(s.change.variant.frequency))
-        .member("change_1_year", json_of(s.change.frequency))
-        .member("ratio", json_of(s.change.ratio))
-        .member("base_unseen_1_year", s.change.base.unseen)
-        .member("variant_unseen_1_year", s.change.variant.unseen);
+    const RiskNumber &base = s.change.base.frequency, &other = s.change.variant.frequency;
+    json.member("base_1_year", limits_json(base)).member("variant_1_year", limits_json(other));
+    add_members(json, s,
+                {{"change_1_year", "change"},
+                 "ratio",
+                 {"base_unseen_1_year", "base_unseen_annual_frequency"},
+                 {"variant_unseen_1_year", "variant_unseen_annual_frequency"}});
     Json over = Json::list();
     for (std::size_t i = 0; i < years.size(); ++i)
         over.item(Json::object()
                       .member("years", years[i])
-                      .member("base", limits_json(probability_over(s.change.base.frequency, years[i])))
-                      .member("variant", limits_json(probability_over(s.change.variant.frequency, years[i])))
+                      .member("base", limits_json(probability_over(base, years[i])))
+                      .member("variant", limits_json(probability_over(other, years[i])))
                       .member("change", json_of(s.change.probability[i])));
     return json.member("over_years", over);
 }
@@ -114,7 +101,7 @@ std::string risk_change_text(const RiskChange& change)
 {
     std::string text = fmt::format("{}: change of risk by {} and the hazard {}, {:g} % intervals\n", change.title,
                                    change.comparison_file, hazard_text(change.hazard), 100 * change.level);
-    text += intervals_text(change) + "\nEach earthquake meets the structure as new; years are of a Poisson process.\n";
+    text += intervals_text(change) + "\n" + as_new_text + "\n";
     for (const VariantChange& variant : change.variants) {
         text += variant.name + "\n";
         for (const StateChange& s : variant.states)
@@ -127,14 +114,13 @@ std::string risk_change_text(const RiskChange& change)
 
 Json risk_change_json(const RiskChange& change)
 {
-    Json variants = Json::list();
-    for (const VariantChange& variant : change.variants) {
-        Json states = Json::list();
-        for (const StateChange& s : variant.states)
-            states.item(json_of(s, change.years));
-        variants.item(
-            Json::object().member("name", variant.name).member("results", variant.results).member("states", states));
-    }
+    const auto variant_json = [&](const VariantChange& variant) {
+        return Json::object()
+            .member("name", variant.name)
+            .member("results", variant.results)
+            .member("states",
+                    json_list(variant.states, [&](const StateChange& s) { return state_json(s, change.years); }));
+    };
     return Json::object()
         .member("comparison", change.comparison_file)
         .member("base", change.base_name)
@@ -143,7 +129,7 @@ Json risk_change_json(const RiskChange& change)
         .member("measure", change.hazard.measure)
         .member("level", change.level)
         .member("motions", change.motions)
-        .member("variants", variants)
+        .member("variants", json_list(change.variants, variant_json))
         .member("notes", Json::list(change.says));
 }
 
@@ -179,8 +165,7 @@ HtmlPage risk_change_page(const RiskChange& change, const std::string& file, con
                  variant.name, risk_change_answer(change, variant));
     }
     page.section("Result");
-    page.paragraph(intervals_text(change) +
-                   " Each earthquake meets the structure as new; years are of a Poisson process.");
+    page.paragraph(intervals_text(change) + " " + as_new_text);
     for (const VariantChange& variant : change.variants) {
         HtmlTable table{"llll",
                         {"limit state", "a year, " + change.base_name, "a year, " + variant.name, "change a year"},

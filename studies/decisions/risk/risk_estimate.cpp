@@ -131,12 +131,12 @@ void check_state(const std::string& state, const std::vector<std::string>& names
                                  meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
 }
 
-std::vector<std::string> hazard_notes(const HazardModel& hazard)
+RiskFacts facts_of(const HazardModel& hazard, const RiskOptions& options)
 {
-    std::vector<std::string> notes = hazard.says;
+    RiskFacts facts{"", "", hazard, options.level, options.most_outside, options.years, hazard.says};
     if (hazard.fractiles.empty())
-        notes.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
-    return notes;
+        facts.says.emplace_back("The hazard is given without fractiles: its uncertainty is not in the intervals.");
+    return facts;
 }
 
 Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOptions& options)
@@ -149,16 +149,11 @@ Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOp
             wanted.push_back(&s);
     }
     check_state(options.state, names, "the study");
-    Risk risk;
-    risk.hazard = hazard;
-    risk.level = options.level;
-    risk.most_outside = options.most_outside;
-    risk.years = options.years;
-    risk.says = fragility.says;
+    Risk risk{facts_of(hazard, options), {}, {}, 0.95, {}, {}};
+    std::vector<std::string> says = fragility.says; // before those of the hazard
     if (fragility.invalid > 0)
-        risk.says.push_back(fmt::format("{} invalid realizations are left out.", fragility.invalid));
-    for (std::string& note : hazard_notes(hazard))
-        risk.says.push_back(std::move(note));
+        says.push_back(fmt::format("{} invalid realizations are left out.", fragility.invalid));
+    risk.says.insert(risk.says.begin(), says.begin(), says.end());
     std::vector<std::vector<StateRisk>> found(wanted.size());
     in_parallel(std::size_t{0}, wanted.size(),
                 [&](std::size_t i) { found[i] = risks_of(*wanted[i], hazard, options); });

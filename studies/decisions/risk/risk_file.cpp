@@ -1,9 +1,9 @@
 #include "studies/decisions/risk/risk_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/sealed/table_file.hpp"
+#include "io/hazard/hazard_parts.hpp"
+#include "io/sealed/sealed_file.hpp"
 #include "io/tables/csv.hpp"
-#include "studies/decisions/risk/risk_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -16,244 +16,187 @@ namespace stylobate {
 namespace {
 
 constexpr SealedFormat format{"stylobate-risk", "risk estimate", 3, 3, "compute it again"};
+constexpr SealedFormat change_format{"stylobate-risk-change", "risk estimate of a comparison", 1, 1,
+                                     "compute it again"};
 
-Table general_table(const Risk& risk)
+// ---- what both have in common ---------------------------------------------------------------------------------------
+
+/// "intensity_pgv_m_s"
+std::string measure_column(const HazardModel& hazard)
 {
-    Table table("risk");
-    table.set("title", risk.title);
-    table.set("fragility_file", risk.fragility_file);
-    table.set("study_toml", risk.study_text);
-    table.set("level", risk.level);
-    table.set("fragility_level", risk.fragility_level);
-    table.set("most_outside", risk.most_outside);
-    table.set("code_version", risk.code_version);
-    table.add("years", risk.years, {risk.years.size()}, "year");
-    table.add("notes", risk.says);
+    return "intensity_" + hazard.measure;
+}
+
+Table hazard_table(const HazardModel& hazard)
+{
+    Table table("hazard");
+    table.set("source", hazard.source);
+    table.set("site", hazard.site);
+    table.set("measure", hazard.measure);
+    table.set("unbounded", std::uint64_t{hazard.unbounded});
+    table.add(measure_column(hazard), hazard.intensity);
+    table.add("annual_frequency", hazard.frequency, {hazard.frequency.size()}, "1/year");
+    for (const HazardFractile& f : hazard.fractiles)
+        table.add(fmt::format("fractile_{}", f.probability), f.frequency, {f.frequency.size()}, "1/year");
     return table;
 }
 
-Risk general_of(const Table& table)
+HazardModel hazard_of(const Table& table)
 {
-    Risk risk;
-    risk.title = table.text("title");
-    risk.fragility_file = table.text("fragility_file");
-    risk.study_text = table.text("study_toml");
-    risk.level = level_of(table, "level");
-    risk.fragility_level = level_of(table, "fragility_level");
-    risk.most_outside = table.number("most_outside");
-    risk.code_version = table.text("code_version");
-    risk.years = years_of(table);
-    risk.says = table.texts("notes");
-    return risk;
-}
-
-// ---- /states, /disaggregation, /fragility ---------------------------------------------------------------------------
-
-Table states_table(const Risk& risk)
-{
-    std::vector<std::string> states, meanings, forms, notes;
-    std::vector<std::int32_t> chosen, determined;
-    std::vector<RiskNumber> frequency;
-    std::vector<double> by_mean, below, above, beyond, lowest, highest, unseen;
-    for (const StateRisk& s : risk.states) {
-        states.push_back(s.state);
-        meanings.push_back(s.meaning);
-        forms.emplace_back(to_string(s.form));
-        notes.push_back(s.note);
-        chosen.push_back(s.chosen);
-        determined.push_back(s.determined);
-        frequency.push_back(s.estimate.frequency);
-        by_mean.push_back(s.estimate.by_mean_hazard);
-        below.push_back(s.estimate.below);
-        above.push_back(s.estimate.above);
-        beyond.push_back(s.estimate.beyond_hazard);
-        lowest.push_back(s.estimate.bounds.lower);
-        highest.push_back(s.estimate.bounds.upper);
-        unseen.push_back(s.estimate.unseen);
-    }
-    const Table::Shape shape{states.size()};
-    Table table("states");
-    table.add("state", std::move(states));
-    table.add("meaning", std::move(meanings));
-    table.add("form", std::move(forms));
-    table.add("chosen", std::move(chosen), shape);
-    table.add("determined", std::move(determined), shape);
-    add_numbers(table, "annual_frequency", frequency);
-    table.add("mean_hazard_annual_frequency", std::move(by_mean), shape, "1/year");
-    table.add("share_below", std::move(below));
-    table.add("share_above", std::move(above));
-    table.add("share_beyond_hazard", std::move(beyond));
-    table.add("lowest_annual_frequency", std::move(lowest), shape, "1/year");
-    table.add("highest_annual_frequency", std::move(highest), shape, "1/year");
-    table.add("unseen_annual_frequency", std::move(unseen), shape, "1/year");
-    table.add("note", std::move(notes));
-    return table;
-}
-
-Table parts_table(const Risk& risk)
-{
-    std::vector<std::int32_t> row;
-    std::vector<double> from, to;
-    std::vector<RiskNumber> frequency;
-    for (std::size_t i = 0; i < risk.states.size(); ++i)
-        for (const FrequencyPart& part : risk.states[i].estimate.parts) {
-            row.push_back(static_cast<std::int32_t>(i));
-            from.push_back(part.from);
-            to.push_back(part.to);
-            frequency.push_back(part.frequency);
+    HazardModel hazard;
+    hazard.source = table.text("source");
+    hazard.site = table.text("site");
+    hazard.measure = table.text("measure");
+    hazard.unbounded = table.count("unbounded") != 0;
+    const Table::Shape& shape = table.list_shape(measure_column(hazard));
+    if (shape[0] < 2)
+        table.refuse("its hazard is no list");
+    hazard.intensity = table.numbers(measure_column(hazard), shape);
+    hazard.frequency = table.numbers("annual_frequency", shape);
+    for (const Table::Column& column : table.columns())
+        if (column.name.starts_with("fractile_")) {
+            const auto probability = hazard_number(std::string_view(column.name).substr(9));
+            if (!probability || !(*probability > 0 && *probability < 1))
+                table.refuse("a fractile of its hazard has no probability");
+            hazard.fractiles.push_back({*probability, table.numbers(column.name, shape)});
         }
-    Table table("disaggregation");
-    table.add("row", row, {row.size()});
-    table.add("from", std::move(from));
-    table.add("to", std::move(to));
-    add_numbers(table, "annual_frequency", frequency);
-    return table;
-}
-
-Table fragility_points_table(const Risk& risk)
-{
-    std::vector<std::int32_t> row;
-    std::vector<double> intensity;
-    IntervalArray probability;
-    for (std::size_t i = 0; i < risk.states.size(); ++i)
-        for (const FragilityPoint& point : risk.states[i].fragility) {
-            row.push_back(static_cast<std::int32_t>(i));
-            intensity.push_back(point.intensity);
-            probability.add(point.probability, point.lower, point.upper);
-        }
-    Table table("fragility");
-    table.add("row", row, {row.size()});
-    table.add("intensity_" + risk.hazard.measure, std::move(intensity));
-    table.add("probability", probability, {row.size()});
-    return table;
-}
-
-std::vector<StateRisk> states_of(const Table& states, const Table& parts, const Table& points,
-                                 const std::string& measure)
-{
-    const Table::Shape shape = states.shape("state");
-    const std::vector<std::string>&names = states.texts("state"), &meanings = states.texts("meaning"),
-          &forms = states.texts("form"), &notes = states.texts("note");
-    if (meanings.size() != names.size() || forms.size() != names.size() || notes.size() != names.size())
-        states.refuse("its lists of states differ in length");
-    const auto &chosen = states.integers("chosen", shape), &determined = states.integers("determined", shape);
-    const std::vector<RiskNumber> frequency = numbers_of<RiskNumber>(states, "annual_frequency", shape);
-    const auto &by_mean = states.numbers("mean_hazard_annual_frequency", shape),
-               &below = states.numbers("share_below", shape), &above = states.numbers("share_above", shape),
-               &beyond = states.numbers("share_beyond_hazard", shape),
-               &lowest = states.numbers("lowest_annual_frequency", shape),
-               &highest = states.numbers("highest_annual_frequency", shape),
-               &unseen = states.numbers("unseen_annual_frequency", shape);
-    std::vector<StateRisk> found;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const FragilityForm form =
-            forms[i] == to_string(FragilityForm::shares) ? FragilityForm::shares : FragilityForm::lognormal;
-        if (forms[i] != to_string(form))
-            states.refuse("a limit state has a fragility of no known form");
-        found.push_back(
-            {names[i],
-             meanings[i],
-             form,
-             chosen[i] != 0,
-             determined[i] != 0,
-             notes[i],
-             FrequencyEstimate{
-                 form, frequency[i], by_mean[i], {}, below[i], above[i], beyond[i], {lowest[i], highest[i]}, unseen[i]},
-             {}});
+    try {
+        return checked_hazard({std::move(hazard), {}, {}});
+    } catch (const InputError& error) { // it names what the hazard was read from, not this file
+        table.refuse(fmt::format("its hazard is none: {}", error.what()));
     }
-    const auto state = [&](const Table& table, std::int32_t row) -> StateRisk& {
-        if (row < 0 || static_cast<std::size_t>(row) >= found.size())
-            table.refuse("a row is of no state");
-        return found[static_cast<std::size_t>(row)];
-    };
-    const Table::Shape all = parts.shape("row");
-    const auto& rows = parts.integers("row", all);
-    const auto &from = parts.numbers("from", all), &to = parts.numbers("to", all);
-    const std::vector<RiskNumber> numbers = numbers_of<RiskNumber>(parts, "annual_frequency", all);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        state(parts, rows[i]).estimate.parts.push_back({from[i], to[i], numbers[i]});
-    for (const StateRisk& s : found)
-        if (s.estimate.parts.size() < 3)
-            parts.refuse("a limit state has no parts");
-    const Table::Shape each = points.shape("row");
-    const auto& of = points.integers("row", each);
-    const auto& intensity = points.numbers("intensity_" + measure, each);
-    const IntervalArray probability = points.intervals("probability", each);
-    for (std::size_t i = 0; i < of.size(); ++i)
-        state(points, of[i])
-            .fragility.push_back({intensity[i], probability.value[i], probability.lower[i], probability.upper[i]});
-    return found;
 }
 
-// ---- /sequences -----------------------------------------------------------------------------------------------------
-
-/// Every number of it, by its name: written and read by one list.
-template <class Sequence, class Count, class Real>
-void sequence_fields(Sequence& s, Count&& count, Real&& real)
+/// The record of an estimate, and its hazard. @throws InputError if a level or the years have no meaning
+template <class Estimate>
+Estimate estimate_of(const std::vector<Table>& tables, const char* name, const std::string& file)
 {
-    count("histories", s.histories);
-    count("events", s.events);
-    count("most_events", s.most_events);
-    count("histories_with_two_events", s.with_two);
-    count("fallen_carried", s.carried);
-    count("fallen_fresh", s.fresh);
-    count("fallen_both", s.both);
-    count("invalid", s.invalid);
-    count("runs", s.runs);
-    count("steps", s.steps);
-    count("checked", s.checked);
-    count("then_fell", s.then_fell);
-    count("then_stood", s.then_stood);
-    real("years", s.years);
-    real("level", s.level);
-    real("threshold", s.threshold);
-    real("events_1_year", s.events_a_year);
-    real("checked_threshold", s.checked_threshold);
-    real("closed_form", s.closed_form);
-    const auto limits = [&](const std::string& name, auto& l) {
-        real(name + "_lower", l.lower);
-        real(name + "_upper", l.upper);
-    };
-    limits("closed_form", s.closed_form_limits);
-    const auto number = [&](const std::string& name, auto& n) {
-        real(name, n.value);
-        limits(name, n.limits);
-    };
-    number("carried_share", s.carried_share);
-    number("fresh_share", s.fresh_share);
-    number("difference", s.difference);
-    number("check_difference", s.check_difference);
-    number("ratio", s.ratio);
+    const Table& table = table_named(tables, name, file);
+    Estimate estimate;
+    read_record(table, estimate);
+    const auto is_level = [](double level) { return level > 0 && level < 1; };
+    bool levels = is_level(estimate.level);
+    if constexpr (requires { estimate.fragility_level; })
+        levels = levels && is_level(estimate.fragility_level);
+    if (!levels)
+        table.refuse("a level of its intervals is not between 0 and 1");
+    if (estimate.years.empty() ||
+        !std::ranges::all_of(estimate.years, [](double y) { return y > 0 && std::isfinite(y); }))
+        table.refuse("its years are not above 0 and finite");
+    estimate.hazard = hazard_of(table_named(tables, "hazard", file));
+    return estimate;
 }
 
-Table sequences_table(const SequenceRisk& s)
+/// A file for each table that has columns.
+std::vector<std::pair<std::string, std::string>> csv_of(const std::vector<Table>& tables)
 {
-    Table table("sequences");
-    table.set("threshold_says", s.threshold_says);
-    sequence_fields(
-        s, [&](const std::string& name, std::uint64_t value) { table.set(name, value); },
-        [&](const std::string& name, double value) { table.set(name, value); });
-    return table;
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const Table& table : tables)
+        if (!table.columns().empty())
+            files.emplace_back(table.name() + ".csv", csv_text(table));
+    return files;
 }
 
-SequenceRisk sequences_of(const Table& table)
+// ---- of one structure -----------------------------------------------------------------------------------------------
+
+constexpr auto parts_of = [](auto& state) -> auto&
 {
-    SequenceRisk s;
-    s.threshold_says = table.text("threshold_says");
-    sequence_fields(
-        s, [&](const std::string& name, std::uint64_t& value) { value = table.count(name); },
-        [&](const std::string& name, double& value) { value = table.number(name); });
-    return s;
-}
+    return state.estimate.parts;
+};
 
 /// All but what is general.
 std::vector<Table> number_tables(const Risk& risk)
 {
-    std::vector<Table> tables{hazard_table(risk.hazard), states_table(risk), parts_table(risk),
-                              fragility_points_table(risk)};
+    Table states("states"), points = entries_table("fragility", risk.states, &StateRisk::fragility);
+    add_rows(states, risk.states);
+    points.rename("intensity", measure_column(risk.hazard));
+    std::vector<Table> tables{hazard_table(risk.hazard), std::move(states),
+                              entries_table("disaggregation", risk.states, parts_of), std::move(points)};
     if (risk.sequences)
-        tables.push_back(sequences_table(*risk.sequences));
+        add_record(tables.emplace_back("sequences"), *risk.sequences);
     return tables;
+}
+
+// ---- of a comparison ------------------------------------------------------------------------------------------------
+
+/// A row for each limit state of each variant.
+Table changes_table(const RiskChange& change)
+{
+    std::vector<std::int32_t> variant;
+    std::vector<std::string> names;
+    for (std::size_t v = 0; v < change.variants.size(); ++v) {
+        variant.insert(variant.end(), change.variants[v].states.size(), static_cast<std::int32_t>(v));
+        names.insert(names.end(), change.variants[v].states.size(), change.variants[v].name);
+    }
+    Table table("changes");
+    table.add("variant", std::move(variant));
+    table.add("variant_name", std::move(names));
+    add_rows(table, pointers_to(change.variants, &VariantChange::states));
+    return table;
+}
+
+/// Begins a table of all years or stripes of each row of `changes`: the row, and the year or intensity.
+Table table_over(const char* name, const RiskChange& change, const std::string& column,
+                 const std::vector<double>& values, const std::string& unit)
+{
+    std::vector<std::int32_t> rows;
+    std::vector<double> all;
+    const std::size_t states = pointers_to(change.variants, &VariantChange::states).size();
+    for (std::size_t row = 0; row < states; ++row) {
+        rows.insert(rows.end(), values.size(), static_cast<std::int32_t>(row));
+        all.insert(all.end(), values.begin(), values.end());
+    }
+    Table table(name);
+    const Table::Shape shape{rows.size()};
+    table.add("row", std::move(rows));
+    table.add(column, std::move(all), shape, unit);
+    return table;
+}
+
+/// All but what is general.
+std::vector<Table> number_tables(const RiskChange& change)
+{
+    Table years = table_over("over_years", change, "years", change.years, "year");
+    Table shares = table_over("shares", change, measure_column(change.hazard), change.intensity, "");
+    const auto states = pointers_to(change.variants, &VariantChange::states);
+    std::vector<const ChangeNumber*> probability;
+    std::vector<double> base, variant;
+    for (const StateChange* s : states) {
+        for (const ChangeNumber& number : s->change.probability)
+            probability.push_back(&number);
+        base.insert(base.end(), s->base_share.begin(), s->base_share.end());
+        variant.insert(variant.end(), s->variant_share.begin(), s->variant_share.end());
+    }
+    add_rows(years, probability, "probability_change");
+    shares.add("base_share", std::move(base));
+    shares.add("variant_share", std::move(variant));
+    return {hazard_table(change.hazard), changes_table(change), std::move(years), std::move(shares)};
+}
+
+void read_states(const Table& changes, const Table& over_years, const Table& shares, RiskChange& change)
+{
+    std::vector<StateChange> states = rows_of<StateChange>(changes, "state");
+    const std::size_t n = states.size(), years = change.years.size(), stripes = change.intensity.size();
+    std::vector<ChangeNumber> probability(n * years);
+    read_rows(over_years, pointers_to(probability), "probability_change");
+    const auto& variant = changes.integers("variant", {n});
+    const auto &base = shares.numbers("base_share", {n * stripes}),
+               &other = shares.numbers("variant_share", {n * stripes});
+    const auto part = [](const auto& values, std::size_t row, std::size_t width) {
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
+        return std::vector(begin, begin + static_cast<std::ptrdiff_t>(width));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (variant[i] < 0 || static_cast<std::size_t>(variant[i]) >= change.variants.size())
+            changes.refuse("a row is of no variant");
+        states[i].change.probability = part(probability, i, years);
+        states[i].base_share = part(base, i, stripes);
+        states[i].variant_share = part(other, i, stripes);
+        change.variants[static_cast<std::size_t>(variant[i])].states.push_back(std::move(states[i]));
+    }
+    for (const VariantChange& v : change.variants)
+        if (v.states.empty())
+            changes.refuse("a variant has no limit state");
 }
 
 } // namespace
@@ -261,40 +204,82 @@ std::vector<Table> number_tables(const Risk& risk)
 std::vector<Table> tables_of(const Risk& risk)
 {
     std::vector<Table> tables = number_tables(risk);
-    tables.push_back(general_table(risk));
+    add_record(tables.emplace_back("risk"), risk);
+    return tables;
+}
+
+std::vector<Table> tables_of(const RiskChange& change)
+{
+    std::vector<Table> tables = number_tables(change);
+    Table& table = tables.emplace_back("risk_change");
+    add_record(table, change);
+    add_rows(table, change.variants);
     return tables;
 }
 
 Risk risk_from(const std::vector<Table>& tables, const std::string& file)
 {
-    const auto named = [&](const char* name) -> const Table& { return table_named(tables, name, file); };
-    Risk risk = general_of(named("risk"));
-    risk.hazard = hazard_of(named("hazard"));
-    risk.states = states_of(named("states"), named("disaggregation"), named("fragility"), risk.hazard.measure);
+    Risk risk = estimate_of<Risk>(tables, "risk", file);
+    const Table &states = table_named(tables, "states", file), &parts = table_named(tables, "disaggregation", file);
+    risk.states = rows_of<StateRisk>(states, "state");
+    for (StateRisk& s : risk.states)
+        s.estimate.form = s.form;
     if (risk.chosen().empty())
-        named("states").refuse("it has no limit state");
-    if (std::ranges::find(tables, "sequences", &Table::name) != tables.end())
-        risk.sequences = sequences_of(named("sequences"));
+        states.refuse("it has no limit state");
+    read_entries(parts, risk.states, parts_of);
+    for (const StateRisk& s : risk.states)
+        if (s.estimate.parts.size() < 3)
+            parts.refuse("a limit state has no parts");
+    Table points = table_named(tables, "fragility", file);
+    points.rename(measure_column(risk.hazard), "intensity");
+    read_entries(points, risk.states, &StateRisk::fragility);
+    if (const Table* sequences = find_table(tables, "sequences"))
+        read_record(*sequences, risk.sequences.emplace());
     return risk;
+}
+
+RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file)
+{
+    RiskChange change = estimate_of<RiskChange>(tables, "risk_change", file);
+    const Table& general = table_named(tables, "risk_change", file);
+    if (change.intensity.size() < 2)
+        general.refuse("it has fewer than two intensities");
+    change.variants = rows_of<VariantChange>(general, "variants");
+    if (change.variants.empty())
+        general.refuse("it has no variant");
+    read_states(table_named(tables, "changes", file), table_named(tables, "over_years", file),
+                table_named(tables, "shares", file), change);
+    return change;
 }
 
 void write_risk(const Risk& risk, const std::filesystem::path& file)
 {
-    write_table_file(file, format, risk.code_version, tables_of(risk));
+    write_sealed_file(file, format, risk.code_version, Table(format.kind, tables_of(risk)));
+}
+
+void write_risk_change(const RiskChange& change, const std::filesystem::path& file)
+{
+    write_sealed_file(file, change_format, change.code_version, Table(change_format.kind, tables_of(change)));
 }
 
 Risk read_risk(const std::filesystem::path& file)
 {
-    return risk_from(read_table_file(file, format), file.string());
+    return risk_from(read_sealed_file(file, format).content.tables(), file.string());
+}
+
+RiskChange read_risk_change(const std::filesystem::path& file)
+{
+    return risk_change_from(read_sealed_file(file, change_format).content.tables(), file.string());
 }
 
 std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk)
 {
-    std::vector<std::pair<std::string, std::string>> files;
-    for (const Table& table : number_tables(risk))
-        if (!table.columns().empty())
-            files.emplace_back(table.name() + ".csv", csv_text(table));
-    return files;
+    return csv_of(number_tables(risk));
+}
+
+std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change)
+{
+    return csv_of(number_tables(change));
 }
 
 } // namespace stylobate

@@ -1,6 +1,5 @@
 #include "studies/decisions/risk/risk_page.hpp"
 
-#include "studies/decisions/risk/risk_answer.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
@@ -99,29 +98,21 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
 void add_result(const Risk& risk, HtmlPage& page)
 {
     page.section("Result");
-    HtmlTable table{"lll", {"limit state", "fragility", "a year"}, {}, ""};
-    for (const double years : risk.years) {
+    HtmlTable table{"ll", {"limit state", "fragility"}, {}, ""};
+    for (const std::string& head : risk_heads(risk)) {
         table.align += "l";
-        table.head.emplace_back(fmt::format("in {:g} years", years));
+        table.head.emplace_back(head);
     }
-    table.align += "lr";
-    table.head.emplace_back(mean_hazard_head(risk));
-    table.head.emplace_back("uncertainty due to fragility");
+    table.align.back() = 'r';
     for (const StateRisk* s : risk.chosen()) {
-        std::vector<Html> row{s->meaning, to_string(s->form)};
-        if (s->determined) {
-            row.emplace_back(frequency_text(s->estimate.frequency));
-            for (const double years : risk.years)
-                row.emplace_back(over_text(s->estimate.frequency, years));
-            row.emplace_back(mean_hazard_text(risk, *s));
-            const double part = s->estimate.frequency.fragility_part;
-            row.emplace_back(std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part));
-        } else {
+        std::vector<Html>& row = table.rows.emplace_back(std::vector<Html>{s->meaning, to_string(s->form)});
+        if (s->determined)
+            for (const std::string& cell : risk_cells(risk, *s))
+                row.emplace_back(cell);
+        else
             row.emplace_back(
                 fmt::format("not determined; {} for any curve that rises", bounds_text(s->estimate.bounds)));
-            row.resize(table.head.size());
-        }
-        table.rows.push_back(std::move(row));
+        row.resize(table.head.size());
     }
     page.table(table);
     page.note(fmt::format(
@@ -174,8 +165,7 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
          {"Ratio, paired", std::isfinite(s.ratio.limits.upper) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.ratio.value,
                                                                              s.ratio.limits.lower, s.ratio.limits.upper)
                                                                : std::string("not determined")},
-         {"By the fragility", std::isnan(s.closed_form) ? std::string("not determined")
-                                                        : percent_text(s.closed_form, s.closed_form_limits)},
+         {"By the fragility", std::isnan(s.closed_form.value) ? std::string("not determined") : percent(s.closed_form)},
          {"Threshold", s.threshold_says},
          {"With weaker earthquakes too",
           s.checked == 0 ? std::string("not checked")

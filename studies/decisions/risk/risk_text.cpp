@@ -1,40 +1,35 @@
 #include "studies/decisions/risk/risk_text.hpp"
 
 #include "studies/experiment/conventions.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stylobate {
 
 namespace {
 
-std::string part_text(double part)
+/// Pads the cells but the last one: the first is wider.
+std::string padded(const std::vector<std::string>& cells)
 {
-    return std::isnan(part) ? "–" : fmt::format("{:.0f} %", 100 * part);
+    std::string text = fmt::format("{:<34}", cells.front());
+    for (std::size_t i = 1; i + 1 < cells.size(); ++i)
+        text += fmt::format(" {:<26}", cells[i]);
+    return text + " " + cells.back() + "\n";
 }
 
 std::string table_text(const Risk& risk)
 {
-    std::string text = fmt::format("  {:<16} {:<10} {:<34}", "limit state", "fragility", "a year");
-    for (const double years : risk.years)
-        text += fmt::format(" {:<26}", fmt::format("in {:g} years", years));
-    text += fmt::format(" {:<26} uncertainty due to fragility\n", mean_hazard_head(risk));
-    for (const StateRisk* s : risk.chosen()) {
-        text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form));
-        if (!s->determined) {
-            text +=
-                fmt::format("not determined; {} a year for any curve that rises\n", bounds_text(s->estimate.bounds));
-            continue;
-        }
-        text += fmt::format("{:<34}", frequency_text(s->estimate.frequency));
-        for (const double years : risk.years)
-            text += fmt::format(" {:<26}", over_text(s->estimate.frequency, years));
-        text +=
-            fmt::format(" {:<26} {}\n", mean_hazard_text(risk, *s), part_text(s->estimate.frequency.fragility_part));
-    }
+    std::string text = fmt::format("  {:<16} {:<10} ", "limit state", "fragility") + padded(risk_heads(risk));
+    for (const StateRisk* s : risk.chosen())
+        text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form)) +
+                (s->determined ? padded(risk_cells(risk, *s))
+                               : fmt::format("not determined; {} a year for any curve that rises\n",
+                                             bounds_text(s->estimate.bounds)));
     return text;
 }
 
@@ -86,9 +81,8 @@ std::string sequence_text(const SequenceRisk& s)
                 ? fmt::format("  ratio, paired:                     {:.3g} ({:.3g} to {:.3g})\n", s.ratio.value,
                               s.ratio.limits.lower, s.ratio.limits.upper)
                 : std::string("  ratio, paired:                     not determined: too few histories with a fall\n");
-    text +=
-        fmt::format("  by the fragility, new in each:     {}\n",
-                    std::isnan(s.closed_form) ? "not determined" : percent_text(s.closed_form, s.closed_form_limits));
+    text += fmt::format("  by the fragility, new in each:     {}\n",
+                        std::isnan(s.closed_form.value) ? "not determined" : percent(s.closed_form));
     text += fmt::format("  threshold: {}\n", s.threshold_says);
     if (s.checked > 0)
         text +=
@@ -103,87 +97,68 @@ std::string sequence_text(const SequenceRisk& s)
     return text;
 }
 
-Json json_of(const RiskNumber& n)
+Json sequences_json(const SequenceRisk& s)
 {
-    return Json::object()
-        .member("value", n.value)
-        .member("lower", n.total.lower)
-        .member("upper", n.total.upper)
-        .member("fragility_lower", n.fragility.lower)
-        .member("fragility_upper", n.fragility.upper)
-        .member("hazard_lower", n.hazard.lower)
-        .member("hazard_upper", n.hazard.upper)
-        .member("fragility_part", n.fragility_part);
+    return json_of(s, {"years",
+                       "level",
+                       "histories",
+                       "threshold",
+                       "events_1_year",
+                       "events",
+                       "histories_with_two_events",
+                       "fallen_carried",
+                       "fallen_fresh",
+                       "fallen_both",
+                       "invalid",
+                       "runs",
+                       "steps",
+                       {"carried", "carried_share"},
+                       {"fresh", "fresh_share"},
+                       "difference",
+                       "ratio",
+                       "closed_form",
+                       "checked",
+                       "checked_threshold",
+                       "then_fell",
+                       "then_stood",
+                       "check_difference"});
 }
 
-Json json_of(const SequenceNumber& n)
+Json part_json(const FrequencyPart& part)
 {
-    return Json::object().member("value", n.value).member("lower", n.limits.lower).member("upper", n.limits.upper);
+    return json_of(part, {"from", "to", {"frequency_1_year", "annual_frequency"}});
 }
 
-Json json_of(const SequenceRisk& s)
+Json state_json(const StateRisk& s, const Risk& risk)
 {
-    return Json::object()
-        .member("years", s.years)
-        .member("level", s.level)
-        .member("histories", s.histories)
-        .member("threshold", s.threshold)
-        .member("events_1_year", s.events_a_year)
-        .member("events", s.events)
-        .member("histories_with_two_events", s.with_two)
-        .member("fallen_carried", s.carried)
-        .member("fallen_fresh", s.fresh)
-        .member("fallen_both", s.both)
-        .member("invalid", s.invalid)
-        .member("runs", s.runs)
-        .member("steps", s.steps)
-        .member("carried", json_of(s.carried_share))
-        .member("fresh", json_of(s.fresh_share))
-        .member("difference", json_of(s.difference))
-        .member("ratio", json_of(s.ratio))
-        .member("closed_form", json_of(SequenceNumber{s.closed_form, s.closed_form_limits}))
-        .member("checked", s.checked)
-        .member("checked_threshold", s.checked_threshold)
-        .member("then_fell", s.then_fell)
-        .member("then_stood", s.then_stood)
-        .member("check_difference", json_of(s.check_difference));
-}
-
-Json json_of(const StateRisk& s, const Risk& risk)
-{
-    const FrequencyEstimate& e = s.estimate;
-    Json json = Json::object();
-    json.member("state", s.state)
-        .member("form", to_string(s.form))
-        .member("chosen", s.chosen)
-        .member("determined", s.determined)
-        .member("note", s.note)
-        .member("below", e.below)
-        .member("above", e.above)
-        .member("beyond_hazard", e.beyond_hazard)
-        .member("lowest_1_year", e.bounds.lower)
-        .member("highest_1_year", e.bounds.upper)
-        .member("unseen_1_year", e.unseen);
+    Json json = json_of(s, {"state",
+                            "form",
+                            "chosen",
+                            "determined",
+                            "note",
+                            {"below", "share_below"},
+                            {"above", "share_above"},
+                            {"beyond_hazard", "share_beyond_hazard"},
+                            {"lowest_1_year", "lowest_annual_frequency"},
+                            {"highest_1_year", "highest_annual_frequency"},
+                            {"unseen_1_year", "unseen_annual_frequency"}});
     if (!s.determined)
         return json;
-    json.member("frequency_1_year", json_of(e.frequency));
-    Json over = Json::list(), parts = Json::list();
-    Json by_mean = Json::list();
-    for (const double years : risk.years) {
-        Json one = Json::object(), mean = Json::object();
-        one.member("years", years).member("probability", json_of(probability_over(e.frequency, years)));
-        over.item(one);
-        mean.member("years", years).member("probability", probability_over(e.by_mean_hazard, years));
-        by_mean.item(mean);
-    }
-    Json mean_hazard = Json::object();
-    mean_hazard.member("frequency_1_year", e.by_mean_hazard).member("over_years", by_mean);
-    for (const FrequencyPart& part : e.parts) {
-        Json one = Json::object();
-        one.member("from", part.from).member("to", part.to).member("frequency_1_year", json_of(part.frequency));
-        parts.item(one);
-    }
-    return json.member("over_years", over).member("mean_hazard", mean_hazard).member("disaggregation", parts);
+    const auto over_years = [&](const auto& frequency) {
+        return json_list(risk.years, [&](double years) {
+            Json over = Json::object();
+            over.member("years", years);
+            add_member(over, "probability", probability_over(frequency, years));
+            return over;
+        });
+    };
+    const FrequencyEstimate& e = s.estimate;
+    return json.member("frequency_1_year", json_of(e.frequency))
+        .member("over_years", over_years(e.frequency))
+        .member("mean_hazard", Json::object()
+                                   .member("frequency_1_year", e.by_mean_hazard)
+                                   .member("over_years", over_years(e.by_mean_hazard)))
+        .member("disaggregation", json_list(e.parts, part_json));
 }
 
 } // namespace
@@ -199,15 +174,28 @@ std::string over_text(const RiskNumber& frequency, double years)
     return percent_text(p.value, p.total);
 }
 
-std::string mean_hazard_head(const Risk& risk)
+std::vector<std::string> risk_heads(const Risk& risk)
 {
-    return fmt::format("in {:g} years, mean hazard", risk.years.back());
+    std::vector<std::string> heads{"a year"};
+    for (const double years : risk.years)
+        heads.push_back(fmt::format("in {:g} years", years));
+    heads.push_back(fmt::format("in {:g} years, mean hazard", risk.years.back()));
+    heads.emplace_back("uncertainty due to fragility");
+    return heads;
 }
 
-std::string mean_hazard_text(const Risk& risk, const StateRisk& state)
+std::vector<std::string> risk_cells(const Risk& risk, const StateRisk& state)
 {
-    const double frequency = state.estimate.by_mean_hazard;
-    return std::isnan(frequency) ? "–" : fmt::format("{:.3g} %", 100 * probability_over(frequency, risk.years.back()));
+    const auto percent = [](const char* format, double share) {
+        return std::isnan(share) ? "–" : fmt::format(fmt::runtime(format), 100 * share);
+    };
+    const FrequencyEstimate& e = state.estimate;
+    std::vector<std::string> cells{frequency_text(e.frequency)};
+    for (const double years : risk.years)
+        cells.push_back(over_text(e.frequency, years));
+    cells.push_back(percent("{:.3g} %", probability_over(e.by_mean_hazard, risk.years.back())));
+    cells.push_back(percent("{:.0f} %", e.frequency.fragility_part));
+    return cells;
 }
 
 std::string hazard_text(const HazardModel& hazard)
@@ -249,7 +237,7 @@ std::string risk_text(const Risk& risk)
 {
     std::string text = fmt::format("{}: limit states of {} by the hazard {}, {:g} % intervals\n", risk.title,
                                    risk.fragility_file, hazard_text(risk.hazard), 100 * risk.level);
-    text += "Each earthquake meets the structure as new; years are of a Poisson process.\n";
+    text += std::string(as_new_text) + "\n";
     if (const std::string conventions = conventions_text_of(risk.study_text); !conventions.empty())
         text += "conventions: " + conventions + "\n";
     if (!risk.hazard.fractiles.empty())
@@ -266,9 +254,6 @@ std::string risk_text(const Risk& risk)
 
 Json risk_json(const Risk& risk)
 {
-    Json states = Json::list();
-    for (const StateRisk& s : risk.states)
-        states.item(json_of(s, risk));
     Json json = Json::object();
     json.member("fragility", risk.fragility_file)
         .member("hazard", risk.hazard.source)
@@ -276,11 +261,88 @@ Json risk_json(const Risk& risk)
         .member("measure", risk.hazard.measure)
         .member("level", risk.level)
         .member("conventions", conventions_text_of(risk.study_text))
-        .member("states", states)
+        .member("states", json_list(risk.states, [&](const StateRisk& s) { return state_json(s, risk); }))
         .member("notes", Json::list(risk.says));
     if (risk.sequences)
-        json.member("sequences", json_of(*risk.sequences));
+        json.member("sequences", sequences_json(*risk.sequences));
     return json;
+}
+
+namespace {
+
+/// A part of the squared width without which the interval is less than 14 % narrower.
+constexpr double small_part = 0.25;
+
+/// The intensities between which the middle 80 % of a frequency lie, by whole parts.
+std::pair<double, double> middle_of(const FrequencyEstimate& estimate)
+{
+    double sum = 0, below = 0;
+    for (const FrequencyPart& part : estimate.parts)
+        sum += part.frequency.value;
+    std::pair<double, double> range{0, estimate.parts.back().to};
+    for (const FrequencyPart& part : estimate.parts) {
+        const double next = below + part.frequency.value / sum;
+        if (below <= 0.1 && next > 0.1)
+            range.first = part.from;
+        if (below < 0.9 && next >= 0.9)
+            range.second = part.to;
+        below = next;
+    }
+    return range;
+}
+
+} // namespace
+
+std::string risk_answer(const Risk& risk)
+{
+    const StateRisk& s = risk.principal();
+    if (!s.determined)
+        return fmt::format("How often the limit state '{}' is reached is not determined: {} times a year. {}",
+                           s.meaning, bounds_text(s.estimate.bounds), s.note);
+    const double years = risk.years.back();
+    const RiskNumber p = probability_over(s.estimate.frequency, years);
+    if (!(s.estimate.frequency.value > 0))
+        return fmt::format("No run of the study reached the limit state '{}'. By shaking as strong as the strongest of "
+                           "the runs, or stronger, its probability in {:g} years is at most {:.3g} % ({:g} % interval "
+                           "from 0).",
+                           s.meaning, years, 100 * p.total.upper, 100 * risk.level);
+    const std::string text =
+        fmt::format("In {:g} years the limit state '{}' is reached with a probability of {:.3g} % ({:.3g} to {:.3g}; "
+                    "{:g} % interval), on average once in {:.4g} years.",
+                    years, s.meaning, 100 * p.value, 100 * p.total.lower, 100 * p.total.upper, 100 * risk.level,
+                    1 / s.estimate.frequency.value);
+    if (std::isnan(s.estimate.by_mean_hazard))
+        return text;
+    return text + fmt::format(" By the mean hazard, the mean over its fractiles, the probability is {:.3g} %.",
+                              100 * probability_over(s.estimate.by_mean_hazard, years));
+}
+
+std::string risk_grounds(const Risk& risk)
+{
+    const StateRisk& s = risk.principal();
+    if (!s.determined || !(s.estimate.frequency.value > 0))
+        return {};
+    const auto [low, high] = middle_of(s.estimate);
+    const std::string unit = measure_unit(risk.hazard.measure);
+    std::string text = fmt::format("At least 80 % of the risk comes from {}{}. ", short_measure(risk.hazard.measure),
+                                   low > 0 && std::isinf(high) ? fmt::format(" above {:.2g} {}", low, unit)
+                                   : low > 0          ? fmt::format(" between {:.2g} and {:.2g} {}", low, high, unit)
+                                   : std::isinf(high) ? std::string(" at all intensities")
+                                                      : fmt::format(" below {:.2g} {}", high, unit));
+    const double part = s.estimate.frequency.fragility_part;
+    if (risk.hazard.fractiles.empty())
+        return text + "The interval is that of the fragility alone, since the hazard states no uncertainty.";
+    if (!std::isfinite(part))
+        return text + "The interval has no finite width, so its parts are not known; more motions in the study may "
+                      "give one.";
+    text += fmt::format("Of the uncertainty (the interval's squared width) {:.0f} % is due to the hazard and {:.0f} % "
+                        "due to the fragility. ",
+                        100 * (1 - part), 100 * part);
+    if (part > 1 - small_part)
+        return text + "More motions in the study would narrow it; a better hazard curve hardly would.";
+    if (part < small_part)
+        return text + "A better hazard curve would narrow it; more motions hardly would.";
+    return text + "A better hazard curve and more motions in the study would both narrow it.";
 }
 
 } // namespace stylobate

@@ -1,5 +1,5 @@
 #pragma once
-/// A risk estimate in words and as JSON.
+/// A risk estimate in words and as JSON; and what it comes to, for a reader who decides about a monument.
 
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/report/json.hpp"
@@ -18,13 +18,17 @@ Json risk_json(const Risk& risk);
 /// "0.31 % (0.22 to 0.45)" of a probability or a share.
 std::string percent_text(double value, const Limits& limits);
 
-/// The same of the probability over years that a frequency gives.
+/// The probability over years that a frequency gives, with its interval.
 std::string over_text(const RiskNumber& frequency, double years);
 
-/// Head of the column of the mean hazard, "in 100 years, mean hazard", and a limit state's probability there, "4.83 %";
-/// a dash without fractiles.
-std::string mean_hazard_head(const Risk& risk);
-std::string mean_hazard_text(const Risk& risk, const StateRisk& state);
+/// Heads of the table of limit states: "a year", "in 100 years", ..., "in 100 years, mean hazard", "uncertainty due to
+/// fragility".
+std::vector<std::string> risk_heads(const Risk& risk);
+/// The cells of a limit state below them; a dash where there is nothing to say. @pre it is determined
+std::vector<std::string> risk_cells(const Risk& risk, const StateRisk& state);
+
+/// What every risk estimate assumes.
+inline constexpr char as_new_text[] = "Each earthquake meets the structure as new; years are of a Poisson process.";
 
 /// "hazard.csv at 23.7,37.9".
 std::string hazard_text(const HazardModel& hazard);
@@ -40,5 +44,13 @@ std::string form_text(const Risk& risk, const StateRisk& state);
 
 /// "from 0.5 to 0.6", "below 0.5", "above 3".
 std::string range_text(const FrequencyPart& part);
+
+/// "In 100 years the limit state 'a block falls' is reached with a probability of 3.55 % (1.31 to 9.84; 90 % interval),
+/// on average once in 2770 years. By the mean hazard, the mean over its fractiles, the probability is 4.02 %." Of the
+/// principal limit state; where it is not determined, between which bounds.
+std::string risk_answer(const Risk& risk);
+
+/// Which intensities contribute, what makes the interval wide, and what would narrow it.
+std::string risk_grounds(const Risk& risk);
 
 } // namespace stylobate

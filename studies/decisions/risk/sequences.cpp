@@ -356,8 +356,8 @@ std::optional<SequenceRisk> simulate_sequences(const Results& results, const Ris
     estimate(s, endings);
     const RiskNumber expected = probability_over(collapse.estimate.frequency, s.years);
     const double unknown = std::nan("");
-    s.closed_form = collapse.determined ? expected.value : unknown;
-    s.closed_form_limits = collapse.determined ? expected.fragility : Limits{unknown, unknown};
+    s.closed_form = collapse.determined ? SequenceNumber{expected.value, expected.fragility}
+                                        : SequenceNumber{unknown, {unknown, unknown}};
     return s;
 }
 

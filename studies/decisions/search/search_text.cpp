@@ -85,7 +85,7 @@ std::string search_text(const SearchResult& r)
 
 Json search_json(const SearchResult& r)
 {
-    Json keys = Json::list(), points = Json::list();
+    Json keys = Json::list();
     for (std::size_t k = 0; k < r.best.size(); ++k)
         keys.item(Json::object()
                       .member("key", r.asked.keys[k].key)
@@ -94,30 +94,20 @@ Json search_json(const SearchResult& r)
                       .member("best", r.best[k])
                       .member("flat_from", r.flat_from[k])
                       .member("flat_to", r.flat_to[k]));
-    const auto share = [](const Share& s) {
-        return Json::object()
-            .member("probability", s.probability)
-            .member("lower", s.lower)
-            .member("upper", s.upper)
-            .member("trials", s.trials);
-    };
+    const auto share = [](const Share& s) { return json_of(s, {"probability", "lower", "upper", "trials"}); };
     const auto frequency = [](const RiskNumber& f) {
-        return Json::object()
-            .member("value", f.value)
-            .member("lower", f.fragility.lower)
-            .member("upper", f.fragility.upper)
-            .member("total_lower", f.total.lower)
-            .member("total_upper", f.total.upper);
+        return json_of(f, {"value",
+                           {"lower", "fragility_lower"},
+                           {"upper", "fragility_upper"},
+                           {"total_lower", "lower"},
+                           {"total_upper", "upper"}});
     };
-    for (const SearchedPoint& point : r.points) {
-        Json values = Json::list();
-        for (const double value : point.value)
-            values.item_as_is(fmt::format("{}", value));
-        Json json = Json::object().member("values", values).member("share", share(point.share));
+    const auto point_json = [&](const SearchedPoint& point) {
+        Json json = Json::object().member("values", json_of(point.value)).member("share", share(point.share));
         if (r.is_frequency())
             json.member("frequency", frequency(point.frequency));
-        points.item(json.member("results", point.results));
-    }
+        return json.member("results", point.results);
+    };
     Json json = Json::object();
     json.member("minimise", r.asked.minimise)
         .member("level", r.level)
@@ -125,7 +115,7 @@ Json search_json(const SearchResult& r)
         .member("lower", r.lower)
         .member("upper", r.upper)
         .member("keys", keys)
-        .member("points", points)
+        .member("points", json_list(r.points, point_json))
         .member("best_point", r.best_point)
         .member("base", share(r.base))
         .member("difference", r.change.difference)

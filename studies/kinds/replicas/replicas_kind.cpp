@@ -1,7 +1,7 @@
 #include "studies/kinds/replicas/replicas_kind.hpp"
 
 #include "ensemble/replicas/twins.hpp"
-#include "studies/kinds/replicas/followed_table.hpp"
+#include "io/tables/rows.hpp"
 #include "studies/kinds/replicas/twins_text.hpp"
 
 #include <numeric>
@@ -40,7 +40,8 @@ void ReplicasKind::take(const ResultRow& row)
 
 void ReplicasKind::restore(const ResultReader& reader)
 {
-    followed_ = followed_twins(reader.table("twins"));
+    if (const Table table = reader.table("twins"); !table.empty())
+        followed_ = rows_of<FollowedTwin>(table, "original");
     conclude();
 }
 
@@ -48,7 +49,9 @@ std::vector<Table> ReplicasKind::tables() const
 {
     if (followed_.empty())
         return {};
-    return {to_table(followed_)};
+    Table table("twins");
+    add_rows(table, followed_);
+    return {table};
 }
 
 std::string ReplicasKind::text() const

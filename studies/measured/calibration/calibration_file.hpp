@@ -1,6 +1,7 @@
 #pragma once
 /// A calibration as an HDF5 file; `io/FORMAT.md` describes its content.
 
+#include "ensemble/model/fields.hpp"
 #include "studies/measured/calibration/calibration.hpp"
 
 #include <cstdint>
@@ -47,5 +48,72 @@ StoredCalibration read_calibration(const std::filesystem::path& file);
 /// @param start the study that it began from   @throws InputError if it cannot be written
 void write_calibration(const Calibration& calibration, const Study& start, const std::string& code_version,
                        const std::filesystem::path& file);
+
+// ---- fields, in the file and in JSON --------------------------------------------------------------------------------
+
+template <class F>
+void visit_fields(std::type_identity<ProfilePoint>, F&& f)
+{
+    f("value", &ProfilePoint::value);
+    f("score", &ProfilePoint::score, {.unit = "nat"});
+}
+
+template <class F>
+void visit_fields(std::type_identity<FittedParameter>, F&& f)
+{
+    f("key", &FittedParameter::key);
+    f("start", &FittedParameter::start);
+    f("value", &FittedParameter::value);
+    f("low", &FittedParameter::low);
+    f("high", &FittedParameter::high);
+    f("range_low", &FittedParameter::from);
+    f("range_high", &FittedParameter::to);
+    f("determined", &FittedParameter::determined);
+    f("effective", &FittedParameter::effective);
+    f("note", &FittedParameter::note);
+}
+
+template <class F>
+void visit_fields(std::type_identity<RunScore>, F&& f)
+{
+    f("name", &RunScore::run);
+    f("motion_id", &RunScore::motion_id);
+    f("units", &RunScore::units);
+    f("nominal_score", &RunScore::nominal, {.unit = "nat"});
+    f("calibrated_score", &RunScore::calibrated, {.unit = "nat"});
+}
+
+template <class F>
+void visit_fields(std::type_identity<StoredForm>, F&& f)
+{
+    f("study_toml", &StoredForm::study_toml);
+    f("score", &StoredForm::score);
+    f("nominal_score", &StoredForm::nominal_score);
+    f("roughness", &StoredForm::roughness);
+    f(
+        "held_out_gain", [](auto& s) -> auto& { return s.held_out.total; });
+    f(
+        "held_out_groups", [](auto& s) -> auto& { return s.held_out.groups; });
+    f(
+        "held_out_low", [](auto& s) -> auto& { return s.held_out.low; });
+    f(
+        "held_out_high", [](auto& s) -> auto& { return s.held_out.high; });
+}
+
+template <class F>
+void visit_fields(std::type_identity<StoredCalibration>, F&& f)
+{
+    f("code_version", &StoredCalibration::code_version);
+    f("measured", &StoredCalibration::measured);
+    f("evidence", &StoredCalibration::evidence);
+    f("start_toml", &StoredCalibration::start_toml);
+    f("best_form", &StoredCalibration::best_form);
+    f("parameter_sets", &StoredCalibration::parameter_sets);
+    f("simulations", &StoredCalibration::simulations);
+    f("window_simulations", &StoredCalibration::window_simulations);
+    f("block_steps", &StoredCalibration::block_steps);
+    f("seconds", &StoredCalibration::seconds);
+    f("notes", &StoredCalibration::notes);
+}
 
 } // namespace stylobate

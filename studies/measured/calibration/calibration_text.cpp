@@ -1,6 +1,7 @@
 #include "studies/measured/calibration/calibration_text.hpp"
 
 #include "io/keys/words.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/report/words.hpp"
 #include "studies/version.hpp"
 
@@ -19,46 +20,29 @@ const char* form_name(ContactForm form)
 
 Json parameter_json(const FittedParameter& p)
 {
-    Json json = Json::object();
-    json.member("key", p.key)
-        .member("start", p.start)
-        .member("value", p.value)
-        .member("low", p.low)
-        .member("high", p.high)
-        .member("range_low", p.from)
-        .member("range_high", p.to)
-        .member("determined", p.determined)
-        .member("effective", p.effective)
-        .member("bounded_below", p.bounded_below)
+    Json json =
+        json_of(p, {"key", "start", "value", "low", "high", "range_low", "range_high", "determined", "effective"});
+    return json.member("bounded_below", p.bounded_below)
         .member("bounded_above", p.bounded_above)
         .member("note", p.note);
-    return json;
 }
 
-Json gain_json(const PairedGain& gain)
+Json run_json(const RunScore& run)
 {
-    return Json::object().member("nats", gain.total).member("low", gain.low).member("high", gain.high);
+    return json_of(run, {{"run", "name"}, "motion_id", "units", "nominal_score", "calibrated_score"});
 }
 
 Json form_json(const FormCalibration& form)
 {
-    Json parameters = Json::list(), runs = Json::list();
-    for (const FittedParameter& p : form.parameters)
-        parameters.item(parameter_json(p));
-    for (const RunScore& run : form.runs)
-        runs.item(Json::object()
-                      .member("run", run.run)
-                      .member("motion_id", run.motion_id)
-                      .member("units", run.units)
-                      .member("nominal_score", run.nominal)
-                      .member("calibrated_score", run.calibrated));
+    const PairedGain& gain = form.held_out;
     return Json::object()
         .member("form", form_name(form.form))
-        .member("parameters", parameters)
+        .member("parameters", json_list(form.parameters, parameter_json))
         .member("score", form.score)
         .member("nominal_score", form.nominal_score)
-        .member("held_out_gain", gain_json(form.held_out))
-        .member("runs", runs);
+        .member("held_out_gain",
+                Json::object().member("nats", gain.total).member("low", gain.low).member("high", gain.high))
+        .member("runs", json_list(form.runs, run_json));
 }
 
 std::string form_text(const FormCalibration& form, bool from_outcomes)
@@ -114,14 +98,11 @@ std::string calibration_progress(const std::string& stage, const Progress& p)
 
 Json calibration_json(const Calibration& c)
 {
-    Json forms = Json::list();
-    for (const FormCalibration& form : c.forms)
-        forms.item(form_json(form));
-    Json json = Json::object();
-    json.member("measured", c.measured)
+    return Json::object()
+        .member("measured", c.measured)
         .member("evidence", c.from_outcomes ? "outcomes" : "histories")
         .member("best_form", form_name(c.forms[c.best].form))
-        .member("forms", forms)
+        .member("forms", json_list(c.forms, form_json))
         .member("notes", Json::list(c.notes))
         .member("parameter_sets", c.parameter_sets)
         .member("restored_sets", c.restored_sets)
@@ -129,7 +110,6 @@ Json calibration_json(const Calibration& c)
         .member("window_simulations", c.window_simulations)
         .member("block_steps", c.block_steps)
         .member("seconds", c.seconds);
-    return json;
 }
 
 std::string calibrated_text(const Calibration& calibration, const std::string& measured)

@@ -147,8 +147,7 @@ inline SequenceRisk sample_sequences()
     s.fresh_share = {0.1, {0.07, 0.14}};
     s.difference = {0.05, {0.01, 0.09}};
     s.ratio = {1.5, {1.1, std::numeric_limits<double>::infinity()}};
-    s.closed_form = std::numeric_limits<double>::quiet_NaN();
-    s.closed_form_limits = {0, 1};
+    s.closed_form = {std::numeric_limits<double>::quiet_NaN(), {0, 1}};
     s.checked = 20;
     s.then_fell = 1;
     s.checked_threshold = 0.05;

@@ -5,7 +5,6 @@
 #include "io/files/temporary_folder.hpp"
 #include "studies/decisions/compare/comparison_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/risk/risk_change_file.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
@@ -141,7 +140,7 @@ TEST_F(DecisionFiles, ARiskOfAComparisonWithoutMeaningIsRefused)
     refused([](RiskChange& c) { c.years = {50, NAN}; }, "its years");
     refused([](RiskChange& c) { c.level = 0; }, "a level of its intervals");
     refused([](RiskChange& c) { c.variants[1].states.clear(); }, "a variant has no limit state");
-    refused([](RiskChange& c) { c.variants.clear(); }, "its variants are no list");
+    refused([](RiskChange& c) { c.variants.clear(); }, "it has no variant");
     refused([](RiskChange& c) { c.hazard.frequency[1] = 1; }, "its hazard is none");
 }
 

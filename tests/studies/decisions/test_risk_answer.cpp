@@ -1,6 +1,6 @@
 /// What a risk estimate comes to in sentences.
 
-#include "studies/decisions/risk/risk_answer.hpp"
+#include "studies/decisions/risk/risk_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -128,9 +128,9 @@ TEST_F(Sequences, SharesDifferenceAndRatioAreThoseOfTheCounts)
     EXPECT_NEAR(s.ratio.limits.lower, carried / fresh / reach, 1e-6);
     EXPECT_NEAR(s.ratio.limits.upper, carried / fresh * reach, 1e-6);
     // 1 - exp(-0.02 x 50), and of the limits of the fragility
-    EXPECT_NEAR(s.closed_form, 1 - std::exp(-1.0), 1e-12);
-    EXPECT_NEAR(s.closed_form_limits.lower, 1 - std::exp(-0.5), 1e-12);
-    EXPECT_NEAR(s.closed_form_limits.upper, 1 - std::exp(-1.5), 1e-12);
+    EXPECT_NEAR(s.closed_form.value, 1 - std::exp(-1.0), 1e-12);
+    EXPECT_NEAR(s.closed_form.limits.lower, 1 - std::exp(-0.5), 1e-12);
+    EXPECT_NEAR(s.closed_form.limits.upper, 1 - std::exp(-1.5), 1e-12);
     // the check of the threshold
     EXPECT_EQ(s.checked, 20U);
     EXPECT_EQ(s.checked_threshold, 0.125);

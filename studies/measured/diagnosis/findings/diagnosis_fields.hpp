@@ -1,11 +1,8 @@
 #pragma once
-/// The fields of a diagnosis with their names in the file, written once for the writer and the reader.
-///
-/// `visit_fields(std::type_identity<T>(), f)` calls f(name, &T::field) for each field of T, in the order of the file.
+/// The fields of a diagnosis (`ensemble/model/fields.hpp`): its file and its JSON object are made from them.
 
+#include "io/tables/rows.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
-#include "studies/measured/windows/field_table.hpp"
-#include "studies/measured/windows/window_motion_fields.hpp"
 
 #include <type_traits>
 
@@ -32,24 +29,8 @@ struct FieldWords<FigurePlace> {
     static constexpr const char* words[] = {"verdict",    "data",        "baseline", "wrong",
                                             "candidates", "unexplained", "gain",     "next_test"};
 };
-template <>
-struct ListOf<DiagnosisCost> {
-    using Item = DiagnosisCost;
-    static void add(DiagnosisCost& part, const DiagnosisCost& item) { part = item; }
-};
-
 template <class F>
-void for_each_item(const DiagnosisCost& part, F f)
-{
-    f(part);
-}
-
-/// Version 2 has no windows in motion.
-template <>
-inline constexpr std::uint64_t since_version<WindowMotions> = 3;
-
-template <class F>
-void visit_fields(std::type_identity<DataTest>, F f)
+void visit_fields(std::type_identity<DataTest>, F&& f)
 {
     f("name", &DataTest::name);
     f("place", &DataTest::place);
@@ -62,7 +43,7 @@ void visit_fields(std::type_identity<DataTest>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<CalibratedParameter>, F f)
+void visit_fields(std::type_identity<CalibratedParameter>, F&& f)
 {
     f("name", &CalibratedParameter::name);
     f("unit", &CalibratedParameter::unit);
@@ -74,7 +55,7 @@ void visit_fields(std::type_identity<CalibratedParameter>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<WrongStretch>, F f)
+void visit_fields(std::type_identity<WrongStretch>, F&& f)
 {
     f("run", &WrongStretch::run);
     f("block", &WrongStretch::block);
@@ -85,7 +66,7 @@ void visit_fields(std::type_identity<WrongStretch>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<Evidence>, F f)
+void visit_fields(std::type_identity<Evidence>, F&& f)
 {
     f("run", &Evidence::run);
     f("gain_nats", &Evidence::gain_nats);
@@ -93,27 +74,27 @@ void visit_fields(std::type_identity<Evidence>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<Candidate>, F f)
+void visit_fields(std::type_identity<Candidate>, F&& f)
 {
     f("mechanism", &Candidate::mechanism);
     f("place", &Candidate::place);
+    f("probability", &Candidate::probability);
     f("parameter", &Candidate::parameter);
-    f("unit", &Candidate::unit);
     f("size", &Candidate::size);
     f("low", &Candidate::low);
     f("high", &Candidate::high);
+    f("unit", &Candidate::unit);
     f("neutral", &Candidate::neutral);
     f("gain_nats", &Candidate::gain_nats);
     f("null95", &Candidate::null95);
     f("p", &Candidate::p);
-    f("probability", &Candidate::probability);
     f("decision", &Candidate::decision);
     f("why", &Candidate::why);
     f("evidence", &Candidate::evidence);
 }
 
 template <class F>
-void visit_fields(std::type_identity<NullEnsemble>, F f)
+void visit_fields(std::type_identity<NullEnsemble>, F&& f)
 {
     f("form", &NullEnsemble::form);
     f("campaigns", &NullEnsemble::campaigns);
@@ -121,7 +102,7 @@ void visit_fields(std::type_identity<NullEnsemble>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<RegressionFeature>, F f)
+void visit_fields(std::type_identity<RegressionFeature>, F&& f)
 {
     f("name", &RegressionFeature::name);
     f("gain", &RegressionFeature::gain);
@@ -129,7 +110,7 @@ void visit_fields(std::type_identity<RegressionFeature>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<Unexplained>, F f)
+void visit_fields(std::type_identity<Unexplained>, F&& f)
 {
     f("block", &Unexplained::block);
     f("coordinate", &Unexplained::coordinate);
@@ -139,7 +120,7 @@ void visit_fields(std::type_identity<Unexplained>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<CollapsePrediction>, F f)
+void visit_fields(std::type_identity<CollapsePrediction>, F&& f)
 {
     f("runs", &CollapsePrediction::runs);
     f("score_before", &CollapsePrediction::score_before);
@@ -150,21 +131,21 @@ void visit_fields(std::type_identity<CollapsePrediction>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<ModelGain>, F f)
+void visit_fields(std::type_identity<ModelGain>, F&& f)
 {
     f("error_before", &ModelGain::error_before);
     f("error_after", &ModelGain::error_after);
     f("low", &ModelGain::low);
     f("high", &ModelGain::high);
+    f("runs_left_out", &ModelGain::runs_left_out);
     f("unit", &ModelGain::unit);
     f("floor", &ModelGain::floor);
     f("text", &ModelGain::text);
-    f("runs_left_out", &ModelGain::runs_left_out);
     f("collapse", &ModelGain::collapse);
 }
 
 template <class F>
-void visit_fields(std::type_identity<MotionChoice>, F f)
+void visit_fields(std::type_identity<MotionChoice>, F&& f)
 {
     f("motion", &MotionChoice::motion);
     f("separation", &MotionChoice::separation);
@@ -172,23 +153,23 @@ void visit_fields(std::type_identity<MotionChoice>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<NextTest>, F f)
+void visit_fields(std::type_identity<NextTest>, F&& f)
 {
     f("excitation", &NextTest::excitation);
-    f("text", &NextTest::text);
     f("separates", &NextTest::separates);
+    f("text", &NextTest::text);
     f("motions", &NextTest::motions);
 }
 
 template <class F>
-void visit_fields(std::type_identity<Missing>, F f)
+void visit_fields(std::type_identity<Missing>, F&& f)
 {
     f("what", &Missing::what);
     f("why", &Missing::why);
 }
 
 template <class F>
-void visit_fields(std::type_identity<DiagnosisCost>, F f)
+void visit_fields(std::type_identity<DiagnosisCost>, F&& f)
 {
     f("simulations", &DiagnosisCost::simulations);
     f("window_simulations", &DiagnosisCost::window_simulations);
@@ -199,7 +180,7 @@ void visit_fields(std::type_identity<DiagnosisCost>, F f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<FigureSeries>, F f)
+void visit_fields(std::type_identity<FigureSeries>, F&& f)
 {
     f("name", &FigureSeries::name);
     f("kind", &FigureSeries::kind);
@@ -209,29 +190,22 @@ void visit_fields(std::type_identity<FigureSeries>, F f)
     f("high", &FigureSeries::high);
 }
 
-/// A field of the figure itself, as one of the diagnosis' figure.
-template <class Field>
-constexpr auto of_figure(Field Figure::*field)
-{
-    return static_cast<Field DiagnosisFigure::*>(field);
-}
-
 template <class F>
-void visit_fields(std::type_identity<DiagnosisFigure>, F f)
+void visit_fields(std::type_identity<DiagnosisFigure>, F&& f)
 {
     f("place", &DiagnosisFigure::place);
-    f("title", of_figure(&Figure::title));
-    f("caption", of_figure(&Figure::caption));
-    f("x_label", of_figure(&Figure::x_label));
-    f("y_label", of_figure(&Figure::y_label));
-    f("x_log", of_figure(&Figure::x_log));
-    f("y_log", of_figure(&Figure::y_log));
-    f("x_ticks", of_figure(&Figure::x_ticks));
-    f("series", of_figure(&Figure::series));
+    f("title", &Figure::title);
+    f("caption", &Figure::caption);
+    f("x_label", &Figure::x_label);
+    f("y_label", &Figure::y_label);
+    f("x_log", &Figure::x_log);
+    f("y_log", &Figure::y_log);
+    f("x_ticks", &Figure::x_ticks);
+    f("series", &Figure::series);
 }
 
 template <class F>
-void visit_fields(std::type_identity<Diagnosis>, F f)
+void visit_fields(std::type_identity<Diagnosis>, F&& f)
 {
     f("measured_file", &Diagnosis::measured_file);
     f("measured_fingerprint", &Diagnosis::measured_fingerprint);
@@ -262,7 +236,7 @@ void visit_fields(std::type_identity<Diagnosis>, F f)
     f("method", &Diagnosis::method);
     f("cost", &Diagnosis::cost);
     f("figures", &Diagnosis::figures);
-    f("motion", &Diagnosis::motion);
+    f("motion", &Diagnosis::motion, {.since = 3});
 }
 
 } // namespace stylobate

@@ -2,7 +2,6 @@
 
 #include "io/sealed/sealed_file.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_fields.hpp"
-#include "studies/measured/windows/field_table.hpp"
 
 /// The diagnosis itself is a table of one item, the root.
 namespace stylobate {
@@ -15,19 +14,18 @@ constexpr SealedFormat format{"stylobate-diagnosis", "diagnosis", 3, 2, "run the
 
 void write_diagnosis(const Diagnosis& diagnosis, const std::filesystem::path& file)
 {
-    write_sealed_file(file, format, diagnosis.code_version,
-                      [&](hid_t root) { write_table<Diagnosis>(root, {&diagnosis}); });
+    Table table(format.kind);
+    add_items<Diagnosis>(table, {&diagnosis});
+    write_sealed_file(file, format, diagnosis.code_version, table);
 }
 
 Diagnosis read_diagnosis(const std::filesystem::path& file)
 {
-    Diagnosis diagnosis;
-    read_sealed_file(file, format, [&](hid_t root, std::uint64_t version) {
-        diagnosis = std::move(read_table<Diagnosis>(root, 1, version).front());
-        if (diagnosis.motion)
-            if (const std::string fault = diagnosis.motion->fault(); !fault.empty())
-                throw hdf5::Error(fault);
-    });
+    const auto [table, version] = read_sealed_file(file, format);
+    Diagnosis diagnosis = std::move(items_of<Diagnosis>(table, 1, version).front());
+    if (diagnosis.motion)
+        if (const std::string fault = diagnosis.motion->fault(); !fault.empty())
+            table.refuse(fault);
     for (Candidate& candidate : diagnosis.candidates) // 0.2.0 stored 0 where none was computed
         if (candidate.decision == Decision::not_shown && candidate.probability == 0.0)
             candidate.probability.reset();

@@ -33,7 +33,7 @@ std::size_t expect_equal(const T& a, const T& b, const std::string& where)
         for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
             compared += expect_equal(a[i], b[i], where + "[" + std::to_string(i) + "]");
     } else {
-        visit_fields(std::type_identity<T>(), [&](const char* name, auto field) {
+        visit_fields(std::type_identity<T>(), [&](const char* name, auto field, const FieldFacts& = {}) {
             compared += expect_equal(a.*field, b.*field, where + "." + name);
         });
     }
@@ -75,7 +75,7 @@ template <class T>
 std::size_t listed()
 {
     std::size_t fields = 0;
-    visit_fields(std::type_identity<T>(), [&](const char*, auto) { ++fields; });
+    visit_fields(std::type_identity<T>(), [&](const char*, auto, const FieldFacts& = {}) { ++fields; });
     return fields;
 }
 

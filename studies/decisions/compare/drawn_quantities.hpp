@@ -1,5 +1,9 @@
 #pragma once
-/// On which drawn quantities the gain of a variant depends: friction, stiffness, a phase.
+/// The drawn quantities of two studies (friction, stiffness, a phase): which draws both have in common, and on which
+/// the gain of a variant depends.
+///
+/// A draw is keyed by seed, index, stream and element, so that it does not depend on what else a study draws; its value
+/// depends on the distribution. What is common is found in the numbers themselves.
 
 #include "io/store/result_store.hpp"
 #include "studies/decisions/compare/comparison.hpp"
@@ -7,9 +11,18 @@
 #include "studies/decisions/compare/study_side.hpp"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// What two studies have in common, by quantity, and of a quantity by relation. A number is the same if all pairs have
+/// the same bits; it is the same quantile if the order of the realizations is the same.
+/// @param names of the inputs: "friction[3]"
+std::vector<CommonInput> common_inputs(const std::vector<StudySide::Draws>& base,
+                                       const std::vector<std::string>& base_names,
+                                       const std::vector<StudySide::Draws>& variant,
+                                       const std::vector<std::string>& variant_names);
 
 /// Pairs that are looked at, at most: the first ones of each cell.
 inline constexpr std::uint64_t most_dependence_pairs = 4'000'000;

@@ -1,4 +1,4 @@
-#include "studies/decisions/laws/law_runs.hpp"
+#include "studies/decisions/compare/law_runs.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"

@@ -1,14 +1,12 @@
-#include "studies/decisions/adaptive/adaptive_comparison.hpp"
+#include "studies/decisions/compare/adaptive_comparison.hpp"
 
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "studies/decisions/compare/comparable.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace stylobate {
 
@@ -75,12 +73,8 @@ std::optional<Comparison> compare_adaptively(const StudyRuns& studies, const std
         }
         VariantComparison found = compare_sides(side_now(base), base.header().input_names, side_now(variant),
                                                 variant.header().input_names, layout);
-        found.name = names[i];
-        found.results = std::filesystem::path(variant.results()).filename().string();
-        found.study_toml = variant.header().study_toml;
-        found.notes = differences_to_know(base.header(), variant.header());
         comparison.adaptive_rounds = std::max(comparison.adaptive_rounds, allocation.rounds());
-        comparison.variants.push_back(std::move(found));
+        add_variant(comparison, std::move(found), names[i], variant.results(), base.header(), variant.header());
     }
     return comparison;
 }
