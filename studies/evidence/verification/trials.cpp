@@ -1,6 +1,7 @@
 #include "studies/evidence/verification/trials.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/statics/bed.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/settle.hpp"
 #include "studies/evidence/verification/reference_solver.hpp"
@@ -16,11 +17,6 @@ namespace {
 using reference::Number;
 using reference::Solver;
 using reference::State;
-
-const Block& block_of(const Realization& r, int block)
-{
-    return r.blocks[static_cast<std::size_t>(block)];
-}
 
 double rate_of(const Realization& r, int block)
 {
