@@ -149,7 +149,7 @@ std::optional<RunReport> merge_shards(const MergeRequest& request, const Machine
     const Study study = parse_study(header.study_toml, first + " (its study)");
     LoadedStudy loaded = LoadedStudy::from_results(study, header, first, request.settings);
     const std::filesystem::path unready = request.output + ".merging";
-    auto run = std::make_unique<StudyRun>(std::move(loaded), header, first, "");
+    auto checked = std::make_unique<StudyRun>(std::move(loaded), header, first, "");
     const RunOptions options = machine.run_options();
 
     std::vector<ShardFile> parts;
@@ -159,12 +159,13 @@ std::optional<RunReport> merge_shards(const MergeRequest& request, const Machine
     const DoneSet::Part there = all.all(), sample = all.sample();
     const bool complete = there.end == header.total;
     if (!complete && !request.partial)
-        throw InputError(missing_text(parts, run->kind(), there.end, header.total));
+        throw InputError(missing_text(parts, checked->kind(), there.end, header.total));
 
     // nothing is refused any more
     observer.begin();
     std::filesystem::remove(unready);
     const Temporary temporary(unready);
+    std::unique_ptr<StudyRun> run = std::move(checked); // closed before its file is removed
     RunReport report{
         .results = request.output,
         .run = nullptr,
