@@ -17,7 +17,6 @@
 #include "ensemble/engine/executor.hpp"
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
-#include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
 #include "studies/calibration/fit_keys.hpp"
 #include "studies/windows/window_comparison.hpp"
