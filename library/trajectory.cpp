@@ -21,6 +21,13 @@ namespace {
         "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
 }
 
+/// The lists of numbers of a trajectory of the engine or of the library.
+template <class From, class To>
+void copy_lists(const From& from, To& to)
+{
+    inner::visit_lists<From, To>([&](auto, auto, auto, auto field, auto its_field) { to.*its_field = from.*field; });
+}
+
 Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
 {
     const inner::Study& study = loaded.study();
@@ -31,20 +38,12 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
     inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
-    t.time_s = std::move(f.trajectory.time_s);
-    t.x_m = std::move(f.trajectory.x_m);
-    t.y_m = std::move(f.trajectory.y_m);
-    t.theta_rad = std::move(f.trajectory.theta_rad);
-    t.base_x_m = std::move(f.trajectory.base_x_m);
-    t.half_width_m = std::move(f.trajectory.half_width_m);
-    t.half_height_m = std::move(f.trajectory.half_height_m);
-    t.rest_x_m = std::move(f.trajectory.rest_x_m);
-    t.rest_y_m = std::move(f.trajectory.rest_y_m);
+    copy_lists(f.trajectory, t);
     for (std::size_t i = 0; i < t.blocks(); ++i) {
         t.fixed.push_back(f.realization.blocks[i].fixed);
         t.epistyle.push_back(f.trajectory.role[i] == inner::BlockRole::epistyle);
-        t.column.push_back(f.trajectory.column[i]);
     }
+    t.column = std::move(f.trajectory.column);
     t.name = std::move(f.trajectory.name);
     return t;
 }
@@ -52,14 +51,9 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
 /// @throws InputError if the arrays of a trajectory do not fit each other
 void check(const Trajectory& t)
 {
-    const std::size_t n = t.blocks(), samples = t.time_s.size();
-    bool fits = samples > 0 && n > 0 && t.base_x_m.size() == samples && t.fixed.size() == n && t.epistyle.size() == n &&
-                t.column.size() == n;
-    for (const std::vector<double>* each : {&t.x_m, &t.y_m, &t.theta_rad})
-        fits = fits && each->size() == samples * n;
-    for (const std::vector<double>* each : {&t.half_height_m, &t.rest_x_m, &t.rest_y_m})
-        fits = fits && each->size() == n;
-    if (!fits)
+    const std::size_t n = t.blocks();
+    if (t.time_s.empty() || n == 0 || !inner::lists_fit(t) || t.fixed.size() != n || t.epistyle.size() != n ||
+        t.column.size() != n)
         throw InputError("a trajectory with arrays of inconsistent sizes");
 }
 
@@ -143,15 +137,7 @@ void write_strip(const Trajectory& t, const std::filesystem::path& png, const st
     check(t);
     inner::Trajectory strip;
     strip.index = t.outcome.index;
-    strip.time_s = t.time_s;
-    strip.x_m = t.x_m;
-    strip.y_m = t.y_m;
-    strip.theta_rad = t.theta_rad;
-    strip.base_x_m = t.base_x_m;
-    strip.rest_x_m = t.rest_x_m;
-    strip.rest_y_m = t.rest_y_m;
-    strip.half_width_m = t.half_width_m;
-    strip.half_height_m = t.half_height_m;
+    copy_lists(t, strip);
     strip.name = t.name;
     strip.column = t.column;
     for (const bool epistyle : t.epistyle)

@@ -24,7 +24,9 @@ struct FieldFacts {
     const char* says = "";   ///< its meaning, in the words of files and of the documentation
     const char* unit = "";   ///< where the end of its name is not its unit
     const char* none = "";   ///< what stands for "none", and its meaning
+    const char* more = "";   ///< the rest of its meaning, for the documentation alone
     std::uint64_t since = 0; ///< the first version of the file that has it
+    bool is_signed = false;  ///< whether a number may be negative
 };
 
 /// The unit at the end of a name, as files and tables have it: "m/s2" of "pga_m_s2". Empty: none.

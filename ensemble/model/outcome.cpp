@@ -1,35 +1,22 @@
 #include "ensemble/model/outcome.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace stylobate {
 
 const char* to_string(State state)
 {
-    switch (state) {
-    case State::stood:
-        return "stood";
-    case State::rocked:
-        return "rocked";
-    case State::slid:
-        return "slid";
-    case State::collapsed:
-        return "collapsed";
-    case State::invalid:
-        return "invalid";
-    }
-    return "unknown";
+    constexpr std::array names = {"stood", "rocked", "slid", "collapsed", "invalid"};
+    const auto i = static_cast<std::size_t>(state);
+    return i < names.size() ? names[i] : "unknown";
 }
 
 const char* to_string(InvalidReason reason)
 {
-    switch (reason) {
-    case InvalidReason::none:
-        return "none";
-    case InvalidReason::not_finite:
-        return "not_finite";
-    case InvalidReason::energy:
-        return "energy";
-    }
-    return "unknown";
+    constexpr std::array names = {"none", "not_finite", "energy"};
+    const auto i = static_cast<std::size_t>(reason);
+    return i < names.size() ? names[i] : "unknown";
 }
 
 } // namespace stylobate

@@ -1,7 +1,12 @@
 #pragma once
 /// How a realization ended. Plain data, SI units.
 
+#include "ensemble/model/fields.hpp"
+
 #include <cstdint>
+#include <limits>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace stylobate {
@@ -16,37 +21,15 @@ inline constexpr std::int32_t several_blocks = -2;
 const char* to_string(State state);
 const char* to_string(InvalidReason reason);
 
+/// What stands for "none" in the fields of an outcome. A time of what did not happen is -1 in memory.
+inline constexpr char it_did_not_happen[] = "NaN: it did not happen";
+inline constexpr char it_still_moved[] = "NaN: the structure still moved at the end";
+inline constexpr char no_block[] = "-1: no block; -2: several blocks, together";
+
+/// Each number has its line, with its meaning, in `outcome_fields.inc`.
 struct Outcome {
-    State state = State::stood;
-    InvalidReason invalid_reason = InvalidReason::none;
-    double collapse_time_s = -1;            ///< first time of the collapse; -1 = none
-    std::int32_t first_collapse_block = -1; ///< that met the collapse criterion first; -1 = none; `several_blocks`
-    std::int32_t fallen_blocks = 0;         ///< how many have met it by the end
-    std::int32_t unseated_block = -1;       ///< epistyle that lost a seat first; -1 = none; `several_blocks`
-    std::int32_t at_rest = 0; ///< 1: it lay still at the end (`at_rest` in engine/watch.hpp); 0: it still moved, and
-                              ///< what remains of its motion (`residual_...`) is NaN. 0 too of one that was set aside
-    double unseating_time_s = -1;       ///< when, as a check found it (every `chunk_steps` steps); -1 = never
-    double total_collapse_time_s = -1;  ///< when every column and every epistyle had fallen; -1 = not so
-    double peak_top_displacement_m = 0; ///< largest |x| of the top block's centre from its place in the reference stack
-    double residual_top_displacement_m = 0; ///< x of the top block's centre at rest, from its rest at the start
-    double top_path_m = 0;                  ///< path of the top block's centre against the base
-    double total_sliding_m = 0;             ///< sum over the beds of the slip while slipping
-    double sliding_path_m = 0;              ///< sum over the beds of the relative path of the faces in contact
-    double residual_sliding_m = 0;          ///< sum over the beds of how far the faces lie from where they lay
-    double residual_dislocation = 0;        ///< of the bed whose faces lie furthest from where they lay, over its width
-    double total_rocking_rad = 0;           ///< sum over the beds of the largest relative rotation
-    double rocking_path_rad = 0;            ///< sum over the beds of the path of the relative rotation
-    double max_relative_rotation_rad = 0;   ///< of the bed that rotated most
-    double energy_kinetic_j = 0;            ///< at the end
-    double energy_potential_j = 0;          ///< gravity, against the start
-    double energy_spring_j = 0;             ///< normal and tangential, against the start
-    double energy_friction_j = 0;           ///< dissipated by friction
-    double energy_damping_j = 0;            ///< dissipated by the dashpots
-    double energy_base_work_j = 0;          ///< done by the base
-    double energy_residual = 0;             ///< what the balance lacks, over the energy scale of the run
-    double end_time_s = 0;                  ///< simulated time
-    double step_s = 0;                      ///< time step
-    std::uint64_t steps = 0;
+#define STYLOBATE_OUTCOME(type, name, value, ...) type name = value;
+#include "include/stylobate/outcome_fields.inc"
     std::vector<double> fall_time_s; ///< (blocks but the ground) when each met the collapse criterion, exact to a step;
                                      ///< -1 = never. Equal times: together
     // Of a survival study, else empty; of one that was set aside 0.
@@ -54,5 +37,52 @@ struct Outcome {
                                       ///< right
     std::vector<double> rotation_rad; ///< (blocks but the ground) from upright, at the end
 };
+
+/// The numbers of an outcome.
+template <class F>
+void visit_fields(std::type_identity<Outcome>, F&& f)
+{
+#define STYLOBATE_OUTCOME(type, name, value, ...) f(#name, &Outcome::name, FieldFacts{__VA_ARGS__});
+#include "include/stylobate/outcome_fields.inc"
+}
+
+/// Its lists: f(name, field, what they have a value of: "block" or "bed", facts).
+template <class F>
+void visit_lists(std::type_identity<Outcome>, F&& f)
+{
+    f("fall_time_s", &Outcome::fall_time_s, "block",
+      FieldFacts{.says = "time at which each block fell",
+                 .none = it_did_not_happen,
+                 .more = "when it met the collapse criterion, exact to one step (`step_s`): the first step after which "
+                         "it was outside its limits and did not come back. Blocks with the same time fell together"});
+    f("bed_offset_m", &Outcome::bed_offset_m, "bed",
+      FieldFacts{.says = "displacement of the faces of each joint at the end",
+                 .more = "from where they lay at the start, along the lower face; positive: the upper block moved to "
+                         "the right",
+                 .is_signed = true});
+    f("rotation_rad", &Outcome::rotation_rad, "block",
+      FieldFacts{
+          .says = "rotation of each block at the end", .more = "from upright, counter-clockwise", .is_signed = true});
+}
+
+constexpr bool is_event_time(const FieldFacts& facts)
+{
+    return facts.none == std::string_view(it_did_not_happen);
+}
+
+/// A time as files and tables have it: NaN, if it is of what did not happen.
+inline double event_time(double time_s)
+{
+    return time_s == -1 ? std::numeric_limits<double>::quiet_NaN() : time_s;
+}
+/// A number of an outcome as files and tables have it.
+template <class Number>
+Number without_none(const FieldFacts& facts, Number value)
+{
+    if constexpr (std::is_same_v<Number, double>)
+        return is_event_time(facts) ? event_time(value) : value;
+    else
+        return value;
+}
 
 } // namespace stylobate

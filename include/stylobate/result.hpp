@@ -28,43 +28,18 @@ enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 }
 /// "none", "not_finite", "energy"
 const char* to_string(InvalidReason reason);
 
-/// One realization. Times are from the start of the simulation; -1 where a thing did not happen.
+/// One realization. Times are from the start of the simulation; -1 where a thing did not happen. The numbers that every
+/// outcome has, from `state` to `steps`, are listed in `outcome_fields.inc`.
 struct Outcome {
     std::uint64_t index = 0;
     std::uint64_t cell = 0;  ///< of a surface, frequency by frequency; of a fragility study, motion by motion
     double frequency_hz = 0; ///< of the shaking
     double pga_m_s2 = 0;     ///< of the shaking
-    State state = State::stood;
-    InvalidReason invalid_reason = InvalidReason::none;
-    double collapse_time_s = -1;
-    std::int32_t first_fallen_block = -1; ///< in layout order; -2: several at the same step
-    std::int32_t fallen_blocks = 0;
-    bool at_rest = false;             ///< it lay still at the end; else its residuals are NaN
-    std::int32_t unseated_block = -1; ///< epistyle that lost a seat first; -2: several at once
-    double unseating_time_s = -1;
-    double total_collapse_time_s = -1; ///< when all had fallen, where the study follows its realizations to rest
-    double peak_top_displacement_m = 0;
-    double residual_top_displacement_m = 0;
-    double top_path_m = 0;           ///< path of the top block's centre relative to the base
-    double total_sliding_m = 0;      ///< sum over the beds
-    double sliding_path_m = 0;       ///< sum over the beds of the relative path of the faces in contact
-    double residual_sliding_m = 0;   ///< sum over the beds
-    double residual_dislocation = 0; ///< of the bed that is worst, over its width
-    double total_rocking_rad = 0;    ///< sum over the beds of the largest relative rotation
-    double rocking_path_rad = 0;     ///< sum over the beds of the path of the relative rotation
-    double max_relative_rotation_rad = 0;
-    double energy_kinetic_j = 0;   ///< at the end
-    double energy_potential_j = 0; ///< gravity, relative to the start
-    double energy_spring_j = 0;    ///< contact springs, relative to the start
-    double energy_friction_j = 0;  ///< dissipated
-    double energy_damping_j = 0;   ///< dissipated
-    double energy_base_work_j = 0; ///< done by the base
-    double energy_residual = 0;    ///< residual of the balance, relative to the energy that passed through it
-    double end_time_s = 0;         ///< simulated time
-    double step_s = 0;
-    std::uint64_t steps = 0;
-    std::vector<double> fall_time_s; ///< (blocks) when each fell
-    std::vector<double> inputs;      ///< (`Result::input_names`) what was drawn
+#define STYLOBATE_OUTCOME(type, name, value, ...) type name = value;
+#define STYLOBATE_OUTCOME_AS(public_type, public_name, type, name, value, ...) public_type public_name = value;
+#include "stylobate/outcome_fields.inc" // each number with its meaning
+    std::vector<double> fall_time_s;    ///< (blocks) when each fell
+    std::vector<double> inputs;         ///< (`Result::input_names`) what was drawn
 };
 
 /// Share of the valid realizations.

@@ -104,6 +104,16 @@ Handle open_attribute(hid_t object, const std::string& name)
     return handle("no attribute '" + name + "'", H5Aclose, [&] { return H5Aopen(object, name.c_str(), H5P_DEFAULT); });
 }
 
+Handle open_any(hid_t parent, const std::string& path)
+{
+    return handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+}
+
+Handle type_of(hid_t dataset, const std::string& path)
+{
+    return handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset); });
+}
+
 Dims shape(hid_t dataset, const std::string& path)
 {
     const Handle space = handle("no shape of '" + path + "'", H5Sclose, [&] { return H5Dget_space(dataset); });
@@ -132,6 +142,15 @@ Handle type_of_one(hid_t attribute, const std::string& name)
     return handle(what, H5Tclose, [&] { return H5Aget_type(attribute); });
 }
 
+std::string read_variable_text(hid_t attribute, hid_t type, const std::string& what)
+{
+    char* value = nullptr;
+    call(what, [&] { return H5Aread(attribute, type, &value); });
+    const std::string text = value ? value : "";
+    H5free_memory(value);
+    return text;
+}
+
 void write_attribute(hid_t object, const std::string& name, hid_t stored, hid_t native, const void* value)
 {
     const std::string what = "cannot write the attribute '" + name + "'";
@@ -139,6 +158,21 @@ void write_attribute(hid_t object, const std::string& name, hid_t stored, hid_t 
     const Handle attribute = handle(
         what, H5Aclose, [&] { return H5Acreate2(object, name.c_str(), stored, space.id(), H5P_DEFAULT, H5P_DEFAULT); });
     call(what, [&] { return H5Awrite(attribute.id(), native, value); });
+}
+
+/// The types of numbers in files and in memory.
+struct NumberTypes {
+    hid_t stored, native;
+};
+template <class T>
+NumberTypes types_of()
+{
+    if constexpr (std::is_same_v<T, double>)
+        return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return {H5T_STD_U64LE, H5T_NATIVE_UINT64};
+    else
+        return {H5T_STD_I32LE, H5T_NATIVE_INT32};
 }
 
 template <class T>
@@ -264,9 +298,8 @@ Kind kind_of_type(hid_t type, const std::string& what)
 
 Kind kind_of(hid_t parent, const std::string& path)
 {
-    const Handle dataset =
-        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
-    const Handle type = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    const Handle dataset = open_any(parent, path);
+    const Handle type = type_of(dataset.id(), path);
     return kind_of_type(type.id(), "'" + path + "'");
 }
 
@@ -333,9 +366,8 @@ Handle create_dataset(hid_t parent, const std::string& path, hid_t type, const D
 
 Handle open_dataset(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
 {
-    Handle dataset =
-        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
-    const Handle stored = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    Handle dataset = open_any(parent, path);
+    const Handle stored = type_of(dataset.id(), path);
     if (call("no type of '" + path + "'", [&] { return H5Tequal(stored.id(), type); }) == 0)
         throw Error("'" + path + "' does not have the required type");
     if (shape(dataset.id(), path) != dims)
@@ -345,8 +377,7 @@ Handle open_dataset(hid_t parent, const std::string& path, hid_t type, const Dim
 
 Dims dims_of(hid_t parent, const std::string& path)
 {
-    const Handle dataset =
-        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
+    const Handle dataset = open_any(parent, path);
     return shape(dataset.id(), path);
 }
 
@@ -361,23 +392,26 @@ std::uint64_t offset_of(hid_t dataset)
     return offset;
 }
 
-void write_array(hid_t parent, const std::string& path, const std::vector<double>& values, const Dims& dims,
+template <class T>
+void write_array(hid_t parent, const std::string& path, const std::vector<T>& values, const Dims& dims,
                  const std::string& unit)
 {
-    write_new(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, dims, unit);
+    write_new(parent, path, types_of<T>().stored, types_of<T>().native, values, dims, unit);
 }
 
-void write_array(hid_t parent, const std::string& path, const std::vector<std::uint64_t>& values, const Dims& dims,
-                 const std::string& unit)
+template <class T>
+std::vector<T> read_array(hid_t parent, const std::string& path, const Dims& dims)
 {
-    write_new(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, values, dims, unit);
+    return read_whole<T>(parent, path, types_of<T>().stored, types_of<T>().native, dims);
 }
 
-void write_array(hid_t parent, const std::string& path, const std::vector<std::int32_t>& values, const Dims& dims,
-                 const std::string& unit)
-{
-    write_new(parent, path, H5T_STD_I32LE, H5T_NATIVE_INT32, values, dims, unit);
-}
+template void write_array(hid_t, const std::string&, const std::vector<double>&, const Dims&, const std::string&);
+template void write_array(hid_t, const std::string&, const std::vector<std::uint64_t>&, const Dims&,
+                          const std::string&);
+template void write_array(hid_t, const std::string&, const std::vector<std::int32_t>&, const Dims&, const std::string&);
+template std::vector<double> read_array(hid_t, const std::string&, const Dims&);
+template std::vector<std::uint64_t> read_array(hid_t, const std::string&, const Dims&);
+template std::vector<std::int32_t> read_array(hid_t, const std::string&, const Dims&);
 
 void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::vector<std::uint8_t>& values,
                  const Dims& dims)
@@ -407,21 +441,6 @@ void write_texts(hid_t parent, const std::string& path, const std::vector<std::s
         values.push_back(text.c_str());
     if (!values.empty())
         write_values(dataset.id(), path, type.id(), values.data());
-}
-
-std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims)
-{
-    return read_whole<double>(parent, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, dims);
-}
-
-std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, const Dims& dims)
-{
-    return read_whole<std::uint64_t>(parent, path, H5T_STD_U64LE, H5T_NATIVE_UINT64, dims);
-}
-
-std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, const Dims& dims)
-{
-    return read_whole<std::int32_t>(parent, path, H5T_STD_I32LE, H5T_NATIVE_INT32, dims);
 }
 
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims)
@@ -459,14 +478,9 @@ std::vector<std::string> read_texts(hid_t parent, const std::string& path, const
 
 void write_text(hid_t object, const std::string& name, const std::string& text)
 {
-    const std::string what = "cannot write the attribute '" + name + "'";
     const Handle type = text_type();
-    const Handle space = scalar();
-    const Handle attribute = handle(what, H5Aclose, [&] {
-        return H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT);
-    });
     const char* value = text.c_str();
-    call(what, [&] { return H5Awrite(attribute.id(), type.id(), &value); });
+    write_attribute(object, name, type.id(), type.id(), &value);
 }
 
 void write_number(hid_t object, const std::string& name, hid_t type, std::uint64_t value)
@@ -490,12 +504,7 @@ std::string read_text(hid_t object, const std::string& name)
     if (H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) <= 0 ||
         H5Sget_simple_extent_type(space.id()) != H5S_SCALAR)
         throw Error("the attribute '" + name + "' is not a text");
-    const Handle type = text_type();
-    char* value = nullptr;
-    call(what, [&] { return H5Aread(attribute.id(), type.id(), &value); });
-    const std::string text = value ? value : "";
-    H5free_memory(value);
-    return text;
+    return read_variable_text(attribute.id(), text_type().id(), what);
 }
 
 std::uint64_t read_number(hid_t object, const std::string& name)
@@ -513,9 +522,8 @@ std::uint64_t read_number(hid_t object, const std::string& name)
 
 Numbers read_numbers(hid_t parent, const std::string& path)
 {
-    const Handle dataset =
-        handle("no data set '" + path + "'", H5Dclose, [&] { return H5Dopen2(parent, path.c_str(), H5P_DEFAULT); });
-    const Handle stored = handle("no type of '" + path + "'", H5Tclose, [&] { return H5Dget_type(dataset.id()); });
+    const Handle dataset = open_any(parent, path);
+    const Handle stored = type_of(dataset.id(), path);
     check_is_number(stored.id(), "'" + path + "'");
     Numbers numbers;
     numbers.dims = shape(dataset.id(), path);
@@ -556,10 +564,7 @@ std::string read_any_text(hid_t object, const std::string& name)
         throw Error("the attribute '" + name + "' is not a text");
     std::string text;
     if (H5Tis_variable_str(stored.id()) > 0) {
-        char* value = nullptr;
-        call(what, [&] { return H5Aread(attribute.id(), stored.id(), &value); });
-        text = value ? value : "";
-        H5free_memory(value);
+        text = read_variable_text(attribute.id(), stored.id(), what);
     } else {
         constexpr std::size_t longest = 65536; // of an attribute in the usual, compact place
         const std::size_t size = H5Tget_size(stored.id());

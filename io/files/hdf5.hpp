@@ -71,12 +71,10 @@ Kind kind_of_attribute(hid_t object, const std::string& name);
 /// Names of the attributes, in the order of their characters.
 std::vector<std::string> attributes_of(hid_t object);
 
-/// A new one-step data set of doubles or counts, row by row, with its unit where it has one.
-void write_array(hid_t parent, const std::string& path, const std::vector<double>& values, const Dims& dims,
-                 const std::string& unit);
-void write_array(hid_t parent, const std::string& path, const std::vector<std::uint64_t>& values, const Dims& dims,
-                 const std::string& unit);
-void write_array(hid_t parent, const std::string& path, const std::vector<std::int32_t>& values, const Dims& dims,
+/// A new one-step data set of doubles, counts (uint64) or whole numbers (int32), row by row, with its unit where it has
+/// one.
+template <class T>
+void write_array(hid_t parent, const std::string& path, const std::vector<T>& values, const Dims& dims,
                  const std::string& unit);
 /// Of one byte each, as `byte_enumeration` makes the type.
 void write_bytes(hid_t parent, const std::string& path, hid_t type, const std::vector<std::uint8_t>& values,
@@ -87,9 +85,11 @@ void write_words(hid_t parent, const std::string& path, const std::vector<std::s
 /// UTF-8 of variable length, without NUL.
 void write_texts(hid_t parent, const std::string& path, const std::vector<std::string>& texts);
 /// @throws Error if it has another type or shape
-std::vector<double> read_doubles(hid_t parent, const std::string& path, const Dims& dims);
-std::vector<std::uint64_t> read_counts(hid_t parent, const std::string& path, const Dims& dims);
-std::vector<std::int32_t> read_integers(hid_t parent, const std::string& path, const Dims& dims);
+template <class T>
+std::vector<T> read_array(hid_t parent, const std::string& path, const Dims& dims);
+inline constexpr auto read_doubles = read_array<double>;
+inline constexpr auto read_counts = read_array<std::uint64_t>;
+inline constexpr auto read_integers = read_array<std::int32_t>;
 std::vector<std::uint8_t> read_bytes(hid_t parent, const std::string& path, hid_t type, const Dims& dims);
 std::vector<std::string> read_texts(hid_t parent, const std::string& path, const Dims& dims);
 std::vector<std::string> read_words(hid_t parent, const std::string& path, const Dims& dims);

@@ -1,7 +1,7 @@
 #pragma once
 /// Tables of measured outcomes: one line of a CSV file for each test, columns by name. See FORMAT.md.
 
-#include "ensemble/model/outcome_table.hpp"
+#include "ensemble/model/campaign.hpp"
 
 #include <filesystem>
 

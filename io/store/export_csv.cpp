@@ -1,193 +1,132 @@
-#include "io/store/export_csv.hpp"
+#include "io/store/export.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/tables/csv.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
-#include <iterator>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace stylobate {
 namespace {
 
-/// "normal_stiffness[3]" -> "input_normal_stiffness_n_m2[3]".
-std::string input_column(const std::string& name)
+/// A column with a value of each row.
+template <class F>
+void add(Table& table, std::string name, std::size_t rows, const F& value)
 {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> units{{
-        {"normal_stiffness", "_n_m2"},
-        {"tangential_stiffness", "_n_m"},
-        {"drum_width", "_m"},
-        {"drum_height", "_m"},
-        {"drum_offset", "_m"},
-        {"density", "_kg_m3"},
-        {"tilt", "_rad"},
-        {"phase", "_rad"},
-        {"pulse_frequency", "_hz"},
-    }};
-    const std::string_view quantity = std::string_view(name).substr(0, name.find('['));
-    for (const auto& [known, unit] : units)
-        if (quantity == known)
-            return fmt::format("input_{}{}{}", quantity, unit, std::string_view(name).substr(quantity.size()));
-    return "input_" + name;
+    std::vector<std::decay_t<decltype(value(0))>> values;
+    for (std::size_t i = 0; i < rows; ++i)
+        values.push_back(value(i));
+    table.add(std::move(name), std::move(values));
 }
 
-/// Calls f(name of the column, value) for the scalar outcomes, in the order of the store.
-template <class F>
-void visit_outcome(const ResultRow& row, F&& f)
+/// An enumerator as its name, a number as it is; that of a row as files have it.
+template <class Value>
+auto in_table(const FieldFacts& facts, const Value& value)
 {
-    constexpr std::string_view group = "outcome/";
-    visit_fields(row, [&](std::string_view path, const char*, const auto& value) {
-        if (path.starts_with(group))
-            f(path.substr(group.size()), without_none(path, value));
+    if constexpr (std::is_enum_v<Value>)
+        return std::string(to_string(value));
+    else
+        return without_none(facts, value);
+}
+
+/// The numbers of a row: those of its outcome, or its own.
+template <class Of, class F>
+void add_numbers(Table& table, const std::vector<ResultRow>& rows, const F& of)
+{
+    visit_fields(std::type_identity<Of>(), [&](const char* name, auto field, const FieldFacts& facts) {
+        add(table, name, rows.size(), [&](std::size_t i) { return in_table(facts, of(rows[i]).*field); });
     });
 }
 
-/// An enumerator as its name, a number as it is.
-template <class Value>
-auto word(const Value& value)
+[[noreturn]] void refuse_damaged(const std::string& text)
 {
-    if constexpr (std::is_enum_v<Value>)
-        return to_string(value);
-    else
-        return value;
+    throw InputError(text + ": the results are damaged.\n  Run the study again into a new file.");
 }
 
 std::string realizations_text(const ResultHeader& header, const std::vector<ResultRow>& rows, const Table& more)
 {
     for (const Table::Column& column : more.columns())
         if (column.shape != Table::Shape{rows.size()})
-            throw InputError(fmt::format("{} realizations do not have a value of '{}' each: the results are damaged.\n"
-                                         "  Run the study again into a new file.",
-                                         rows.size(), column.name));
-    std::string text;
-    {
-        CsvRow line(text);
-        line << "index"
-             << "cell"
-             << "frequency_hz"
-             << "pga_m_s2";
-        for (const Table::Column& column : more.columns())
-            line << column.name;
-        for (const std::string& name : header.input_names)
-            line << input_column(name);
-        visit_outcome(ResultRow{}, [&](std::string_view name, const auto&) { line << name; });
-        for (std::size_t i = 0; i < header.block_names.size(); ++i)
-            line << fmt::format("fall_time_s[{}]", i);
-        for (std::size_t i = 0; i < header.bed_names.size(); ++i)
-            line << fmt::format("bed_offset_m[{}]", i);
-        for (std::size_t i = 0; !header.bed_names.empty() && i < header.block_names.size(); ++i)
-            line << fmt::format("rotation_rad[{}]", i);
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const ResultRow& row = rows[i];
+            refuse_damaged(fmt::format("{} realizations do not have a value of '{}' each", rows.size(), column.name));
+    for (const ResultRow& row : rows) {
         if (row.inputs.size() != header.input_names.size())
-            throw InputError(fmt::format("realization {} has {} inputs where {} are named: the results are damaged.\n"
-                                         "  Run the study again into a new file.",
-                                         row.index, row.inputs.size(), header.input_names.size()));
+            refuse_damaged(fmt::format("realization {} has {} inputs where {} are named", row.index, row.inputs.size(),
+                                       header.input_names.size()));
         if (row.outcome.fall_time_s.size() != header.block_names.size())
-            throw InputError(fmt::format("realization {} has fall times of {} blocks where {} are named: the results "
-                                         "are damaged.\n  Run the study again into a new file.",
-                                         row.index, row.outcome.fall_time_s.size(), header.block_names.size()));
-        CsvRow line(text);
-        line << row.index << row.cell << row.frequency_hz << row.pga_m_s2;
-        for (const Table::Column& column : more.columns())
-            std::visit([&](const auto& values) { line << values[i]; }, column.values);
-        for (const double value : row.inputs)
-            line << value;
-        visit_outcome(row, [&](std::string_view, const auto& value) { line << word(value); });
-        for (const double value : row.outcome.fall_time_s)
-            line << without_none(result_names::fall_time, value);
-        if (!header.bed_names.empty())
-            for (const auto* list : {&row.outcome.bed_offset_m, &row.outcome.rotation_rad})
-                for (const double value : *list)
-                    line << value;
+            refuse_damaged(fmt::format("realization {} has fall times of {} blocks where {} are named", row.index,
+                                       row.outcome.fall_time_s.size(), header.block_names.size()));
     }
-    return text;
+    Table table("realizations");
+    add_numbers<ResultRow>(table, rows, [](const ResultRow& row) -> const ResultRow& { return row; });
+    for (const Table::Column& column : more.columns())
+        table.add(column.name, column.values);
+    for (std::size_t k = 0; k < header.input_names.size(); ++k) {
+        const std::string_view name = header.input_names[k], base = name.substr(0, name.find('['));
+        add(table, fmt::format("input_{}{}{}", base, unit_ending_of_input(base), name.substr(base.size())), rows.size(),
+            [&](std::size_t i) { return rows[i].inputs[k]; });
+    }
+    add_numbers<Outcome>(table, rows, [](const ResultRow& row) -> const Outcome& { return row.outcome; });
+    visit_lists(header, [&](const char* name, auto field, std::size_t width, const FieldFacts& facts) {
+        for (std::size_t k = 0; k < width; ++k)
+            add(table, fmt::format("{}[{}]", name, k), rows.size(),
+                [&](std::size_t i) { return without_none(facts, (rows[i].outcome.*field)[k]); });
+    });
+    return csv_text(table);
 }
 
 /// Which block is which: the columns of the other tables have their numbers only.
 std::string blocks_text(const ResultHeader& header)
 {
-    std::string text;
-    CsvRow(text) << "block"
-                 << "name";
-    for (std::size_t i = 0; i < header.block_names.size(); ++i)
-        CsvRow(text) << i << header.block_names[i];
-    return text;
+    Table table("blocks");
+    add(table, "block", header.block_names.size(), [](std::size_t i) { return std::uint64_t{i}; });
+    table.add("name", header.block_names);
+    return csv_text(table);
+}
+
+/// A table with a row for each cell, frequency by frequency.
+Table table_of_cells(const std::vector<double>& frequency_hz, const std::vector<double>& pga_m_s2)
+{
+    Table table("cells");
+    const std::size_t columns = pga_m_s2.size(), cells = frequency_hz.size() * columns;
+    add(table, "cell", cells, [](std::size_t cell) { return std::uint64_t{cell}; });
+    add(table, "frequency_hz", cells, [&](std::size_t cell) { return frequency_hz[cell / columns]; });
+    add(table, "pga_m_s2", cells, [&](std::size_t cell) { return pga_m_s2[cell % columns]; });
+    return table;
 }
 
 std::string surface_text(const SurfaceTable& surface)
 {
-    const std::size_t columns = surface.pga_m_s2.size();
-    const std::size_t cells = surface.frequency_hz.size() * columns;
-    if (surface.trials.size() != cells || surface.collapses.size() != cells || surface.probability.size() != cells ||
-        surface.lower.size() != cells || surface.upper.size() != cells)
-        throw InputError(fmt::format("the surface has {} x {} cells, but its tables have other sizes: the results are "
-                                     "damaged.\n  Run the study again into a new file.",
-                                     surface.frequency_hz.size(), columns));
-    const bool adaptive = surface.method.size() == cells;
-    std::string text;
-    {
-        CsvRow line(text);
-        line << "cell"
-             << "frequency_hz"
-             << "pga_m_s2"
-             << "trials"
-             << "collapses"
-             << "probability"
-             << "lower"
-             << "upper"
-             << "interval";
-        if (adaptive)
-            line << "method";
-    }
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        CsvRow line(text);
-        line << cell << surface.frequency_hz[cell / columns] << surface.pga_m_s2[cell % columns] << surface.trials[cell]
-             << surface.collapses[cell] << surface.probability[cell] << surface.lower[cell] << surface.upper[cell]
-             << surface.interval;
-        if (adaptive)
-            line << to_string(surface.method[cell]);
-    }
-    return text;
+    if (!has_all_cells(surface))
+        refuse_damaged(fmt::format("the surface has {} x {} cells, but its tables have other sizes",
+                                   surface.frequency_hz.size(), surface.pga_m_s2.size()));
+    Table table = table_of_cells(surface.frequency_hz, surface.pga_m_s2);
+    visit_fields(std::type_identity<SurfaceTable>(),
+                 [&](const char* name, auto field, auto) { table.add(name, surface.*field); });
+    const std::size_t cells = surface.trials.size();
+    table.add("interval", std::vector<std::string>(cells, surface.interval));
+    if (surface.method.size() == cells)
+        add(table, "method", cells, [&](std::size_t cell) { return std::string(to_string(surface.method[cell])); });
+    return csv_text(table);
 }
 
 std::string counts_text(const ResultHeader& header, const Tally& tally)
 {
-    const std::size_t columns = header.pga_m_s2.size();
-    std::string text;
-    {
-        CsvRow line(text);
-        line << "cell"
-             << "frequency_hz"
-             << "pga_m_s2"
-             << "trials"
-             << "invalid";
-        for (const std::string& name : header.limit_states)
-            line << name;
-        for (std::size_t i = 0; i < tally.blocks; ++i)
-            line << fmt::format("first_fallen[{}]", i);
-        line << "first_together";
-    }
-    for (std::size_t cell = 0; cell < tally.cells(); ++cell) {
-        CsvRow line(text);
-        line << cell << header.frequency_hz[cell / columns] << header.pga_m_s2[cell % columns] << tally.trials[cell]
-             << tally.invalid[cell];
-        for (std::size_t i = 0; i < tally.limit_states; ++i)
-            line << tally.reached[cell * tally.limit_states + i];
-        for (std::size_t i = 0; i < tally.blocks; ++i)
-            line << tally.first[cell * tally.blocks + i];
-        line << tally.first_together[cell];
-    }
-    return text;
+    Table table = table_of_cells(header.frequency_hz, header.pga_m_s2);
+    visit_fields(std::type_identity<Tally>(), [&](const std::string& name, auto field, std::string_view by, auto) {
+        const std::size_t width = tally.width(by);
+        for (std::size_t k = 0; k < width; ++k)
+            add(table,
+                by == "limit_state" ? header.limit_states[k]
+                : by == "block"     ? fmt::format("{}[{}]", name, k)
+                                    : name,
+                tally.cells(), [&](std::size_t cell) { return (tally.*field)[cell * width + k]; });
+    });
+    return csv_text(table);
 }
 
 /// @param table a file of this name with this text, beside those that every result has
@@ -227,37 +166,29 @@ void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& h
 
 void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory)
 {
-    const std::size_t blocks = trajectory.blocks();
-    const std::size_t samples = trajectory.time_s.size();
-    if (trajectory.half_height_m.size() != blocks || trajectory.rest_x_m.size() != blocks ||
-        trajectory.rest_y_m.size() != blocks || trajectory.base_x_m.size() != samples ||
-        trajectory.x_m.size() != samples * blocks || trajectory.y_m.size() != samples * blocks ||
-        trajectory.theta_rad.size() != samples * blocks)
+    if (!lists_fit(trajectory))
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",
                                      trajectory.index));
-    std::string text;
-    {
-        CsvRow line(text);
-        line << "time_s"
-             << "base_x_m";
-        for (std::size_t i = 0; i < blocks; ++i)
-            line << fmt::format("x_m[{}]", i) << fmt::format("y_m[{}]", i) << fmt::format("theta_rad[{}]", i);
-        for (std::size_t i = 0; i < blocks; ++i)
-            line << fmt::format("rest_x_m[{}]", i) << fmt::format("rest_y_m[{}]", i)
-                 << fmt::format("half_width_m[{}]", i) << fmt::format("half_height_m[{}]", i);
-    }
-    for (std::size_t t = 0; t < samples; ++t) {
-        CsvRow line(text);
-        line << trajectory.time_s[t] << trajectory.base_x_m[t];
-        for (std::size_t i = t * blocks; i < (t + 1) * blocks; ++i)
-            line << trajectory.x_m[i] << trajectory.y_m[i] << trajectory.theta_rad[i];
-        for (std::size_t i = 0; i < blocks; ++i)
-            line << trajectory.rest_x_m[i] << trajectory.rest_y_m[i] << trajectory.half_width_m[i]
-                 << trajectory.half_height_m[i];
-    }
+    const std::size_t blocks = trajectory.blocks(), samples = trajectory.time_s.size();
+    Table table("trajectory");
+    const auto add_lists = [&](ListOf wanted, std::size_t block) {
+        visit_lists<Trajectory>([&](const std::string& name, ListOf of, const char*, auto field) {
+            if (of == wanted)
+                add(table, of == ListOf::times ? name : fmt::format("{}[{}]", name, block), samples,
+                    [&](std::size_t t) {
+                        return (trajectory.*field)[of == ListOf::times    ? t
+                                                   : of == ListOf::blocks ? block
+                                                                          : t * blocks + block];
+                    });
+        });
+    };
+    add_lists(ListOf::times, 0);
+    for (const ListOf of : {ListOf::poses, ListOf::blocks})
+        for (std::size_t block = 0; block < blocks; ++block)
+            add_lists(of, block);
     AtomicFile out(file);
-    out.write(text);
+    out.write(csv_text(table));
     out.commit();
 }
 

@@ -1,4 +1,4 @@
-#include "io/store/export_vtk.hpp"
+#include "io/store/export.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -20,9 +20,7 @@ constexpr char head[] = "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\
 
 void check(const Trajectory& t)
 {
-    const std::size_t blocks = t.blocks(), times = t.time_s.size(), values = times * blocks;
-    if (times == 0 || t.half_height_m.size() != blocks || t.base_x_m.size() != times || t.x_m.size() != values ||
-        t.y_m.size() != values || t.theta_rad.size() != values)
+    if (t.time_s.empty() || !lists_fit(t))
         throw InputError(
             fmt::format("the trajectory of realization {} has tables of different sizes, or no times: it is "
                         "damaged.\n  Replay the realization into a new file.",

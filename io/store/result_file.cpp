@@ -173,11 +173,9 @@ void write_surface(hid_t file, const SurfaceTable& table)
 {
     const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
     const std::string group = std::string(names::surface) + "/";
-    hdf5::write_array(file, group + "trials", table.trials, dims, "");
-    hdf5::write_array(file, group + "collapses", table.collapses, dims, "");
-    hdf5::write_array(file, group + "probability", table.probability, dims, "");
-    hdf5::write_array(file, group + "lower", table.lower, dims, "");
-    hdf5::write_array(file, group + "upper", table.upper, dims, "");
+    visit_fields(std::type_identity<SurfaceTable>(), [&](const char* name, auto field, auto) {
+        hdf5::write_array(file, group + name, table.*field, dims, "");
+    });
     const hdf5::Handle opened = hdf5::open_group(file, names::surface);
     hdf5::write_text(opened.id(), "interval", table.interval);
     if (table.method.empty())
@@ -190,13 +188,21 @@ void write_surface(hid_t file, const SurfaceTable& table)
     hdf5::write_number(opened.id(), "rounds", H5T_STD_U64LE, table.rounds);
 }
 
+bool has_all_cells(const SurfaceTable& surface)
+{
+    bool all = true;
+    visit_fields(std::type_identity<SurfaceTable>(), [&](auto, auto field, auto) {
+        all = all && (surface.*field).size() == surface.frequency_hz.size() * surface.pga_m_s2.size();
+    });
+    return all;
+}
+
 void check_table(const ResultHeader& header, const SurfaceTable& table)
 {
-    const std::size_t cells = table.frequency_hz.size() * table.pga_m_s2.size();
-    if (cells == 0 || table.frequency_hz != header.frequency_hz || table.pga_m_s2 != header.pga_m_s2)
+    if (table.frequency_hz.empty() || table.pga_m_s2.empty() || table.frequency_hz != header.frequency_hz ||
+        table.pga_m_s2 != header.pga_m_s2)
         throw std::invalid_argument("the surface's axes are not those that its file was created with");
-    if (table.trials.size() != cells || table.collapses.size() != cells || table.probability.size() != cells ||
-        table.lower.size() != cells || table.upper.size() != cells)
+    if (!has_all_cells(table))
         throw std::invalid_argument("the surface's table is not (nf x np)");
 }
 

@@ -24,6 +24,33 @@ void write_surface(hid_t file, const SurfaceTable& table);
 /// @throws std::invalid_argument if the table does not fit the header's axes
 void check_table(const ResultHeader& header, const SurfaceTable& table);
 
+/// Makes a results file explain itself to programs that do not know it (xarray, netCDF tools, MATLAB): gives every data
+/// set its `long_name`, every numerical one its `units` ("1": dimensionless), and every dimension its scale, a data set
+/// of the same group or of one above it. Scales that the file lacks, such as `block` with the names of the blocks, are
+/// added as lists of text. A data set that FORMAT.md does not list is left as it is. Called once, when everything else
+/// has been written.
+void write_labels(hid_t file);
+
+/// @throws std::invalid_argument if the arrays of the trajectory do not fit together
+void check_trajectory(const Trajectory& trajectory);
+/// Below /trajectories, which is there.
+void write_trajectory(hid_t file, const Trajectory& trajectory);
+/// @throws hdf5::Error or std::invalid_argument if it is not there as it was written
+Trajectory read_trajectory(hid_t file, std::uint64_t index);
+/// A trajectory as a record of the journal: its index first, then every list with its length in front.
+std::vector<std::byte> bytes_of(const Trajectory& trajectory);
+/// @throws std::invalid_argument if the bytes are not those of a trajectory
+Trajectory trajectory_of(std::span<const std::byte> bytes);
+
+/// What a file has that holds counts instead of rows.
+struct TallyFile {
+    Tally tally;
+    DoneSet done; ///< what is counted, by its place in the order of the run
+};
+void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counted);
+/// @throws hdf5::Error if something is missing, has another shape, or does not fit the rest
+TallyFile read_tally(hid_t file, const ResultHeader& header);
+
 /// Where the rows lie in the file, in bytes from its start.
 struct RowPlaces {
     std::vector<std::uint64_t> column; ///< by column of the layout

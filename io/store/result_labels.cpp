@@ -1,13 +1,11 @@
-#include "io/store/result_labels.hpp"
-
 #include "io/files/hdf5_scales.hpp"
 #include "io/files/toml_key.hpp"
-#include "io/store/result_layout.hpp"
+#include "io/store/result_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,163 +19,136 @@ namespace names = result_names;
 
 /// What is known of a data set. Its dimensions are names of scales, separated by spaces.
 struct Label {
-    const char* path;
-    const char* dimensions;
-    const char* long_name;
+    std::string dimensions;
+    std::string long_name;
 };
 
-/// '*' is any one name. Inputs and intervals (NAME_lower, NAME_upper) follow rules below.
-constexpr Label labels[] = {
-    {"realizations/index", "index", "index of the realization"},
-    {"realizations/cell", "index", "cell of the surface, or motion x stripes + stripe"},
-    {"realizations/frequency_hz", "index", "frequency of the shaking"},
-    {"realizations/pga_m_s2", "index", "peak ground acceleration"},
-    {"realizations/chunk_checksum", "chunk_checksum", "checksum of each 256 rows"},
-    {"realizations/outcome/block", "block", "block"},
-    {"realizations/outcome/state", "index",
-     "how the realization ended: 0 stood, 1 rocked, 2 slid, 3 collapsed, 4 invalid"},
-    {"realizations/outcome/invalid_reason", "index", "why it was set aside: 0 none, 1 not finite, 2 energy"},
-    {"realizations/outcome/collapse_time_s", "index", "time of the collapse"},
-    {"realizations/outcome/first_collapse_block", "index", "number of the block that fell first"},
-    {"realizations/outcome/fallen_blocks", "index", "number of fallen blocks"},
-    {"realizations/outcome/at_rest", "index", "1: at rest at the end; 0: it still moved"},
-    {"realizations/outcome/unseated_block", "index", "number of the epistyle that lost a seat first"},
-    {"realizations/outcome/unseating_time_s", "index", "time at which an epistyle lost a seat"},
-    {"realizations/outcome/total_collapse_time_s", "index", "time at which all columns and epistyles had fallen"},
-    {"realizations/outcome/peak_top_displacement_m", "index", "largest horizontal displacement of the top block"},
-    {"realizations/outcome/residual_top_displacement_m", "index", "horizontal displacement of the top block at rest"},
-    {"realizations/outcome/top_path_m", "index", "path of the top block relative to the base"},
-    {"realizations/outcome/total_sliding_m", "index", "slip, sum over the joints"},
-    {"realizations/outcome/sliding_path_m", "index", "path of the faces in contact, sum over the joints"},
-    {"realizations/outcome/residual_sliding_m", "index", "displacement of the faces at rest, sum over the joints"},
-    {"realizations/outcome/residual_dislocation", "index",
-     "largest displacement of two faces at rest, over the width of the narrower one"},
-    {"realizations/outcome/total_rocking_rad", "index", "largest relative rotation, sum over the joints"},
-    {"realizations/outcome/rocking_path_rad", "index", "path of the relative rotation, sum over the joints"},
-    {"realizations/outcome/max_relative_rotation_rad", "index", "relative rotation of the joint with the largest one"},
-    {"realizations/outcome/energy_kinetic_j", "index", "kinetic energy at the end"},
-    {"realizations/outcome/energy_potential_j", "index", "potential energy, relative to the start"},
-    {"realizations/outcome/energy_spring_j", "index", "energy of the contact springs, relative to the start"},
-    {"realizations/outcome/energy_friction_j", "index", "energy dissipated by friction"},
-    {"realizations/outcome/energy_damping_j", "index", "energy dissipated by the dashpots"},
-    {"realizations/outcome/energy_base_work_j", "index", "work of the base"},
-    {"realizations/outcome/energy_residual", "index", "residual of the energy balance, over the energy of the run"},
-    {"realizations/outcome/end_time_s", "index", "simulated time"},
-    {"realizations/outcome/step_s", "index", "time step"},
-    {"realizations/outcome/steps", "index", "number of steps"},
-    {"realizations/outcome/fall_time_s", "index block", "time at which each block fell"},
-    {"realizations/outcome/bed", "bed", "joint"},
-    {"realizations/outcome/bed_offset_m", "index bed", "displacement of the faces of each joint at the end"},
-    {"realizations/outcome/rotation_rad", "index block", "rotation of each block at the end"},
-    {"surface/frequency_hz", "frequency_hz", "frequency of the shaking"},
-    {"surface/pga_m_s2", "pga_m_s2", "peak ground acceleration"},
-    {"surface/trials", "frequency_hz pga_m_s2", "valid realizations"},
-    {"surface/collapses", "frequency_hz pga_m_s2", "collapsed realizations"},
-    {"surface/probability", "frequency_hz pga_m_s2", "probability of collapse"},
-    {"surface/lower", "frequency_hz pga_m_s2", "lower end of the interval of the probability of collapse"},
-    {"surface/upper", "frequency_hz pga_m_s2", "upper end of the interval of the probability of collapse"},
-    {"surface/method", "frequency_hz pga_m_s2", "source of the interval: 0 own trials, 1 pooled with the neighbours"},
-    {"tally/frequency_hz", "frequency_hz", "frequency of the shaking"},
-    {"tally/pga_m_s2", "pga_m_s2", "peak ground acceleration"},
-    {"tally/limit_state", "limit_state", "limit state"},
-    {"tally/block", "block", "block"},
-    {"tally/trials", "frequency_hz pga_m_s2", "valid realizations"},
-    {"tally/invalid", "frequency_hz pga_m_s2", "invalid realizations"},
-    {"tally/reached", "frequency_hz pga_m_s2 limit_state", "realizations that reached the limit state"},
-    {"tally/first_fallen", "frequency_hz pga_m_s2 block", "realizations in which the block fell first"},
-    {"tally/first_together", "frequency_hz pga_m_s2", "realizations in which several blocks fell first, together"},
-    {"tally/collapse_time/time_s", "time_s", "time of the collapse"},
-    {"tally/collapse_time/count", "time_s", "realizations with this time"},
-    {"tally/total_collapse_time/time_s", "time_s", "time at which all columns and epistyles had fallen"},
-    {"tally/total_collapse_time/count", "time_s", "realizations with this time"},
-    {"tally/invalid_index", "invalid_index", "index of an invalid realization"},
-    {"tally/invalid_reason", "invalid_index", "why it was set aside: 0 none, 1 not finite, 2 energy"},
-    {"tally/done", "part bound", "realizations that are counted, by their place in the order of the run"},
-    {"tally/part", "part", "part of the order of the run"},
-    {"tally/bound", "bound", "begin, end, reached the first limit state, invalid"},
-    {"twins/original", "original", "index of the original"},
-    {"twins/kind", "original", "kind of the replica"},
-    {"twins/start", "original", "separation at rest, in widths and radians"},
-    {"twins/exponent_per_s", "original", "growth rate of the logarithm of the separation"},
-    {"twins/horizon_s", "original", "time at which the separation reached the tolerance"},
-    {"twins/followed_s", "original", "end of the following"},
-    {"twins/original_end_s", "original", "end of the original"},
-    {"survival/frequency_hz", "frequency_hz", "frequency of the shaking"},
-    {"survival/pga_m_s2", "pga_m_s2", "peak ground acceleration"},
-    {"survival/trials", "past frequency_hz pga_m_s2", "valid realizations"},
-    {"survival/standing", "past frequency_hz pga_m_s2", "realizations that stand"},
-    {"survival/agreeing", "past frequency_hz pga_m_s2", "realizations that agree with the observed state"},
-    {"survival/likelihood", "past frequency_hz pga_m_s2", "share of the realizations that agree"},
-    {"survival/posterior", "past frequency_hz pga_m_s2", "posterior probability"},
-    {"survival/events_likelihood", "past pga_m_s2", "likelihood, mean over the frequencies"},
-    {"survival/events_top_ratio", "past", "likelihood at the end of the axis over the largest one"},
-    {"survival/events_excluded_by_likelihood_m_s2", "past", "PGA above which shaking is excluded, by the likelihood"},
-    {"survival/events_excluded_by_posterior_m_s2", "past", "PGA above which shaking is excluded, with the prior"},
-    {"survival/events_excluded_below_m_s2", "past", "PGA below which shaking is excluded as too weak"},
-    {"survival/events_probability", "past", "posterior probability of the number of events"},
-    {"survival/frequency_likelihood", "frequency_hz pga_m_s2", "likelihood of one event"},
-    {"survival/frequency_top_ratio", "frequency_hz", "likelihood at the end of the axis over the largest one"},
-    {"survival/frequency_excluded_by_likelihood_m_s2", "frequency_hz",
-     "PGA above which one event is excluded, by the likelihood"},
-    {"survival/frequency_excluded_by_posterior_m_s2", "frequency_hz",
-     "PGA above which one event is excluded, with the prior"},
-    {"survival/frequency_excluded_below_m_s2", "frequency_hz", "PGA below which one event is excluded as too weak"},
-    {"survival/frequency_probability", "frequency_hz", "posterior probability of the frequency"},
-    {"survival/monument_pga_place", "monument", "posterior probability of a PGA below the true one"},
-    {"survival/monument_frequency_place", "monument", "posterior probability of a frequency below the true one"},
-    {"survival/monument_events_place", "monument", "posterior probability of fewer events than the true number"},
-    {"motions/motion", "motion", "ground motion"},
-    {"motions/measure", "measure", "intensity measure, with its unit"},
-    {"motions/shaking", "shaking", "shaking of a sequence"},
-    {"motions/value", "motion measure", "intensity of the motion as it stands, in the unit of the measure"},
-    {"motions/exponent", "measure", "power of the scale factor by which the measure grows"},
-    {"motions/shaking_end_s", "motion shaking", "end of each shaking of a sequence"},
-    {"fragility/motion", "motion", "number of the realization's motion in /motions"},
-    {"fragility/intensity", "motion", "intensity of the realization's shaking"},
-    {"fragility/states", "states", "limit state"},
-    {"fragility/meanings", "states", "when the limit state is reached"},
-    {"fragility/trials", "states", "valid realizations"},
-    {"fragility/reached", "states", "realizations that reached the limit state"},
-    {"fragility/median", "states", "median of the fragility curve"},
-    {"fragility/dispersion", "states", "dispersion of the fragility curve"},
-    {"fragility/grid", "grid", "intensity at which the curves are given"},
-    {"fragility/curve", "states grid", "probability of reaching the limit state"},
-    {"fragility/stripe", "stripe", "intensity of the stripe"},
-    {"fragility/share", "states stripe", "share of the realizations of a stripe that reached the limit state"},
-    {"sensitivity/outcomes", "outcomes", "outcome"},
-    {"sensitivity/units", "outcomes", "unit of the outcome"},
-    {"sensitivity/meanings", "outcomes", "how the outcome is counted"},
-    {"sensitivity/factors", "factors", "perturbed quantity"},
-    {"sensitivity/indices", "indices", "index of sensitivity"},
-    {"sensitivity/acts", "factors", "1 if the factor ever changed an outcome"},
-    {"sensitivity/mean", "outcomes", "mean of the outcome, in the unit of `units`"},
-    {"sensitivity/explained", "outcomes", "share of the variance that the factors explain"},
-    {"sensitivity/first", "outcomes factors", "Sobol's first index of the mean over the rest"},
-    {"sensitivity/total", "outcomes factors", "Sobol's total index of the mean over the rest"},
-    {"sensitivity/value_first", "outcomes factors", "Sobol's first index of single outcomes"},
-    {"sensitivity/value_total", "outcomes factors", "Sobol's total index of single outcomes"},
-    {"sensitivity/mu_star", "outcomes factors", "mean of the absolute elementary effects, in the unit of `units`"},
-    {"sensitivity/rms", "outcomes factors", "root mean square of the elementary effects, in the unit of `units`"},
-    {"sensitivity/mu", "outcomes factors", "mean of the elementary effects, in the unit of `units`"},
-    {"sensitivity/sigma", "outcomes factors", "standard deviation of the elementary effects, in the unit of `units`"},
-    {"rare/repeats", "repeats", "estimate of the probability of each repeat"},
-    {"rare/level", "level", "level of the subset simulation"},
-    {"rare/threshold_m", "repeats level", "lower bound of the peak displacement of the samples of a level"},
-    {"rare/share", "repeats level", "share of the samples above the next threshold, or collapsed"},
-    {"rare/acceptance", "repeats level", "share of accepted candidates"},
-    {"rare/stuck", "repeats level", "share of the chains that never moved"},
-    {"trajectories/*/time_s", "time_s", "time"},
-    {"trajectories/*/block", "block", "block"},
-    {"trajectories/*/x_m", "time_s block", "horizontal place of the centre, in the frame of the base"},
-    {"trajectories/*/y_m", "time_s block", "height of the centre, in the frame of the base"},
-    {"trajectories/*/theta_rad", "time_s block", "rotation, counter-clockwise from upright"},
-    {"trajectories/*/base_x_m", "time_s", "displacement of the base"},
-    {"trajectories/*/rest_x_m", "block", "horizontal place of the centre as built"},
-    {"trajectories/*/rest_y_m", "block", "height of the centre as built"},
-    {"trajectories/*/half_width_m", "block", "half width of the block"},
-    {"trajectories/*/half_height_m", "block", "half height of the block"},
-    {"trajectories/*/role", "block", "role of the block: 0 drum, 1 epistyle, 2 ground"},
-    {"trajectories/*/column", "block", "column of a drum, from the left; -1 of all others"}};
+/// By path; '*' is any one name. Inputs and intervals (NAME_lower, NAME_upper) follow rules below.
+std::map<std::string, Label> all_labels()
+{
+    std::map<std::string, Label> labels = {
+        {"realizations/chunk_checksum", {"chunk_checksum", "checksum of each 256 rows"}},
+        {"realizations/outcome/block", {"block", "block"}},
+        {"realizations/outcome/bed", {"bed", "joint"}},
+        {"surface/method",
+         {"frequency_hz pga_m_s2", "source of the interval: 0 own trials, 1 pooled with the neighbours"}},
+        {"tally/limit_state", {"limit_state", "limit state"}},
+        {"tally/block", {"block", "block"}},
+        {"tally/collapse_time/time_s", {"time_s", "time of the collapse"}},
+        {"tally/collapse_time/count", {"time_s", "realizations with this time"}},
+        {"tally/total_collapse_time/time_s", {"time_s", "time at which all columns and epistyles had fallen"}},
+        {"tally/total_collapse_time/count", {"time_s", "realizations with this time"}},
+        {"tally/invalid_index", {"invalid_index", "index of an invalid realization"}},
+        {"tally/invalid_reason", {"invalid_index", "why it was set aside: 0 none, 1 not finite, 2 energy"}},
+        {"tally/done", {"part bound", "realizations that are counted, by their place in the order of the run"}},
+        {"tally/part", {"part", "part of the order of the run"}},
+        {"tally/bound", {"bound", "begin, end, reached the first limit state, invalid"}},
+        {"twins/original", {"original", "index of the original"}},
+        {"twins/kind", {"original", "kind of the replica"}},
+        {"twins/start", {"original", "separation at rest, in widths and radians"}},
+        {"twins/exponent_per_s", {"original", "growth rate of the logarithm of the separation"}},
+        {"twins/horizon_s", {"original", "time at which the separation reached the tolerance"}},
+        {"twins/followed_s", {"original", "end of the following"}},
+        {"twins/original_end_s", {"original", "end of the original"}},
+        {"survival/trials", {"past frequency_hz pga_m_s2", "valid realizations"}},
+        {"survival/standing", {"past frequency_hz pga_m_s2", "realizations that stand"}},
+        {"survival/agreeing", {"past frequency_hz pga_m_s2", "realizations that agree with the observed state"}},
+        {"survival/likelihood", {"past frequency_hz pga_m_s2", "share of the realizations that agree"}},
+        {"survival/posterior", {"past frequency_hz pga_m_s2", "posterior probability"}},
+        {"survival/events_likelihood", {"past pga_m_s2", "likelihood, mean over the frequencies"}},
+        {"survival/events_top_ratio", {"past", "likelihood at the end of the axis over the largest one"}},
+        {"survival/events_excluded_by_likelihood_m_s2",
+         {"past", "PGA above which shaking is excluded, by the likelihood"}},
+        {"survival/events_excluded_by_posterior_m_s2", {"past", "PGA above which shaking is excluded, with the prior"}},
+        {"survival/events_excluded_below_m_s2", {"past", "PGA below which shaking is excluded as too weak"}},
+        {"survival/events_probability", {"past", "posterior probability of the number of events"}},
+        {"survival/frequency_likelihood", {"frequency_hz pga_m_s2", "likelihood of one event"}},
+        {"survival/frequency_top_ratio", {"frequency_hz", "likelihood at the end of the axis over the largest one"}},
+        {"survival/frequency_excluded_by_likelihood_m_s2",
+         {"frequency_hz", "PGA above which one event is excluded, by the likelihood"}},
+        {"survival/frequency_excluded_by_posterior_m_s2",
+         {"frequency_hz", "PGA above which one event is excluded, with the prior"}},
+        {"survival/frequency_excluded_below_m_s2",
+         {"frequency_hz", "PGA below which one event is excluded as too weak"}},
+        {"survival/frequency_probability", {"frequency_hz", "posterior probability of the frequency"}},
+        {"survival/monument_pga_place", {"monument", "posterior probability of a PGA below the true one"}},
+        {"survival/monument_frequency_place", {"monument", "posterior probability of a frequency below the true one"}},
+        {"survival/monument_events_place", {"monument", "posterior probability of fewer events than the true number"}},
+        {"motions/motion", {"motion", "ground motion"}},
+        {"motions/measure", {"measure", "intensity measure, with its unit"}},
+        {"motions/shaking", {"shaking", "shaking of a sequence"}},
+        {"motions/value", {"motion measure", "intensity of the motion as it stands, in the unit of the measure"}},
+        {"motions/exponent", {"measure", "power of the scale factor by which the measure grows"}},
+        {"motions/shaking_end_s", {"motion shaking", "end of each shaking of a sequence"}},
+        {"fragility/motion", {"motion", "number of the realization's motion in /motions"}},
+        {"fragility/intensity", {"motion", "intensity of the realization's shaking"}},
+        {"fragility/states", {"states", "limit state"}},
+        {"fragility/meanings", {"states", "when the limit state is reached"}},
+        {"fragility/trials", {"states", "valid realizations"}},
+        {"fragility/reached", {"states", "realizations that reached the limit state"}},
+        {"fragility/median", {"states", "median of the fragility curve"}},
+        {"fragility/dispersion", {"states", "dispersion of the fragility curve"}},
+        {"fragility/grid", {"grid", "intensity at which the curves are given"}},
+        {"fragility/curve", {"states grid", "probability of reaching the limit state"}},
+        {"fragility/stripe", {"stripe", "intensity of the stripe"}},
+        {"fragility/share", {"states stripe", "share of the realizations of a stripe that reached the limit state"}},
+        {"sensitivity/outcomes", {"outcomes", "outcome"}},
+        {"sensitivity/units", {"outcomes", "unit of the outcome"}},
+        {"sensitivity/meanings", {"outcomes", "how the outcome is counted"}},
+        {"sensitivity/factors", {"factors", "perturbed quantity"}},
+        {"sensitivity/indices", {"indices", "index of sensitivity"}},
+        {"sensitivity/acts", {"factors", "1 if the factor ever changed an outcome"}},
+        {"sensitivity/mean", {"outcomes", "mean of the outcome, in the unit of `units`"}},
+        {"sensitivity/explained", {"outcomes", "share of the variance that the factors explain"}},
+        {"sensitivity/first", {"outcomes factors", "Sobol's first index of the mean over the rest"}},
+        {"sensitivity/total", {"outcomes factors", "Sobol's total index of the mean over the rest"}},
+        {"sensitivity/value_first", {"outcomes factors", "Sobol's first index of single outcomes"}},
+        {"sensitivity/value_total", {"outcomes factors", "Sobol's total index of single outcomes"}},
+        {"sensitivity/mu_star",
+         {"outcomes factors", "mean of the absolute elementary effects, in the unit of `units`"}},
+        {"sensitivity/rms", {"outcomes factors", "root mean square of the elementary effects, in the unit of `units`"}},
+        {"sensitivity/mu", {"outcomes factors", "mean of the elementary effects, in the unit of `units`"}},
+        {"sensitivity/sigma",
+         {"outcomes factors", "standard deviation of the elementary effects, in the unit of `units`"}},
+        {"rare/repeats", {"repeats", "estimate of the probability of each repeat"}},
+        {"rare/level", {"level", "level of the subset simulation"}},
+        {"rare/threshold_m", {"repeats level", "lower bound of the peak displacement of the samples of a level"}},
+        {"rare/share", {"repeats level", "share of the samples above the next threshold, or collapsed"}},
+        {"rare/acceptance", {"repeats level", "share of accepted candidates"}},
+        {"rare/stuck", {"repeats level", "share of the chains that never moved"}},
+        {"trajectories/*/block", {"block", "block"}},
+        {"trajectories/*/role", {"block", "role of the block: 0 drum, 1 epistyle, 2 ground"}},
+        {"trajectories/*/column", {"block", "column of a drum, from the left; -1 of all others"}},
+    };
+    visit_numbers(
+        [&](const std::string& group, const char* name, const FieldFacts& facts, auto) {
+            labels["realizations/" + group + name] = {"index", facts.says};
+        },
+        ResultRow());
+    visit_lists(std::type_identity<Outcome>(),
+                [&](const std::string& name, auto, const std::string& of, const FieldFacts& facts) {
+                    labels["realizations/outcome/" + name] = {"index " + of, facts.says};
+                });
+    visit_lists<Trajectory>([&](const std::string& name, ListOf of, const char* says, auto) {
+        labels["trajectories/*/" + name] = {of == ListOf::times    ? "time_s"
+                                            : of == ListOf::blocks ? "block"
+                                                                   : "time_s block",
+                                            says};
+    });
+    const std::string cells = "frequency_hz pga_m_s2";
+    for (const std::string group : {"surface/", "tally/", "survival/"}) {
+        labels[group + "frequency_hz"] = {"frequency_hz", "frequency of the shaking"};
+        labels[group + "pga_m_s2"] = {"pga_m_s2", "peak ground acceleration"};
+    }
+    visit_fields(std::type_identity<SurfaceTable>(), [&](const std::string& name, auto, const FieldFacts& facts) {
+        labels["surface/" + name] = {cells, facts.says};
+    });
+    visit_fields(std::type_identity<Tally>(),
+                 [&](const std::string& name, auto, const std::string& by, const FieldFacts& facts) {
+                     labels["tally/" + name] = {cells + ' ' + by, facts.says};
+                 });
+    return labels;
+}
 
 /// Where the values of a scale are that the file has as an attribute of the group.
 constexpr std::pair<const char*, const char*> kept_as_attribute[] = {{"block", names::blocks},
@@ -200,28 +171,19 @@ std::string as_listed(const std::string& path)
     return path.starts_with(in) && slash != std::string::npos ? in + "*" + path.substr(slash) : path;
 }
 
-struct FullLabel {
-    std::string long_name;
-    std::vector<std::string> dimensions;
-};
-
-std::optional<FullLabel> label_of(const std::string& path, std::size_t rank)
+/// @param rank how many dimensions the data set has
+std::optional<Label> label_of(const std::string& path, std::size_t rank)
 {
+    static const std::map<std::string, Label> labels = all_labels();
     const std::string listed = as_listed(path), inputs = std::string(names::input) + "/";
     if (path.starts_with(inputs)) {
         const std::string name = path.substr(inputs.size());
         std::string words = name;
         std::ranges::replace(words, '_', ' ');
-        return FullLabel{"drawn " + words, rank == 2 ? std::vector<std::string>{"index", name + "_of"}
-                                                     : std::vector<std::string>{"index"}};
+        return Label{rank == 2 ? "index " + name + "_of" : "index", "drawn " + words};
     }
-    if (const auto found = std::ranges::find(labels, listed, &Label::path); found != std::end(labels)) {
-        std::istringstream words(found->dimensions);
-        FullLabel label{found->long_name, {}};
-        for (std::string word; words >> word;)
-            label.dimensions.push_back(word);
-        return label;
-    }
+    if (const auto found = labels.find(listed); found != labels.end())
+        return found->second;
     for (const std::string end : {"lower", "upper"})
         if (listed.ends_with("_" + end))
             if (auto of = label_of(path.substr(0, path.size() - end.size() - 1), rank)) {
@@ -260,8 +222,12 @@ private:
     void write(const std::string& path)
     {
         const hdf5::Dims dims = hdf5::dims_of(file_, path);
-        const std::optional<FullLabel> label = label_of(path, dims.size());
-        if (!label || label->dimensions.size() != dims.size())
+        const std::optional<Label> label = label_of(path, dims.size());
+        if (!label)
+            return;
+        std::istringstream words(label->dimensions);
+        const std::vector<std::string> dimensions{std::istream_iterator<std::string>(words), {}};
+        if (dimensions.size() != dims.size())
             return;
         const hdf5::Handle object = hdf5::open_object(file_, path);
         hdf5::write_text(object.id(), "long_name", label->long_name);
@@ -269,7 +235,7 @@ private:
             hdf5::write_text(object.id(), "units", unit);
         std::vector<std::string> scales;
         for (std::size_t i = 0; i < dims.size(); ++i)
-            scales.push_back(scale(path, label->dimensions[i], dims[i]));
+            scales.push_back(scale(path, dimensions[i], dims[i]));
         scales_.attach(path, scales);
     }
 

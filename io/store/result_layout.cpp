@@ -2,6 +2,7 @@
 
 #include "ensemble/model/mechanism_spec.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -28,24 +29,13 @@ constexpr std::uint64_t bytes_of(Stored stored)
     return 0;
 }
 
-/// Units of the inputs that studies name; of others none is known.
 std::string unit_of_input(const std::string& name)
 {
-    static const std::map<std::string, std::string> units = {{"normal_stiffness", "N/m2"},
-                                                             {"tangential_stiffness", "N/m"},
-                                                             {"drum_width", "m"},
-                                                             {"drum_height", "m"},
-                                                             {"drum_offset", "m"},
-                                                             {"density", "kg/m3"},
-                                                             {"tilt", "rad"},
-                                                             {"phase", "rad"},
-                                                             {"pulse_frequency", "Hz"}};
     for (const MechanismRule& rule : mechanism_rules())
         for (const MechanismParameter& parameter : rule.parameters)
             if (input_name(rule.mechanism, parameter) == name)
                 return parameter.unit;
-    const auto found = units.find(name);
-    return found == units.end() ? std::string() : found->second;
+    return std::string(unit_of(unit_ending_of_input(name)));
 }
 
 struct InputName {
@@ -77,6 +67,23 @@ InputName parse_input_name(const std::string& name)
 
 } // namespace
 
+std::string_view unit_ending_of_input(std::string_view name)
+{
+    constexpr std::pair<std::string_view, std::string_view> endings[] = {{"normal_stiffness", "_n_m2"},
+                                                                         {"tangential_stiffness", "_n_m"},
+                                                                         {"drum_width", "_m"},
+                                                                         {"drum_height", "_m"},
+                                                                         {"drum_offset", "_m"},
+                                                                         {"density", "_kg_m3"},
+                                                                         {"tilt", "_rad"},
+                                                                         {"phase", "_rad"},
+                                                                         {"pulse_frequency", "_hz"}};
+    for (const auto& [known, ending] : endings)
+        if (known == name)
+            return ending;
+    return {};
+}
+
 std::string joined_names(const std::vector<std::string>& names)
 {
     std::string text;
@@ -104,25 +111,22 @@ ResultLayout::ResultLayout(const ResultHeader& header)
         throw std::invalid_argument("a results file has at least one row");
     if (first_index_ + rows_ < rows_)
         throw std::invalid_argument("the indices of the rows are too large");
-    ResultRow row;
-    visit_fields(row, [&](const char* path, const char* unit, auto& field) {
+    const auto add_column = [&](const std::string& group, const char* name, const FieldFacts& facts,
+                                const auto& value) {
         const Stored stored =
-            std::string_view(path) == "cell" ? Stored::i64 : stored_as<std::remove_cvref_t<decltype(field)>>();
-        columns_.push_back({path, unit, std::string(meaning_of_none(path)), stored, false, 1, 0});
-    });
+            std::string_view(name) == "cell" ? Stored::i64 : stored_as<std::remove_cvref_t<decltype(value)>>();
+        columns_.push_back({group + name, std::string(unit_of(name)), facts.none, stored, false, 1, 0});
+    };
+    visit_numbers(add_column, ResultRow{});
     if (header.block_names.empty())
         throw std::invalid_argument("a results file has at least one block");
     joined_names(header.block_names); // for its refusals
-    fall_time_ = columns_.size();
-    columns_.push_back({result_names::fall_time, "s", std::string(meaning_of_none(result_names::fall_time)),
-                        Stored::f64, true, header.block_names.size(), 0});
-
-    if (!header.bed_names.empty()) {
-        joined_names(header.bed_names);
-        beds_ = header.bed_names.size();
-        columns_.push_back({result_names::bed_offset, "m", "", Stored::f64, true, beds_, 0});
-        columns_.push_back({result_names::rotation, "rad", "", Stored::f64, true, header.block_names.size(), 0});
-    }
+    joined_names(header.bed_names);
+    visit_lists(header, [&](const char* name, auto field, std::size_t width, const FieldFacts& facts) {
+        lists_.push_back({field, columns_.size(), facts});
+        columns_.push_back(
+            {std::string("outcome/") + name, std::string(unit_of(name)), facts.none, Stored::f64, true, width, 0});
+    });
 
     std::map<std::string, std::size_t> column_of;
     std::set<std::pair<std::size_t, std::uint64_t>> taken;
@@ -152,65 +156,50 @@ ResultLayout::ResultLayout(const ResultHeader& header)
 
 bool ResultLayout::fits(const ResultRow& row) const
 {
-    const Outcome& o = row.outcome;
-    return row.inputs.size() == inputs() && o.fall_time_s.size() == blocks() &&
-           (beds_ == 0 || (o.bed_offset_m.size() == beds() && o.rotation_rad.size() == blocks()));
+    return row.inputs.size() == inputs_.size() && std::ranges::all_of(lists_, [&](const List& list) {
+               return (row.outcome.*list.field).size() == columns_[list.column].width;
+           });
 }
 
 void ResultLayout::encode(std::uint64_t k, const ResultRow& row, std::span<std::byte> bytes) const
 {
     const std::uint64_t rows = bytes.size() / row_bytes_;
-    const auto put = [&](std::size_t column, std::size_t within, const void* from, std::size_t size) {
-        std::memcpy(bytes.subspan(before_[column] * rows + k * columns_[column].bytes + within, size).data(), from,
-                    size);
+    const auto put = [&](std::size_t column, std::size_t component, const auto& value) {
+        std::memcpy(&bytes[before_[column] * rows + k * columns_[column].bytes + component * sizeof value], &value,
+                    sizeof value);
     };
     std::size_t column = 0;
-    visit_fields(row, [&](const char* path, const char*, const auto& field) {
-        const auto value = without_none(path, field);
-        put(column++, 0, &value, sizeof value);
-    });
-    std::vector<double> fall_times = row.outcome.fall_time_s;
-    for (double& time : fall_times)
-        time = without_none(result_names::fall_time, time);
-    put(fall_time_, 0, fall_times.data(), fall_times.size() * sizeof(double));
-    if (beds_ > 0) {
-        put(fall_time_ + 1, 0, row.outcome.bed_offset_m.data(), beds() * sizeof(double));
-        put(fall_time_ + 2, 0, row.outcome.rotation_rad.data(), blocks() * sizeof(double));
-    }
+    visit_numbers(
+        [&](auto, auto, const FieldFacts& facts, const auto& value) { put(column++, 0, without_none(facts, value)); },
+        row);
+    for (const List& list : lists_)
+        for (std::size_t i = 0; i < columns_[list.column].width; ++i)
+            put(list.column, i, without_none(list.facts, (row.outcome.*list.field)[i]));
     for (std::size_t i = 0; i < inputs_.size(); ++i)
-        put(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
+        put(inputs_[i].column, inputs_[i].component, row.inputs[i]);
 }
 
 ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes) const
 {
     const std::uint64_t rows = bytes.size() / row_bytes_;
-    const auto take = [&](std::size_t column, std::size_t within, void* to, std::size_t size) {
-        std::memcpy(to, bytes.subspan(before_[column] * rows + k * columns_[column].bytes + within, size).data(), size);
+    const auto take = [&](std::size_t column, std::size_t component, auto& value, const FieldFacts& facts = {}) {
+        std::memcpy(&value, &bytes[before_[column] * rows + k * columns_[column].bytes + component * sizeof value],
+                    sizeof value);
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+            if (std::isnan(value) && is_event_time(facts))
+                value = -1;
     };
     ResultRow row;
     std::size_t column = 0;
-    const auto none = [](std::string_view path, auto& value) { // NaN is -1 again
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-            if (std::isnan(value) && is_event_time(path))
-                value = -1;
-    };
-    visit_fields(row, [&](const char* path, const char*, auto& field) {
-        take(column++, 0, &field, sizeof field);
-        none(path, field);
-    });
-    row.outcome.fall_time_s.resize(blocks());
-    take(fall_time_, 0, row.outcome.fall_time_s.data(), blocks() * sizeof(double));
-    for (double& time : row.outcome.fall_time_s)
-        none(result_names::fall_time, time);
-    if (beds_ > 0) {
-        row.outcome.bed_offset_m.resize(beds());
-        take(fall_time_ + 1, 0, row.outcome.bed_offset_m.data(), beds() * sizeof(double));
-        row.outcome.rotation_rad.resize(blocks());
-        take(fall_time_ + 2, 0, row.outcome.rotation_rad.data(), blocks() * sizeof(double));
+    visit_numbers([&](auto, auto, const FieldFacts& facts, auto& value) { take(column++, 0, value, facts); }, row);
+    for (const List& list : lists_) {
+        (row.outcome.*list.field).resize(columns_[list.column].width);
+        for (std::size_t i = 0; i < columns_[list.column].width; ++i)
+            take(list.column, i, (row.outcome.*list.field)[i], list.facts);
     }
     row.inputs.resize(inputs_.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i)
-        take(inputs_[i].column, inputs_[i].component * sizeof(double), &row.inputs[i], sizeof(double));
+        take(inputs_[i].column, inputs_[i].component, row.inputs[i]);
     const bool here = selected_ || (row.index >= first_index_ && row.index - first_index_ < rows_);
     if (!here || row.outcome.state > State::invalid || row.outcome.invalid_reason > InvalidReason::energy)
         throw std::invalid_argument("a row of realization " + std::to_string(row.index) +
@@ -220,22 +209,19 @@ ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes
 
 bool same_bits(const ResultRow& a, const ResultRow& b)
 {
-    const auto bytes = [](const ResultRow& row) {
-        std::vector<unsigned char> all;
-        const auto append = [&](const auto& value) {
-            const auto* first = reinterpret_cast<const unsigned char*>(&value);
-            all.insert(all.end(), first, first + sizeof value);
+    const auto bits = [](const ResultRow& row) {
+        std::vector<std::uint64_t> all;
+        const auto add = [&](const auto& value) { std::memcpy(&all.emplace_back(), &value, sizeof value); };
+        const auto add_list = [&](const std::vector<double>& list) {
+            add(list.size());
+            std::ranges::for_each(list, add);
         };
-        visit_fields(row, [&](const char*, const char*, const auto& value) { append(value); });
-        for (const auto* list :
-             {&row.outcome.fall_time_s, &row.outcome.bed_offset_m, &row.outcome.rotation_rad, &row.inputs}) {
-            append(list->size());
-            for (const double value : *list)
-                append(value);
-        }
+        visit_numbers([&](auto, auto, auto, const auto& value) { add(value); }, row);
+        visit_lists(std::type_identity<Outcome>(), [&](auto, auto field, auto, auto) { add_list(row.outcome.*field); });
+        add_list(row.inputs);
         return all;
     };
-    return bytes(a) == bytes(b);
+    return bits(a) == bits(b);
 }
 
 } // namespace stylobate

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,10 +24,7 @@ inline constexpr char realizations[] = "realizations";
 inline constexpr char input[] = "realizations/input";
 inline constexpr char input_order[] = "order"; ///< attribute of the group: `ResultHeader::input_names`, joined by ' '
 inline constexpr char outcome[] = "realizations/outcome";
-inline constexpr char fall_time[] = "outcome/fall_time_s";   ///< below /realizations
-inline constexpr char bed_offset[] = "outcome/bed_offset_m"; ///< there, of a survival study
-inline constexpr char rotation[] = "outcome/rotation_rad";   ///< the same
-inline constexpr char beds[] = "beds";     ///< attribute of the outcomes of such a study: the names, one on each line
+inline constexpr char beds[] = "beds"; ///< attribute of the outcomes of a survival study: the names, one on each line
 inline constexpr char blocks[] = "blocks"; ///< attribute of groups with values by block: the names, one on each line
 inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
@@ -56,89 +52,31 @@ inline constexpr char limit_states[] = "limit_states"; ///< attribute of the gro
 std::string joined_names(const std::vector<std::string>& names);
 std::vector<std::string> split_names(const std::string& text);
 
-/// Calls f(path below /realizations, unit, member) for every field of a row but the lists: fall times and inputs.
-template <class Row, class F>
-void visit_fields(Row& row, F&& f)
+/// The numbers of rows, in the order of the file: f(group below /realizations, name, facts, value of each row...).
+template <class F, class... Row>
+void visit_numbers(F&& f, Row&&... row)
 {
-    f("index", "", row.index);
-    f("cell", "", row.cell);
-    f("frequency_hz", "Hz", row.frequency_hz);
-    f("pga_m_s2", "m/s2", row.pga_m_s2);
-    auto& o = row.outcome;
-    f("outcome/state", "", o.state);
-    f("outcome/invalid_reason", "", o.invalid_reason);
-    f("outcome/collapse_time_s", "s", o.collapse_time_s);
-    f("outcome/first_collapse_block", "", o.first_collapse_block);
-    f("outcome/fallen_blocks", "", o.fallen_blocks);
-    f("outcome/at_rest", "", o.at_rest);
-    f("outcome/unseated_block", "", o.unseated_block);
-    f("outcome/unseating_time_s", "s", o.unseating_time_s);
-    f("outcome/total_collapse_time_s", "s", o.total_collapse_time_s);
-    f("outcome/peak_top_displacement_m", "m", o.peak_top_displacement_m);
-    f("outcome/residual_top_displacement_m", "m", o.residual_top_displacement_m);
-    f("outcome/top_path_m", "m", o.top_path_m);
-    f("outcome/total_sliding_m", "m", o.total_sliding_m);
-    f("outcome/sliding_path_m", "m", o.sliding_path_m);
-    f("outcome/residual_sliding_m", "m", o.residual_sliding_m);
-    f("outcome/residual_dislocation", "", o.residual_dislocation);
-    f("outcome/total_rocking_rad", "rad", o.total_rocking_rad);
-    f("outcome/rocking_path_rad", "rad", o.rocking_path_rad);
-    f("outcome/max_relative_rotation_rad", "rad", o.max_relative_rotation_rad);
-    f("outcome/energy_kinetic_j", "J", o.energy_kinetic_j);
-    f("outcome/energy_potential_j", "J", o.energy_potential_j);
-    f("outcome/energy_spring_j", "J", o.energy_spring_j);
-    f("outcome/energy_friction_j", "J", o.energy_friction_j);
-    f("outcome/energy_damping_j", "J", o.energy_damping_j);
-    f("outcome/energy_base_work_j", "J", o.energy_base_work_j);
-    f("outcome/energy_residual", "", o.energy_residual);
-    f("outcome/end_time_s", "s", o.end_time_s);
-    f("outcome/step_s", "s", o.step_s);
-    f("outcome/steps", "", o.steps);
-}
-static_assert(sizeof(Outcome) == 280,
-              "a field that is added to or removed from Outcome must be so in visit_fields() too");
-
-/// The last part of a column's path.
-constexpr std::string_view name_of_column(std::string_view path)
-{
-    return path.substr(path.rfind('/') + 1); // all of it where there is no '/'
-}
-/// Whether a column has the time of what may not happen: in memory -1 is none, in files and tables NaN.
-constexpr bool is_event_time(std::string_view path)
-{
-    const std::string_view name = name_of_column(path);
-    return name == "collapse_time_s" || name == "unseating_time_s" || name == "total_collapse_time_s" ||
-           name == "fall_time_s";
-}
-/// Whether a column has what remains of the motion: NaN of a structure that still moves.
-constexpr bool is_residual(std::string_view path)
-{
-    const std::string_view name = name_of_column(path);
-    return name == "residual_top_displacement_m" || name == "residual_sliding_m" || name == "residual_dislocation";
+    visit_fields(std::type_identity<ResultRow>(),
+                 [&](const char* name, auto field, const FieldFacts& facts) { f("", name, facts, row.*field...); });
+    visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
+        f("outcome/", name, facts, row.outcome.*field...);
+    });
 }
 
-/// What stands for "none" in a column of a file or a table; empty: nothing does. (Of blocks, which are whole numbers,
-/// -1 is none.)
-constexpr std::string_view meaning_of_none(std::string_view path)
+/// The lists of an outcome that a file has: f(name, field, how many values they have, facts). The final state of the
+/// structure is there in a survival study.
+template <class F>
+void visit_lists(const ResultHeader& header, F&& f)
 {
-    if (is_event_time(path))
-        return "NaN: it did not happen";
-    if (is_residual(path))
-        return "NaN: the structure still moved at the end";
-    const std::string_view name = name_of_column(path);
-    if (name == "first_collapse_block" || name == "unseated_block")
-        return "-1: no block; -2: several blocks, together";
-    return {};
+    visit_lists(std::type_identity<Outcome>(),
+                [&](const char* name, auto field, std::string_view of, const FieldFacts& facts) {
+                    if (!header.bed_names.empty() || field == &Outcome::fall_time_s)
+                        f(name, field, (of == "bed" ? header.bed_names : header.block_names).size(), facts);
+                });
 }
-/// A time as files and tables have it.
-template <class Value>
-Value without_none(std::string_view path, const Value& value)
-{
-    if constexpr (std::is_same_v<Value, double>)
-        return value == -1 && is_event_time(path) ? std::numeric_limits<double>::quiet_NaN() : value;
-    else
-        return value;
-}
+
+/// The end of the name that an input has in tables, which is its unit: "_n_m2". Empty: it is not known here.
+std::string_view unit_ending_of_input(std::string_view name);
 
 /// `i64`: a number that is counted with, of which NumPy makes a place in an array.
 enum class Stored { state, invalid_reason, i32, i64, u64, f64 };
@@ -164,7 +102,7 @@ constexpr Stored stored_as()
 struct Column {
     std::string path; ///< below /realizations
     std::string unit; ///< empty: none
-    std::string none; ///< `meaning_of_none`
+    std::string none; ///< what stands for "none", and its meaning; empty: nothing does
     Stored stored = Stored::f64;
     bool matrix = false;     ///< (n x width) instead of (n)
     std::uint64_t width = 1; ///< values for each row
@@ -185,10 +123,6 @@ public:
     /// Chunk of a row.
     std::uint64_t chunk_of(std::uint64_t row) const { return row / ResultWriter::rows_per_chunk; }
     std::uint64_t row_bytes() const { return row_bytes_; }
-    std::size_t inputs() const { return inputs_.size(); }
-    std::size_t blocks() const { return columns_[fall_time_].width; }
-    /// 0 where rows do not hold the final state.
-    std::size_t beds() const { return beds_; }
     /// Whether its lists are as long as the columns are wide.
     bool fits(const ResultRow& row) const;
 
@@ -220,15 +154,19 @@ private:
         std::size_t column = 0;
         std::uint64_t component = 0;
     };
+    struct List {
+        std::vector<double> Outcome::*field;
+        std::size_t column = 0;
+        FieldFacts facts;
+    };
     std::uint64_t first_index_ = 0;
     bool selected_ = false;
     std::uint64_t rows_ = 0;
     std::uint64_t row_bytes_ = 0;
     std::vector<Column> columns_;
     std::vector<std::uint64_t> before_; ///< bytes for each row of the columns before this one
-    std::size_t fall_time_ = 0;         ///< column of `Outcome::fall_time_s`; the final state follows it, if any
-    std::size_t beds_ = 0;
-    std::vector<Input> inputs_; ///< where `ResultRow::inputs` go
+    std::vector<List> lists_;           ///< of the outcome: those that the file has
+    std::vector<Input> inputs_;         ///< where `ResultRow::inputs` go
 };
 
 } // namespace stylobate

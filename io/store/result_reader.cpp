@@ -1,8 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_file.hpp"
 #include "io/store/result_store.hpp"
-#include "io/store/result_trajectory.hpp"
-#include "io/store/tally_file.hpp"
 #include "io/tables/table_hdf5.hpp"
 
 #include <algorithm>
@@ -206,11 +204,10 @@ SurfaceTable ResultReader::surface() const
         table.frequency_hz = header().frequency_hz;
         table.pga_m_s2 = header().pga_m_s2;
         const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
-        table.trials = hdf5::read_counts(file, group + "trials", dims);
-        table.collapses = hdf5::read_counts(file, group + "collapses", dims);
-        table.probability = hdf5::read_doubles(file, group + "probability", dims);
-        table.lower = hdf5::read_doubles(file, group + "lower", dims);
-        table.upper = hdf5::read_doubles(file, group + "upper", dims);
+        visit_fields(std::type_identity<SurfaceTable>(), [&](const char* name, auto field, auto) {
+            using Number = typename std::remove_cvref_t<decltype(table.*field)>::value_type;
+            table.*field = hdf5::read_array<Number>(file, group + name, dims);
+        });
         const hdf5::Handle opened = hdf5::open_group(file, names::surface);
         table.interval = hdf5::read_text(opened.id(), "interval");
         if (!hdf5::exists(file, group + "method"))
@@ -257,35 +254,7 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
                          "has no trajectory of realization " + std::to_string(index) + "; 'replay' computes one");
     if (!complete())
         return trajectory_of(RowJournal::content(impl_->file.handle, impl_->trajectories.at(index)));
-    return impl_->guarded([index](hid_t file) {
-        const std::string group = std::string(names::trajectories) + "/" + std::to_string(index) + "/";
-        Trajectory trajectory;
-        trajectory.index = index;
-        const hdf5::Dims both = hdf5::dims_of(file, group + "x_m");
-        if (both.size() != 2)
-            throw hdf5::Error("'" + group + "x_m' is not a matrix");
-        trajectory.time_s = hdf5::read_doubles(file, group + "time_s", {both[0]});
-        trajectory.x_m = hdf5::read_doubles(file, group + "x_m", both);
-        trajectory.y_m = hdf5::read_doubles(file, group + "y_m", both);
-        trajectory.theta_rad = hdf5::read_doubles(file, group + "theta_rad", both);
-        trajectory.base_x_m = hdf5::read_doubles(file, group + "base_x_m", {both[0]});
-        trajectory.rest_x_m = hdf5::read_doubles(file, group + "rest_x_m", {both[1]});
-        trajectory.rest_y_m = hdf5::read_doubles(file, group + "rest_y_m", {both[1]});
-        trajectory.half_width_m = hdf5::read_doubles(file, group + "half_width_m", {both[1]});
-        trajectory.half_height_m = hdf5::read_doubles(file, group + "half_height_m", {both[1]});
-        for (const std::uint8_t role : hdf5::read_bytes(file, group + "role", role_type().id(), {both[1]})) {
-            if (role > static_cast<std::uint8_t>(BlockRole::ground))
-                throw hdf5::Error("'" + group + "role' contains values that no run writes");
-            trajectory.role.push_back(static_cast<BlockRole>(role));
-        }
-        trajectory.column = hdf5::read_integers(file, group + "column", {both[1]});
-        const hdf5::Handle opened = hdf5::open_group(file, group);
-        trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
-        if (trajectory.name.size() != both[1])
-            throw hdf5::Error("'" + group + "' does not have a name for each block");
-        check_trajectory(trajectory);
-        return trajectory;
-    });
+    return impl_->guarded([index](hid_t file) { return read_trajectory(file, index); });
 }
 
 } // namespace stylobate

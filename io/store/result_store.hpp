@@ -73,6 +73,16 @@ struct ResultRow {
     Outcome outcome;
 };
 
+/// Its own numbers, without the outcome's.
+template <class F>
+void visit_fields(std::type_identity<ResultRow>, F&& f)
+{
+    f("index", &ResultRow::index, FieldFacts{.says = "index of the realization"});
+    f("cell", &ResultRow::cell, FieldFacts{.says = "cell of the surface, or motion x stripes + stripe"});
+    f("frequency_hz", &ResultRow::frequency_hz, FieldFacts{.says = "frequency of the shaking"});
+    f("pga_m_s2", &ResultRow::pga_m_s2, FieldFacts{.says = "peak ground acceleration"});
+}
+
 /// Whether all numbers of two rows have the same bits (NaN equals itself, 0 differs from -0).
 bool same_bits(const ResultRow& a, const ResultRow& b);
 
@@ -91,6 +101,20 @@ struct SurfaceTable {
     std::uint64_t rounds = 0;           ///< that it took
 };
 
+/// The values of each cell.
+template <class F>
+void visit_fields(std::type_identity<SurfaceTable>, F&& f)
+{
+    f("trials", &SurfaceTable::trials, FieldFacts{.says = "valid realizations"});
+    f("collapses", &SurfaceTable::collapses, FieldFacts{.says = "collapsed realizations"});
+    f("probability", &SurfaceTable::probability, FieldFacts{.says = "probability of collapse"});
+    f("lower", &SurfaceTable::lower, FieldFacts{.says = "lower end of the interval of the probability of collapse"});
+    f("upper", &SurfaceTable::upper, FieldFacts{.says = "upper end of the interval of the probability of collapse"});
+}
+
+/// Whether each cell has all its values.
+bool has_all_cells(const SurfaceTable& surface);
+
 struct Trajectory {
     std::uint64_t index = 0;
     std::vector<double> time_s;        ///< (nt)
@@ -107,6 +131,37 @@ struct Trajectory {
     std::vector<std::string> name;     ///< (n_block) as in `ResultHeader::block_names`
     std::size_t blocks() const { return half_width_m.size(); }
 };
+
+/// What a list of a trajectory has values of.
+enum class ListOf { times, blocks, poses };
+
+/// The lists of numbers of a trajectory, be it this one or the library's: f(name, per, meaning, &T::field...). Those
+/// per time and block are the channels of the blocks' poses.
+template <class... T, class F>
+void visit_lists(F&& f)
+{
+    f("time_s", ListOf::times, "time", &T::time_s...);
+    f("x_m", ListOf::poses, "horizontal place of the centre, in the frame of the base", &T::x_m...);
+    f("y_m", ListOf::poses, "height of the centre, in the frame of the base", &T::y_m...);
+    f("theta_rad", ListOf::poses, "rotation, counter-clockwise from upright", &T::theta_rad...);
+    f("base_x_m", ListOf::times, "displacement of the base", &T::base_x_m...);
+    f("rest_x_m", ListOf::blocks, "horizontal place of the centre as built", &T::rest_x_m...);
+    f("rest_y_m", ListOf::blocks, "height of the centre as built", &T::rest_y_m...);
+    f("half_width_m", ListOf::blocks, "half width of the block", &T::half_width_m...);
+    f("half_height_m", ListOf::blocks, "half height of the block", &T::half_height_m...);
+}
+
+/// Whether its lists of numbers fit each other.
+template <class T>
+bool lists_fit(const T& trajectory)
+{
+    bool fit = true;
+    visit_lists<T>([&](const char*, ListOf of, const char*, auto field) {
+        fit = fit && (trajectory.*field).size() == (of == ListOf::blocks ? 1 : trajectory.time_s.size()) *
+                                                       (of == ListOf::times ? 1 : trajectory.blocks());
+    });
+    return fit;
+}
 
 /// A results file that is being written. Rows may come in any order; each is written, with its checksum, as it comes,
 /// behind the rest of the file. A process that is killed at any moment leaves a file that `resume` continues with every

@@ -1,5 +1,3 @@
-#include "io/store/result_trajectory.hpp"
-
 #include "io/store/result_file.hpp"
 
 #include <cstring>
@@ -10,62 +8,74 @@ namespace stylobate {
 
 namespace names = result_names;
 
-namespace {
-
-/// Calls f(list) for all lists but the names.
-template <class T, class F>
-void visit_lists(T& t, const F& f)
-{
-    f(t.time_s);
-    f(t.x_m);
-    f(t.y_m);
-    f(t.theta_rad);
-    f(t.base_x_m);
-    f(t.rest_x_m);
-    f(t.rest_y_m);
-    f(t.half_width_m);
-    f(t.half_height_m);
-    f(t.role);
-    f(t.column);
-}
-
-} // namespace
-
 void check_trajectory(const Trajectory& trajectory)
 {
-    const std::size_t times = trajectory.time_s.size();
     const std::size_t blocks = trajectory.blocks();
-    const std::size_t values = times * blocks;
-    if (trajectory.x_m.size() != values || trajectory.y_m.size() != values || trajectory.theta_rad.size() != values ||
-        trajectory.base_x_m.size() != times || trajectory.half_height_m.size() != blocks ||
-        trajectory.rest_x_m.size() != blocks || trajectory.rest_y_m.size() != blocks ||
-        trajectory.role.size() != blocks || trajectory.column.size() != blocks || trajectory.name.size() != blocks)
+    if (!lists_fit(trajectory) || trajectory.role.size() != blocks || trajectory.column.size() != blocks ||
+        trajectory.name.size() != blocks)
         throw std::invalid_argument("the arrays of a trajectory have inconsistent sizes");
     joined_names(trajectory.name); // for its refusals
 }
 
+namespace {
+
+/// Calls f(path, list of numbers, its shape) for each of them. @param group of the trajectory
+template <class T, class F>
+void visit_datasets(T& t, const std::string& group, hsize_t times, hsize_t blocks, const F& f)
+{
+    visit_lists<Trajectory>([&](const char* name, ListOf of, const char*, auto field) {
+        f(group + name, t.*field,
+          of == ListOf::times    ? hdf5::Dims{times}
+          : of == ListOf::blocks ? hdf5::Dims{blocks}
+                                 : hdf5::Dims{times, blocks});
+    });
+}
+
+std::string group_of(std::uint64_t index)
+{
+    return std::string(names::trajectories) + "/" + std::to_string(index) + "/";
+}
+
+} // namespace
+
 void write_trajectory(hid_t file, const Trajectory& trajectory)
 {
-    const std::string group = std::string(names::trajectories) + "/" + std::to_string(trajectory.index);
+    const std::string group = group_of(trajectory.index);
     const hdf5::Handle made = hdf5::create_group(file, group);
     hdf5::write_text(made.id(), names::blocks, joined_names(trajectory.name));
-    const hdf5::Dims time = {trajectory.time_s.size()};
-    const hdf5::Dims block = {trajectory.blocks()};
-    const hdf5::Dims both = {trajectory.time_s.size(), trajectory.blocks()};
-    hdf5::write_array(file, group + "/time_s", trajectory.time_s, time, "s");
-    hdf5::write_array(file, group + "/x_m", trajectory.x_m, both, "m");
-    hdf5::write_array(file, group + "/y_m", trajectory.y_m, both, "m");
-    hdf5::write_array(file, group + "/theta_rad", trajectory.theta_rad, both, "rad");
-    hdf5::write_array(file, group + "/base_x_m", trajectory.base_x_m, time, "m");
-    hdf5::write_array(file, group + "/rest_x_m", trajectory.rest_x_m, block, "m");
-    hdf5::write_array(file, group + "/rest_y_m", trajectory.rest_y_m, block, "m");
-    hdf5::write_array(file, group + "/half_width_m", trajectory.half_width_m, block, "m");
-    hdf5::write_array(file, group + "/half_height_m", trajectory.half_height_m, block, "m");
+    visit_datasets(trajectory, group, trajectory.time_s.size(), trajectory.blocks(),
+                   [&](const std::string& path, const auto& list, const hdf5::Dims& dims) {
+                       hdf5::write_array(file, path, list, dims, std::string(unit_of(path)));
+                   });
     std::vector<std::uint8_t> roles;
     for (const BlockRole role : trajectory.role)
         roles.push_back(static_cast<std::uint8_t>(role));
-    hdf5::write_bytes(file, group + "/role", role_type().id(), roles, block);
-    hdf5::write_array(file, group + "/column", trajectory.column, block, "");
+    hdf5::write_bytes(file, group + "role", role_type().id(), roles, {trajectory.blocks()});
+    hdf5::write_array(file, group + "column", trajectory.column, {trajectory.blocks()}, "");
+}
+
+Trajectory read_trajectory(hid_t file, std::uint64_t index)
+{
+    const std::string group = group_of(index);
+    Trajectory trajectory;
+    trajectory.index = index;
+    const hdf5::Dims both = hdf5::dims_of(file, group + "x_m");
+    if (both.size() != 2)
+        throw hdf5::Error("'" + group + "x_m' is not a matrix");
+    visit_datasets(trajectory, group, both[0], both[1],
+                   [&](const std::string& path, auto& list, const hdf5::Dims& dims) {
+                       list = hdf5::read_doubles(file, path, dims);
+                   });
+    for (const std::uint8_t role : hdf5::read_bytes(file, group + "role", role_type().id(), {both[1]})) {
+        if (role > static_cast<std::uint8_t>(BlockRole::ground))
+            throw hdf5::Error("'" + group + "role' contains values that no run writes");
+        trajectory.role.push_back(static_cast<BlockRole>(role));
+    }
+    trajectory.column = hdf5::read_integers(file, group + "column", {both[1]});
+    const hdf5::Handle opened = hdf5::open_group(file, group);
+    trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
+    check_trajectory(trajectory);
+    return trajectory;
 }
 
 std::vector<std::byte> bytes_of(const Trajectory& trajectory)
@@ -83,7 +93,9 @@ std::vector<std::byte> bytes_of(const Trajectory& trajectory)
         put(std::as_bytes(std::span(list)));
     };
     put(std::as_bytes(std::span(&trajectory.index, 1)));
-    visit_lists(trajectory, put_list);
+    visit_lists<Trajectory>([&](auto, auto, auto, auto field) { put_list(trajectory.*field); });
+    put_list(trajectory.role);
+    put_list(trajectory.column);
     put_list(joined_names(trajectory.name));
     return bytes;
 }
@@ -107,7 +119,9 @@ Trajectory trajectory_of(std::span<const std::byte> bytes)
     };
     Trajectory trajectory;
     take(&trajectory.index, sizeof trajectory.index);
-    visit_lists(trajectory, take_list);
+    visit_lists<Trajectory>([&](auto, auto, auto, auto field) { take_list(trajectory.*field); });
+    take_list(trajectory.role);
+    take_list(trajectory.column);
     std::string text;
     take_list(text);
     trajectory.name = split_names(text);

@@ -1,8 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_file.hpp"
-#include "io/store/result_labels.hpp"
 #include "io/store/result_store.hpp"
-#include "io/store/result_trajectory.hpp"
 #include "io/tables/table_hdf5.hpp"
 
 #include <map>

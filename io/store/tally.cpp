@@ -10,10 +10,11 @@
 
 namespace stylobate {
 
-Tally::Tally(std::size_t cells, std::size_t number_of_limit_states, std::size_t number_of_blocks)
-    : limit_states(number_of_limit_states), blocks(number_of_blocks), trials(cells), invalid(cells),
-      reached(cells * limit_states), first(cells * blocks), first_together(cells)
+Tally::Tally(std::size_t number_of_cells, std::size_t number_of_limit_states, std::size_t number_of_blocks)
+    : limit_states(number_of_limit_states), blocks(number_of_blocks)
 {
+    visit_fields(std::type_identity<Tally>(),
+                 [&](auto, auto field, auto by, auto) { (this->*field).resize(number_of_cells * width(by)); });
 }
 
 std::uint64_t Tally::all_trials() const
@@ -62,14 +63,9 @@ void Tally::add(const Tally& other)
 {
     if (other.cells() != cells() || other.limit_states != limit_states || other.blocks != blocks)
         throw std::invalid_argument("the counts are of another shape");
-    const auto sum = [](std::vector<std::uint64_t>& to, const std::vector<std::uint64_t>& from) {
-        std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus());
-    };
-    sum(trials, other.trials);
-    sum(invalid, other.invalid);
-    sum(reached, other.reached);
-    sum(first, other.first);
-    sum(first_together, other.first_together);
+    visit_fields(std::type_identity<Tally>(), [&](auto, auto field, auto, auto) {
+        std::ranges::transform(this->*field, other.*field, (this->*field).begin(), std::plus());
+    });
     collapse_time_s.add(other.collapse_time_s);
     total_collapse_time_s.add(other.total_collapse_time_s);
     first_invalid.insert(other.first_invalid.begin(), other.first_invalid.end());

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string_view>
 #include <vector>
 
 namespace stylobate {
@@ -43,6 +44,11 @@ struct Tally {
     std::uint64_t energy_realization = no_realization;    ///< and whose it is, of several the lowest index
 
     std::size_t cells() const { return trials.size(); }
+    /// Counts of each cell that are by "limit_state", "block" or nothing else.
+    std::size_t width(std::string_view by) const
+    {
+        return by == "limit_state" ? limit_states : by == "block" ? blocks : 1;
+    }
     std::uint64_t all_trials() const;
     std::uint64_t all_invalid() const;
     /// Realizations that were added.
@@ -58,5 +64,18 @@ struct Tally {
 private:
     void keep_worst(double residual, std::uint64_t realization);
 };
+
+/// The counts of each cell: f(name in files, field, what else they are counted by: "limit_state", "block" or nothing,
+/// facts).
+template <class F>
+void visit_fields(std::type_identity<Tally>, F&& f)
+{
+    f("trials", &Tally::trials, "", FieldFacts{.says = "valid realizations"});
+    f("invalid", &Tally::invalid, "", FieldFacts{.says = "invalid realizations"});
+    f("reached", &Tally::reached, "limit_state", FieldFacts{.says = "realizations that reached the limit state"});
+    f("first_fallen", &Tally::first, "block", FieldFacts{.says = "realizations in which the block fell first"});
+    f("first_together", &Tally::first_together, "",
+      FieldFacts{.says = "realizations in which several blocks fell first, together"});
+}
 
 } // namespace stylobate

@@ -1,3 +1,4 @@
+#include "io/store/result_store.hpp"
 #include "python/module/arrays.hpp"
 #include "python/module/module.hpp"
 #include "stylobate/stylobate.hpp"
@@ -14,51 +15,31 @@ namespace {
 namespace sb = stylobate::api;
 using namespace pybind11::literals;
 
-/// Every number of an outcome but its lists, under the name that files and tables have it: f(name, unit, member).
+/// Every number of an outcome but its lists, under the name that files and tables have it: f(name, member, facts).
 template <class F>
 void visit_outcome(const F& f)
 {
     using O = sb::Outcome;
-    f("index", "1", &O::index);
-    f("cell", "1", &O::cell);
-    f("frequency_hz", "Hz", &O::frequency_hz);
-    f("pga_m_s2", "m/s2", &O::pga_m_s2);
-    f("state", "1", &O::state);
-    f("invalid_reason", "1", &O::invalid_reason);
-    f("collapse_time_s", "s", &O::collapse_time_s);
-    f("first_collapse_block", "1", &O::first_fallen_block);
-    f("fallen_blocks", "1", &O::fallen_blocks);
-    f("at_rest", "1", &O::at_rest);
-    f("unseated_block", "1", &O::unseated_block);
-    f("unseating_time_s", "s", &O::unseating_time_s);
-    f("total_collapse_time_s", "s", &O::total_collapse_time_s);
-    f("peak_top_displacement_m", "m", &O::peak_top_displacement_m);
-    f("residual_top_displacement_m", "m", &O::residual_top_displacement_m);
-    f("top_path_m", "m", &O::top_path_m);
-    f("total_sliding_m", "m", &O::total_sliding_m);
-    f("sliding_path_m", "m", &O::sliding_path_m);
-    f("residual_sliding_m", "m", &O::residual_sliding_m);
-    f("residual_dislocation", "1", &O::residual_dislocation);
-    f("total_rocking_rad", "rad", &O::total_rocking_rad);
-    f("rocking_path_rad", "rad", &O::rocking_path_rad);
-    f("max_relative_rotation_rad", "rad", &O::max_relative_rotation_rad);
-    f("energy_kinetic_j", "J", &O::energy_kinetic_j);
-    f("energy_potential_j", "J", &O::energy_potential_j);
-    f("energy_spring_j", "J", &O::energy_spring_j);
-    f("energy_friction_j", "J", &O::energy_friction_j);
-    f("energy_damping_j", "J", &O::energy_damping_j);
-    f("energy_base_work_j", "J", &O::energy_base_work_j);
-    f("energy_residual", "1", &O::energy_residual);
-    f("end_time_s", "s", &O::end_time_s);
-    f("step_s", "s", &O::step_s);
-    f("steps", "1", &O::steps);
+    f("index", &O::index, FieldFacts());
+    f("cell", &O::cell, FieldFacts());
+    f("frequency_hz", &O::frequency_hz, FieldFacts());
+    f("pga_m_s2", &O::pga_m_s2, FieldFacts());
+#define STYLOBATE_OUTCOME(type, name, value, ...) f(#name, &O::name, FieldFacts{__VA_ARGS__});
+#define STYLOBATE_OUTCOME_AS(public_type, public_name, type, name, value, ...)                                         \
+    f(#name, &O::public_name, FieldFacts{__VA_ARGS__});
+#include "stylobate/outcome_fields.inc"
 }
 
-/// Names to (unit, values of one outcome).
+/// The unit at the end of a name; "1": none.
+std::string unit_in_python(std::string_view name)
+{
+    return unit_of(name).empty() ? "1" : std::string(unit_of(name));
+}
+
 py::dict outcome_dict(const sb::Outcome& outcome)
 {
     py::dict all;
-    visit_outcome([&](const char* name, const char*, auto member) {
+    visit_outcome([&](const char* name, auto member, auto) {
         if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(outcome.*member)>>)
             all[name] = sb::to_string(outcome.*member);
         else
@@ -120,26 +101,26 @@ void add_trajectory(py::module_& module)
 {
     using T = sb::Trajectory;
     py::class_<T> trajectory(module, "Trajectory");
-    const auto list = [&](const char* name, std::vector<double> T::*member) {
-        trajectory.def_property_readonly(
-            name, [member](const py::object& self) { return view(self, self.cast<const T&>().*member); });
-    };
-    const auto history = [&](const char* name, std::vector<double> T::*member) {
-        trajectory.def_property_readonly(name, [member](const py::object& self) {
-            const T& of = self.cast<const T&>();
-            return view(self, of.*member,
-                        {static_cast<py::ssize_t>(of.time_s.size()), static_cast<py::ssize_t>(of.blocks())});
+    trajectory.def("lists", [](const py::object& self) { // name: (dimensions, unit, meaning, values)
+        const T& of = self.cast<const T&>();
+        const auto times = static_cast<py::ssize_t>(of.time_s.size()), blocks = static_cast<py::ssize_t>(of.blocks());
+        py::dict all;
+        visit_lists<T>([&](const char* name, ListOf what, const char* says, auto member) {
+            py::list dimensions;
+            Shape shape;
+            if (what != ListOf::blocks) {
+                dimensions.append("time_s");
+                shape.push_back(times);
+            }
+            if (what != ListOf::times) {
+                dimensions.append("block");
+                shape.push_back(blocks);
+            }
+            all[name] =
+                py::make_tuple(py::tuple(dimensions), unit_in_python(name), says, view(self, of.*member, shape));
         });
-    };
-    list("time_s", &T::time_s);
-    history("x_m", &T::x_m);
-    history("y_m", &T::y_m);
-    history("theta_rad", &T::theta_rad);
-    list("base_x_m", &T::base_x_m);
-    list("rest_x_m", &T::rest_x_m);
-    list("rest_y_m", &T::rest_y_m);
-    list("half_width_m", &T::half_width_m);
-    list("half_height_m", &T::half_height_m);
+        return all;
+    });
     trajectory.def_readonly("name", &T::name)
         .def_readonly("fixed", &T::fixed)
         .def_readonly("epistyle", &T::epistyle)
@@ -177,11 +158,11 @@ void add_result(py::module_& module)
         .def("surface", &sb::Result::surface, "limit_state"_a = "collapse")
         .def("fragility", &sb::Result::fragility)
         .def("columns",
-             [](const py::object& self) { // name: (unit, values)
+             [](const py::object& self) { // name: (unit, whether -1 is none, values)
                  const auto& rows = self.cast<const sb::Result&>().outcomes();
                  py::dict all;
-                 visit_outcome([&](const char* name, const char* unit, auto member) {
-                     all[name] = py::make_tuple(unit, column(self, rows, member));
+                 visit_outcome([&](const char* name, auto member, const FieldFacts& facts) {
+                     all[name] = py::make_tuple(unit_in_python(name), is_event_time(facts), column(self, rows, member));
                  });
                  return all;
              })

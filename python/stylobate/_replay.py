@@ -19,9 +19,9 @@ class Replay:
 
     def __init__(self, core):
         self._core = core  # the owner of what the arrays show
-        for name in ("time_s", "x_m", "y_m", "theta_rad", "base_x_m", "rest_x_m", "rest_y_m", "half_width_m",
-                     "half_height_m"):
-            setattr(self, name, getattr(core, name))
+        self._lists = core.lists()
+        for name, (_, _, _, values) in self._lists.items():
+            setattr(self, name, values)
         self.blocks = list(core.name)
         self.fixed = list(core.fixed)
         self.epistyle = list(core.epistyle)
@@ -43,15 +43,10 @@ class Replay:
         """An xarray.Dataset over time_s [s] and block, with units."""
         import xarray
 
-        data = {name: (("time_s", "block"), getattr(self, name), {"units": unit, "long_name": text})
-                for name, unit, text in (("x_m", "m", "horizontal place of the centre"),
-                                         ("y_m", "m", "height of the centre"),
-                                         ("theta_rad", "rad", "rotation, counter-clockwise"))}
-        data["base_x_m"] = ("time_s", self.base_x_m, {"units": "m", "long_name": "displacement of the base"})
-        for name in ("rest_x_m", "rest_y_m", "half_width_m", "half_height_m"):
-            data[name] = ("block", getattr(self, name), {"units": "m", "long_name": name[:-2].replace("_", " ")})
-        return xarray.Dataset(data, coords={"time_s": ("time_s", self.time_s, {"units": "s", "long_name": "time"}),
-                                            "block": ("block", self.blocks)})
+        data = {name: (dims, values, {"units": unit, "long_name": text})
+                for name, (dims, unit, text, values) in self._lists.items()}
+        time = data.pop("time_s")
+        return xarray.Dataset(data, coords={"time_s": time, "block": ("block", self.blocks)})
 
     def __repr__(self):
         return (f"<Replay: realization {self.outcome['index']}, {self.outcome['state']}, {len(self.time_s)} times x "

@@ -114,7 +114,7 @@ class Result:
         Names and units are those of `realizations`; times are -1 where a thing did not happen; `state` and
         `invalid_reason` are numbers.
         """
-        return {name: values for name, (_, values) in self._core.columns().items()}
+        return {name: values for name, (_, _, values) in self._core.columns().items()}
 
     def realizations(self):
         """A pandas.DataFrame with a row for each realization, by index: cell, frequency_hz, pga_m_s2, the outcome, the
@@ -129,8 +129,8 @@ class Result:
 
         core = self._core
         columns, units = {}, {}
-        for name, (unit, values) in core.columns().items():
-            if name in ("collapse_time_s", "unseating_time_s", "total_collapse_time_s"):
+        for name, (unit, is_event, values) in core.columns().items():
+            if is_event:
                 values = np.where(values == -1, np.nan, values)
             elif name == "state":
                 values = pandas.Categorical.from_codes(values, STATES)

@@ -2,8 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/store/export_csv.hpp"
-#include "io/store/export_vtk.hpp"
+#include "io/store/export.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/csv.hpp"
 #include "studies/app/command.hpp"

@@ -1,7 +1,6 @@
 /// `stylobate replay`: one realization of a result again, with its trajectory.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/store/result_layout.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/app/command.hpp"
 #include "studies/experiment/trajectory.hpp"
@@ -113,12 +112,12 @@ void print_json(const Replayed& r)
         .member("frequency_hz", r.row.frequency_hz)
         .member("pga_m_s2", r.row.pga_m_s2)
         .member("state", to_string(o.state))
-        .member("collapse_time_s", without_none("collapse_time_s", o.collapse_time_s))
+        .member("collapse_time_s", event_time(o.collapse_time_s))
         .member("first_collapse_block", o.first_collapse_block)
         .member("fallen_blocks", o.fallen_blocks)
         .member("unseated_block", o.unseated_block)
-        .member("unseating_time_s", without_none("unseating_time_s", o.unseating_time_s))
-        .member("total_collapse_time_s", without_none("total_collapse_time_s", r.total_s))
+        .member("unseating_time_s", event_time(o.unseating_time_s))
+        .member("total_collapse_time_s", event_time(r.total_s))
         .member("falls", falls_json(falls, r.names, o.fall_time_s))
         .member("at_rest", o.at_rest != 0)
         .member("peak_top_displacement_m", o.peak_top_displacement_m)

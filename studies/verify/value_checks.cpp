@@ -60,17 +60,6 @@ void compare_values(const std::string& where, const Value& stored, const Value& 
         check.add({where, std::nullopt, shown(stored), shown(again)});
 }
 
-/// Numbers of a row that may be negative; all others may not.
-bool may_be_negative(std::string_view path)
-{
-    // the kinetic energy is a product of the velocities half a step before and after: of rounding errors, at rest
-    constexpr std::string_view signed_paths[] = {"outcome/residual_top_displacement_m", "outcome/energy_kinetic_j",
-                                                 "outcome/energy_potential_j",          "outcome/energy_spring_j",
-                                                 "outcome/energy_friction_j",           "outcome/energy_damping_j",
-                                                 "outcome/energy_base_work_j",          "outcome/energy_residual"};
-    return std::ranges::find(signed_paths, path) != std::end(signed_paths);
-}
-
 /// What is wrong with one row, value by value.
 class RowLook {
 public:
@@ -91,17 +80,16 @@ public:
     /// Of any valid realization: finite, and not negative where it is no signed quantity. -1 stands for none.
     void numbers()
     {
-        visit_fields(row_, [&](const char* path, const char*, const auto& value) {
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
-                const bool none = value == -1 && is_event_time(path);
-                if (is_residual(path) && row_.outcome.at_rest == 0) {
-                    require(path, value, std::isnan(value), "NaN of what still moved");
-                    return;
-                }
-                require(path, value, std::isfinite(value), "a finite number");
-                require(path, value, none || may_be_negative(path) || !(value < 0), "a number that is not negative");
+        const auto check = [&](const std::string& group, const char* name, const FieldFacts& facts, const auto& value) {
+            if constexpr (std::is_same_v<decltype(value), const double&>) {
+                if (facts.none == std::string_view(it_still_moved) && row_.outcome.at_rest == 0)
+                    return require(group + name, value, std::isnan(value), "NaN of what still moved");
+                require(group + name, value, std::isfinite(value), "a finite number");
+                const bool none = value == -1 && is_event_time(facts);
+                require(group + name, value, none || facts.is_signed || !(value < 0), "a number that is not negative");
             }
-        });
+        };
+        visit_numbers(check, row_);
         const Outcome& o = row_.outcome;
         require("outcome/at_rest", o.at_rest, o.at_rest == 0 || o.at_rest == 1, "0 or 1");
         require("outcome/step_s", o.step_s, o.step_s > 0, "a number above 0");
@@ -196,37 +184,22 @@ void compare_rows(const ResultHeader& header, const ResultRow& stored, const Res
 {
     if (same_bits(stored, again))
         return;
-    struct Value {
-        std::string text;
-        std::uint64_t bits = 0;
-    };
-    std::vector<Value> expected;
-    const auto bits_of = [](const auto& value) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-            return std::bit_cast<std::uint64_t>(value);
-        else
-            return static_cast<std::uint64_t>(value);
-    };
-    visit_fields(again, [&](const char*, const char*, const auto& value) {
-        expected.push_back({shown(value), bits_of(value)});
-    });
-    std::size_t k = 0;
-    visit_fields(stored, [&](const char* path, const char*, const auto& value) {
-        if (const Value& other = expected[k++]; bits_of(value) != other.bits)
-            check.add({path, stored.index, shown(value), other.text});
-    });
+    visit_numbers(
+        [&](const std::string& group, const char* name, auto, const auto& a, const auto& b) {
+            if (!same_value(a, b))
+                check.add({group + name, stored.index, shown(a), shown(b)});
+        },
+        stored, again);
     const auto lists = [&](const std::vector<double>& a, const std::vector<double>& b, const auto& name) {
         for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
             if (i >= a.size() || i >= b.size() || !same_value(a[i], b[i]))
                 check.add(
                     {name(i), stored.index, i < a.size() ? shown(a[i]) : "none", i < b.size() ? shown(b[i]) : "none"});
     };
-    lists(stored.outcome.fall_time_s, again.outcome.fall_time_s,
-          [](std::size_t i) { return fmt::format("outcome/fall_time_s[{}]", i); });
-    lists(stored.outcome.bed_offset_m, again.outcome.bed_offset_m,
-          [](std::size_t i) { return fmt::format("outcome/bed_offset_m[{}]", i); });
-    lists(stored.outcome.rotation_rad, again.outcome.rotation_rad,
-          [](std::size_t i) { return fmt::format("outcome/rotation_rad[{}]", i); });
+    visit_lists(std::type_identity<Outcome>(), [&](const char* name, auto field, auto, auto) {
+        lists(stored.outcome.*field, again.outcome.*field,
+              [&](std::size_t i) { return fmt::format("outcome/{}[{}]", name, i); });
+    });
     lists(stored.inputs, again.inputs, [&](std::size_t i) {
         return i < header.input_names.size() ? "input/" + header.input_names[i] : fmt::format("input {}", i);
     });
@@ -237,15 +210,8 @@ void compare_trajectories(const Trajectory& stored, const Trajectory& again, Fil
     const auto lists = [&](const char* name, const auto& a, const auto& b) {
         compare_lists(fmt::format("trajectories/{}/{}", stored.index, name), stored.index, a, b, check, true);
     };
-    lists("time_s", stored.time_s, again.time_s);
-    lists("x_m", stored.x_m, again.x_m);
-    lists("y_m", stored.y_m, again.y_m);
-    lists("theta_rad", stored.theta_rad, again.theta_rad);
-    lists("base_x_m", stored.base_x_m, again.base_x_m);
-    lists("rest_x_m", stored.rest_x_m, again.rest_x_m);
-    lists("rest_y_m", stored.rest_y_m, again.rest_y_m);
-    lists("half_width_m", stored.half_width_m, again.half_width_m);
-    lists("half_height_m", stored.half_height_m, again.half_height_m);
+    visit_lists<Trajectory>(
+        [&](const char* name, auto, auto, auto field) { lists(name, stored.*field, again.*field); });
     lists("column", stored.column, again.column);
     lists("blocks", stored.name, again.name);
     if (stored.role != again.role)

@@ -152,7 +152,10 @@ const std::map<std::string, std::set<std::string>> floors_below = {
 };
 
 /// What other programs include needs nothing but the standard's headers and its own.
-const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.hpp)re");
+const std::regex public_include(R"re([a-z_]+|stylobate/[a-z_]+\.(hpp|inc))re");
+
+/// The list of an outcome's numbers, from which the floors and the public headers make theirs.
+const std::string list_for_all = "include/stylobate/outcome_fields.inc";
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
@@ -231,7 +234,7 @@ std::string breach(const std::string& file, const std::string& include)
         return says + ": an outside program may not have it";
     if (from == "studies" && (to == "tests" || to == "bench" || to == "python"))
         return says + ": the program stands without it";
-    if (from != to && folders.contains(to) && !below->second.contains(to) &&
+    if (from != to && folders.contains(to) && !below->second.contains(to) && include != list_for_all &&
         !(from == "io" && (rooms_for_io.contains(room_of(include)) || headers_for_io.contains(include))))
         return says + ": includes go one way, kernels <- ensemble <- studies, io beside with plain data only";
     if (from == "kernels" && not_in_kernels.contains(include))
@@ -454,6 +457,8 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
     EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
+    EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
+    EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "studies/workflow/run.hpp"), "");

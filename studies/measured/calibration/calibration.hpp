@@ -16,7 +16,6 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
-#include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/measured/calibration/fit_keys.hpp"

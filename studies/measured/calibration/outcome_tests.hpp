@@ -3,7 +3,6 @@
 
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/motion.hpp"
-#include "ensemble/model/outcome_table.hpp"
 #include "ensemble/model/study.hpp"
 
 #include <memory>

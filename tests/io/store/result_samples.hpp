@@ -78,36 +78,17 @@ inline ResultRow sample_row(std::uint64_t index)
     row.pga_m_s2 = any();
     row.inputs = {any(), any(), any(), any(), any()};
     Outcome& o = row.outcome;
-    o.state = static_cast<State>(random() % 5);
-    o.invalid_reason = static_cast<InvalidReason>(random() % 3);
-    o.first_collapse_block = static_cast<std::int32_t>(random());
-    o.fallen_blocks = static_cast<std::int32_t>(random());
-    o.at_rest = static_cast<std::int32_t>(random());
-    o.unseated_block = static_cast<std::int32_t>(random());
-    o.steps = random();
-    for (double* field : {&o.collapse_time_s,
-                          &o.peak_top_displacement_m,
-                          &o.residual_top_displacement_m,
-                          &o.total_sliding_m,
-                          &o.total_rocking_rad,
-                          &o.sliding_path_m,
-                          &o.max_relative_rotation_rad,
-                          &o.energy_kinetic_j,
-                          &o.energy_potential_j,
-                          &o.energy_spring_j,
-                          &o.energy_friction_j,
-                          &o.energy_damping_j,
-                          &o.energy_base_work_j,
-                          &o.energy_residual,
-                          &o.end_time_s,
-                          &o.step_s,
-                          &o.unseating_time_s,
-                          &o.total_collapse_time_s,
-                          &o.top_path_m,
-                          &o.residual_sliding_m,
-                          &o.residual_dislocation,
-                          &o.rocking_path_rad})
-        *field = any();
+    visit_fields(std::type_identity<Outcome>(), [&](auto, auto field, auto) {
+        using Number = std::remove_cvref_t<decltype(o.*field)>;
+        if constexpr (std::is_same_v<Number, double>)
+            o.*field = any();
+        else if constexpr (std::is_same_v<Number, State>)
+            o.*field = static_cast<State>(random() % 5);
+        else if constexpr (std::is_same_v<Number, InvalidReason>)
+            o.*field = static_cast<InvalidReason>(random() % 3);
+        else
+            o.*field = static_cast<Number>(random());
+    });
     o.fall_time_s = {any(), any(), any()};
     // of times that may never come NaN is the file's word for none, which is -1 in memory
     for (double* time : {&o.collapse_time_s, &o.unseating_time_s, &o.total_collapse_time_s, &o.fall_time_s[0],

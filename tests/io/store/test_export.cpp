@@ -1,7 +1,7 @@
 /// CSV files read back bit by bit; contours of known functions; refusals.
 
 #include "io/plots/contour.hpp"
-#include "io/store/export_csv.hpp"
+#include "io/store/export.hpp"
 #include "tests/io/store/export_cases.hpp"
 
 #include <bit>

@@ -1,5 +1,5 @@
 #pragma once
-/// Results as comma-separated values: a header line, the unit in the column's name, numbers that read back bit by bit.
+/// Results in the formats of other programs: comma-separated values, and a trajectory for ParaView.
 
 #include "io/store/result_store.hpp"
 
@@ -20,8 +20,8 @@ namespace stylobate {
 void write_csv(const std::filesystem::path& folder, const ResultHeader& header, const std::vector<ResultRow>& rows,
                const SurfaceTable& surface, const Table& more = Table("realizations"));
 
-/// The same of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its trials,
-/// its invalid realizations, how many reached each limit state, and how often each block fell first
+/// Writes the tables of a result that keeps no rows: `counts.csv` instead of `realizations.csv`, one line per cell: its
+/// trials, its invalid realizations, how many reached each limit state, and how often each block fell first
 /// ("first_fallen[i]"), or several at the same step ("first_together").
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
                       const SurfaceTable& surface);
@@ -32,5 +32,18 @@ void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& h
 ///
 /// @throws InputError if the file cannot be written, or if the trajectory's arrays do not fit each other
 void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory);
+
+/// Writes NAME.pvd and NAME_00000.vtp, NAME_00001.vtp and so on into a new folder, all of them or none.
+///
+/// Each VTP has the blocks in layout order and then the base, as polygons in the plane z = 0 [m], counter-clockwise
+/// from the lower left corner, in the laboratory frame: the displacement of the base is added to the places of the
+/// blocks. The base is drawn as a slab below y = 0. Data of each polygon: `block_id` (the base: -1), `rotation` [rad],
+/// counter-clockwise, and `velocity` of the centre [m/s] in the laboratory frame, the central difference of the samples
+/// (one-sided at both ends). A trajectory has no contacts: forces and openings of joints are left out.
+///
+/// @param name without an ending, for the names of the files
+/// @throws InputError if the arrays of the trajectory do not fit each other, if it has no times, or if the folder holds
+///         files or cannot be written
+void write_vtk(const std::filesystem::path& folder, const std::string& name, const Trajectory& trajectory);
 
 } // namespace stylobate

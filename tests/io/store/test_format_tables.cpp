@@ -1,0 +1,92 @@
+/// The tables of io/FORMAT.md that are made from lists of fields. STYLOBATE_UPDATE_TABLES=1 writes them anew.
+
+#include "io/store/result_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <type_traits>
+
+namespace stylobate {
+
+namespace {
+
+/// The text between two lines of FORMAT.md is this one.
+void expect_table(const std::string& name, const std::string& want)
+{
+    const std::string path = STYLOBATE_SOURCE_DIR "/io/FORMAT.md";
+    std::ifstream in(path);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string before = fmt::format("<!-- made from the list of fields: {} -->\n\n", name);
+    const std::string after = "\n<!-- end -->\n";
+    const auto begin = text.find(before);
+    ASSERT_NE(begin, std::string::npos) << "io/FORMAT.md lacks the line '" << before << "'";
+    const auto from = begin + before.size(), to = text.find(after, from);
+    ASSERT_NE(to, std::string::npos) << "the table of " << name << " has no end";
+    if (std::getenv("STYLOBATE_UPDATE_TABLES") != nullptr) {
+        text.replace(from, to - from, want);
+        std::ofstream(path) << text;
+    } else {
+        EXPECT_EQ(text.substr(from, to - from), want) << "STYLOBATE_UPDATE_TABLES=1 writes the table anew";
+    }
+}
+
+template <class T>
+std::string type_in_file()
+{
+    if constexpr (std::is_enum_v<T>)
+        return "enumeration of uint8";
+    else if constexpr (std::is_same_v<T, double>)
+        return "float64";
+    else
+        return std::is_same_v<T, std::uint64_t> ? "uint64" : "int32";
+}
+
+std::string meaning(const FieldFacts& facts)
+{
+    std::string text = facts.says;
+    if (const std::string none = facts.none; !none.empty())
+        text += "; " + none;
+    if (std::string more = facts.more; !more.empty()) {
+        more[0] = static_cast<char>(std::toupper(more[0]));
+        text += ". " + more;
+    }
+    return text;
+}
+
+TEST(FormatTables, OfOutcomesAreMadeFromTheirList)
+{
+    std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
+    const auto add = [&](const char* name, const std::string& type, const char* shape, const FieldFacts& facts) {
+        table += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, type, shape, unit_of(name), meaning(facts));
+    };
+    visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
+        add(name, type_in_file<std::remove_cvref_t<decltype(Outcome().*field)>>(), "n", facts);
+    });
+    visit_lists(std::type_identity<Outcome>(),
+                [&](const char* name, auto, std::string_view of, const FieldFacts& facts) {
+                    add(name, "float64", of == "bed" ? "n x joints" : "n x nb", facts);
+                });
+    expect_table("outcomes", table);
+}
+
+TEST(FormatTables, OfTrajectoriesAreMadeFromTheirList)
+{
+    std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
+    visit_lists<Trajectory>([&](const char* name, ListOf of, const char* says, auto) {
+        const char* shape = of == ListOf::times ? "nt" : of == ListOf::blocks ? "nb" : "nt x nb";
+        table += fmt::format("| `{}` | float64 | {} | {} | {} |\n", name, shape, unit_of(name), says);
+    });
+    table += "| `role` | enumeration of uint8 | nb | | drum = 0, epistyle = 1, ground = 2 |\n"
+             "| `column` | int32 | nb | | for a drum: its column, from the left, from 0; -1 for all others |\n";
+    expect_table("trajectories", table);
+}
+
+} // namespace
+
+} // namespace stylobate
