@@ -53,16 +53,19 @@ void visit_lists(std::type_identity<Outcome>, F&& f)
     f("fall_time_s", &Outcome::fall_time_s, "block",
       FieldFacts{.says = "time at which each block fell",
                  .none = it_did_not_happen,
-                 .more = "when it met the collapse criterion, exact to one step (`step_s`): the first step after which "
-                         "it was outside its limits and did not come back. Blocks with the same time fell together"});
+                 .more = "It is when the block met the collapse criterion, exact to one step (`step_s`): the first "
+                         "step after which "
+                         "it was outside its limits and did not come back. Blocks with the same time fell together."});
     f("bed_offset_m", &Outcome::bed_offset_m, "bed",
       FieldFacts{.says = "displacement of the faces of each joint at the end",
-                 .more = "from where they lay at the start, along the lower face; positive: the upper block moved to "
-                         "the right",
+                 .more =
+                     "It is from where they lay at the start, along the lower face; positive: the upper block moved to "
+                     "the right.",
                  .is_signed = true});
     f("rotation_rad", &Outcome::rotation_rad, "block",
-      FieldFacts{
-          .says = "rotation of each block at the end", .more = "from upright, counter-clockwise", .is_signed = true});
+      FieldFacts{.says = "rotation of each block at the end",
+                 .more = "It is from upright, counter-clockwise.",
+                 .is_signed = true});
 }
 
 constexpr bool is_event_time(const FieldFacts& facts)

@@ -459,6 +459,8 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
     EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
     EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
+    EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
+    EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
     EXPECT_EQ(breach("studies/app/run.cpp", "studies/workflow/run.hpp"), "");

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace stylobate {
@@ -47,15 +47,18 @@ std::string type_in_file()
         return std::is_same_v<T, std::uint64_t> ? "uint64" : "int32";
 }
 
+std::string in_cell(std::string_view unit)
+{
+    return unit.empty() ? "" : ' ' + std::string(unit);
+}
+
 std::string meaning(const FieldFacts& facts)
 {
     std::string text = facts.says;
     if (const std::string none = facts.none; !none.empty())
         text += "; " + none;
-    if (std::string more = facts.more; !more.empty()) {
-        more[0] = static_cast<char>(std::toupper(more[0]));
+    if (const std::string more = facts.more; !more.empty())
         text += ". " + more;
-    }
     return text;
 }
 
@@ -63,7 +66,8 @@ TEST(FormatTables, OfOutcomesAreMadeFromTheirList)
 {
     std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     const auto add = [&](const char* name, const std::string& type, const char* shape, const FieldFacts& facts) {
-        table += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, type, shape, unit_of(name), meaning(facts));
+        table +=
+            fmt::format("| `{}` | {} | {} |{} | {} |\n", name, type, shape, in_cell(unit_of(name)), meaning(facts));
     };
     visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
         add(name, type_in_file<std::remove_cvref_t<decltype(Outcome().*field)>>(), "n", facts);
@@ -80,7 +84,7 @@ TEST(FormatTables, OfTrajectoriesAreMadeFromTheirList)
     std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     visit_lists<Trajectory>([&](const char* name, ListOf of, const char* says, auto) {
         const char* shape = of == ListOf::times ? "nt" : of == ListOf::blocks ? "nb" : "nt x nb";
-        table += fmt::format("| `{}` | float64 | {} | {} | {} |\n", name, shape, unit_of(name), says);
+        table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", name, shape, in_cell(unit_of(name)), says);
     });
     table += "| `role` | enumeration of uint8 | nb | | drum = 0, epistyle = 1, ground = 2 |\n"
              "| `column` | int32 | nb | | for a drum: its column, from the left, from 0; -1 for all others |\n";
