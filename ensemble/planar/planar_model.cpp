@@ -376,8 +376,11 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
         o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
     }
     if (o.at_rest == 0) // a snapshot of what still moves is no residual
-        o.residual_top_displacement_m = o.residual_sliding_m = o.residual_dislocation =
-            std::numeric_limits<double>::quiet_NaN();
+        visit_fields(std::type_identity<Outcome>(), [&](const char*, auto field, const FieldFacts& facts) {
+            if constexpr (std::is_same_v<decltype(field), double Outcome::*>)
+                if (facts.none == std::string_view(it_still_moved))
+                    o.*field = std::numeric_limits<double>::quiet_NaN();
+        });
     // a realization that was set aside has no outcome
     const bool valid = state != State::invalid;
     (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r, o);
