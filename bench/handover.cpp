@@ -33,10 +33,10 @@ std::optional<HandOver> handed(const Study& study, const Realization& r, double 
 {
     LaneSet lanes(study, nullptr, kernels(Isa::scalar), r);
     lanes.load(lane, r);
-    const int interval = check_steps(lanes.topology());
+    const int interval = lanes.model().check_steps();
     for (int done = 0; !lanes.done(lane); done = (done + interval) % chunk_steps) {
         if (static_cast<double>(lanes.steps(lane)) * r.step_s >= until_s)
-            return lanes.hand_over(lane);
+            return lanes.model().hand_over(lane, lanes.place(lane));
         lanes.advance(done, done + interval);
     }
     return lanes.handed(lane);

@@ -22,14 +22,14 @@ public:
         for (int chunk = 0; chunk < 100; ++chunk)
             lanes_.advance();
         const std::size_t size = bundle_registers(topology) * static_cast<std::size_t>(bundle.lanes);
-        start_.assign(bundle.blocks, bundle.blocks + size);
+        start_.assign(bundle.begin[0], bundle.begin[0] + size);
     }
 
     /// One chunk, always with the same base motion: not for long without `restart`.
     void run() const { (twice() ? table_.run_twice : table_.run)(topology, bundle, 0, chunk_steps); }
     /// Whether two registers are stepped at a time.
     bool twice() const { return lanes_.lanes() > table_.lanes; }
-    void restart() const { std::copy(start_.begin(), start_.end(), bundle.blocks); }
+    void restart() const { std::copy(start_.begin(), start_.end(), bundle.begin[0]); }
     /// Of one chunk.
     int block_steps() const { return block_steps_; }
 
