@@ -415,7 +415,7 @@ TEST(Tracking, WhatIsNoLongerFiniteIsNaNAndHurtsNobody)
 TEST(Tracking, AStoppedRunSaysSo)
 {
     StopAtOnce observer;
-    EXPECT_FALSE(follow(mixed_jobs(12), {Isa::scalar, 2}, observer).complete);
+    EXPECT_FALSE(track(mixed_jobs(12), {Isa::scalar, 2}, observer).complete);
 }
 
 TEST(Tracking, CountsWhatItDid)

@@ -1,7 +1,7 @@
 /// Realizations that are followed several at once have the trajectories and outcomes that each has alone.
 
 #include "bench/scenes.hpp"
-#include "ensemble/planar/planar_model.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/trajectory.hpp"
 
@@ -39,7 +39,7 @@ std::vector<double> positions_alone(const Study& study, const Realization& r, Ou
     to_end(lane);
     if (const auto& handed = lane.handed(0)) {
         LaneSet taker(study, nullptr, kernels(Isa::scalar), compliant_form(handed->realization));
-        taker.load(0, *handed);
+        take_over(taker, 0, *handed);
         to_end(taker);
         outcome = *taker.outcome(0);
     } else {

@@ -145,7 +145,7 @@ Anew simulated_anew(const Campaign& campaign, const MeasuredRun& run, const Mode
     anew.rest_y_m = static_state(job.realization).y_m;
     anew.blocks = job.realization.blocks.size();
     Observer observer;
-    anew.readings = follow({job}, one_thread, observer).results.front().windows.front();
+    anew.readings = track({job}, one_thread, observer).results.front().windows.front();
     return anew;
 }
 
