@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/stylobate)
 
 install(DIRECTORY include/stylobate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-  FILES_MATCHING PATTERN "*.hpp")
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inc")
 install(TARGETS stylobate_library EXPORT stylobate ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT stylobate NAMESPACE stylobate:: FILE stylobateTargets.cmake DESTINATION ${package_dir}
   COMPONENT development)

@@ -87,7 +87,8 @@ def test_a_page_is_that_of_the_program(compared):
 def test_a_past_is_that_of_the_program(folder):
     plt = pytest.importorskip("matplotlib.pyplot")
     settings = SMALL_SURFACE | {"study.kind": "survival", "survival.monuments": 20,
-                                "survival.observed": {"tolerance_m": 0.01}, "study.realizations": 12}
+                                "survival.observed": {"tolerance_m": 0.01}, "study.realizations": 12,
+                                "surface.pga_m_s2": {"from": 4.0, "to": 12.0, "count": 3}}
     for number, name in ((1, "a.h5"), (2, "b.h5")):
         study = stylobate.Study.from_toml(INPUTS / "small_scale_column.toml", settings | {"survival.structure": number})
         stylobate.run(study, name)
