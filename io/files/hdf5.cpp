@@ -588,19 +588,6 @@ void write_integer(hid_t object, const std::string& name, std::int32_t value)
     write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
 }
 
-Label label_of(const std::filesystem::path& file)
-{
-    try {
-        const Handle open = open_file(file, false);
-        const auto text = [&](const char* name) {
-            return has_attribute(open.id(), name) ? read_any_text(open.id(), name) : std::string();
-        };
-        return {text("format"), text("kind")};
-    } catch (const Error&) { // its reader reports the error
-        return {};
-    }
-}
-
 Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members)
 {
     Handle type = handle("no enumeration", H5Tclose, [] { return H5Tenum_create(H5T_STD_U8LE); });

@@ -94,4 +94,17 @@ void DimensionScales::write(hid_t file) const
     }
 }
 
+Label label_of(const std::filesystem::path& file)
+{
+    try {
+        const Handle open = open_file(file, false);
+        const auto text = [&](const char* name) {
+            return has_attribute(open.id(), name) ? read_any_text(open.id(), name) : std::string();
+        };
+        return {text("format"), text("kind")};
+    } catch (const Error&) { // its reader reports the error
+        return {};
+    }
+}
+
 } // namespace stylobate::hdf5

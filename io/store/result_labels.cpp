@@ -24,6 +24,7 @@ struct Label {
 };
 
 /// By path; '*' is any one name. Inputs and intervals (NAME_lower, NAME_upper) follow rules below.
+// long: a line for each data set
 std::map<std::string, Label> all_labels()
 {
     std::map<std::string, Label> labels = {

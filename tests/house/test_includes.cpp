@@ -118,10 +118,11 @@ const std::map<std::string, std::set<std::string>> rooms = {
       "studies/kinds/survival", "studies/measured/calibration", "studies/measured/diagnosis",
       "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings", "studies/report",
       "studies/results"}},
-    {"studies/app", // the command line, which nothing else includes
+    {"studies/app",
      {"studies", "studies/cluster", "studies/decisions/compare", "studies/decisions/risk", "studies/experiment",
       "studies/measured/calibration", "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings",
-      "studies/reference", "studies/report", "studies/results", "studies/usage", "studies/verify", "studies/workflow"}},
+      "studies/reference", "studies/report", "studies/results", "studies/usage", "studies/verify",
+      "studies/workflow"}}, // the command line, which nothing else includes
     {"library", {}},
     {"studies/evidence/picture", {}},
     {"studies/evidence/claims",
@@ -458,7 +459,7 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
     EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
     EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
-    EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/sampling/sampler.hpp"), "");
+    EXPECT_EQ(breach("ensemble/run/executor.cpp", "ensemble/planar/planar_model.hpp"), "");
     EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
     EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");

@@ -143,7 +143,8 @@ TEST_F(LibraryPast, HasTheNumbersOfTheProgram)
     EXPECT_EQ(past.json() + "\n", said.out);
     EXPECT_EQ(past.rows().texts("structure"), (std::vector<std::string>{"a.h5", "b.h5", "together", "together"}));
     EXPECT_EQ(past.rows().numbers("events"), (std::vector<double>{1, 1, 1, 2}));
-    const JsonValue& alone = json_of(said)["structures"].items.front()["exclusion"]["weaker_m_s2"];
+    const JsonValue all = json_of(said);
+    const JsonValue& alone = all["structures"].items.front()["exclusion"]["weaker_m_s2"];
     EXPECT_EQ(past.rows().numbers("weaker_m_s2").front(), alone["value"].number);
     const api::Table& likelihood = past.table("likelihood");
     EXPECT_EQ(likelihood.numbers("pga_m_s2").size(), 4 * 4U) << "four intensities of each";
