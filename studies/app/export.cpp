@@ -1,8 +1,8 @@
 /// `stylobate export`: results in other tools' formats.
 
+#include "io/store/export.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/store/export.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/csv.hpp"
 #include "studies/app/command.hpp"

@@ -1,8 +1,8 @@
 /// A realization is a function of the study and its index: the same bits for every instruction set, number of threads,
 /// lane and neighbour, alone or in the ensemble, in one go or stopped and continued.
 
-#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/experiment/block_names.hpp"
