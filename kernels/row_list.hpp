@@ -47,9 +47,11 @@ struct RowList {
     /// The number of a field's list.
     template <class Field>
     static constexpr int list = [] {
-        int number = 0, found = -1;
-        ((std::is_same_v<Field, typename Lists::Field> ? found = number : 0, ++number), ...);
-        return found;
+        constexpr bool is[] = {std::is_same_v<Field, typename Lists::Field>...};
+        int number = 0;
+        while (!is[number])
+            ++number;
+        return number;
     }();
     template <class Field>
     static constexpr int fields = ((std::is_same_v<Field, typename Lists::Field> ? Lists::fields : 0) + ...);
@@ -75,7 +77,7 @@ struct RowList {
     }
 
     /// Registers that the lists need, each of `lanes` numbers.
-    /// @param of which: a list's `RowOf` -> whether it counts
+    /// @param which (RowOf) -> whether a list of these rows counts
     template <class Topology, class Which>
     static constexpr std::size_t registers(const Topology& topology, const Which& which)
     {
