@@ -17,6 +17,12 @@ namespace stylobate {
 
 namespace {
 
+/// A hidden name beside it, whose last six letters mkostemp and mkdtemp replace.
+std::string name_beside(const std::filesystem::path& path)
+{
+    return (path.parent_path() / ('.' + path.filename().string() + '.')).string() + std::string(6, 'X');
+}
+
 bool is_folder(const std::filesystem::path& file)
 {
     std::error_code ignored;
@@ -41,7 +47,7 @@ AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
 {
     if (is_folder(file_))
         fail(file_, EISDIR);
-    temporary_ = (file_.parent_path() / fmt::format(".{}.XXXXXX", file_.filename().string())).string();
+    temporary_ = name_beside(file_);
     descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
     if (descriptor_ < 0)
         fail(file_, errno);
@@ -137,7 +143,7 @@ AtomicFolder::AtomicFolder(fs::path folder) : folder_(std::move(folder))
     std::error_code ignored;
     if (fs::exists(folder_, ignored) && (!fs::is_directory(folder_, ignored) || !fs::is_empty(folder_, ignored)))
         fail(fs::is_directory(folder_, ignored) ? "it holds files already" : "it is a file");
-    std::string name = (folder_.parent_path() / fmt::format(".{}.XXXXXX", folder_.filename().string())).string();
+    std::string name = name_beside(folder_);
     if (::mkdtemp(name.data()) == nullptr)
         fail(why_not_written(folder_, errno));
     temporary_ = name;
