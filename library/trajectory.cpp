@@ -35,7 +35,7 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
         refuse_rare();
     if (index >= study.total())
         throw InputError(fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));
-    inner::FollowedRealization f = inner::follow(loaded.experiment(), index, inner::best_isa(), go_on);
+    inner::TracedRealization f = inner::trace(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
     copy_lists(f.trajectory, t);
@@ -67,12 +67,12 @@ std::size_t Trajectory::sample_at(double at_s) const
     return after == time_s.begin() ? 0 : static_cast<std::size_t>(after - time_s.begin()) - 1;
 }
 
-Trajectory follow(const Experiment& experiment, std::uint64_t index)
+Trajectory replay(const Experiment& experiment, std::uint64_t index)
 {
     return translated([&] { return followed(Inside::of(experiment).loaded, index); });
 }
 
-Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings,
+Trajectory replay(const Result& result, std::uint64_t index, const std::vector<std::string>& settings,
                   const std::function<bool()>& go_on)
 {
     return translated([&] {
@@ -81,7 +81,7 @@ Trajectory follow(const Result& result, std::uint64_t index, const std::vector<s
             refuse_rare();
         try {
             return followed(inner::LoadedStudy::from_results(of.study, of.header, of.name, settings), index, go_on);
-        } catch (const inner::FollowStopped&) {
+        } catch (const inner::TraceStopped&) {
             throw Stopped(fmt::format("realization {} was stopped", index));
         }
     });

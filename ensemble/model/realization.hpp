@@ -130,12 +130,38 @@ struct Joint {
     JointReinforcement reinforcement{};
 };
 
-struct Realization {
+/// What every model's realization has: its index, its shaking, its step and what was drawn.
+struct RealizationHeader {
     std::uint64_t index = 0;
+    BaseChange change;
+    double frequency_hz = 0; ///< of the sine or pulse; of noise the ground's; of a record the predominant one
+    double pga_m_s2 = 0;
+    double phase_rad = 0;
+    double pulse_gamma = 0; ///< oscillatory character of a velocity pulse
+    /// The base motion that is this realization's own (noise, a distorted one, one of a set), else null.
+    std::shared_ptr<const Motion> motion;
+    double motion_scale = 1; ///< factor on its own motion
+    /// Vertical base motion of its own, which starts with the shaking; else null.
+    std::shared_ptr<const Motion> vertical;
+    double gravity_m_s2 = 9.81;
+    double step_s = 0;
+    std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
+};
+
+/// A structure in the plane: rectangles, and what joins them.
+struct PlanarStructure {
     std::vector<Block> blocks; ///< column by column from the bottom, then the epistyles, then the ground where needed
     std::vector<Joint> joints; ///< with at least one free block each: the beds at rest, then the watched pairs
     int watched = 0;           ///< number of joints, the last ones, between blocks that share no bed but may meet
     int drums = 0;             ///< blocks without the ground
+    BaseExtension base;
+    double base_tilt_rad = 0;    ///< base out of level
+    double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
+    int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
+    ContactForm form = ContactForm::area;
+    RestitutionLaw restitution_law = RestitutionLaw::newton;
+    bool extended = false;   ///< run by the extended step even where every extension is neutral (`is_extended`)
+    bool reinforced = false; ///< with the rows of reinforcements even where every one is neutral (`model_of`)
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
     /// Blocks that are stepped.
@@ -146,27 +172,8 @@ struct Realization {
             count += !block.fixed;
         return count;
     }
-    BaseExtension base;
-    BaseChange change;
-    double gravity_m_s2 = 9.81;
-    double base_tilt_rad = 0;    ///< base out of level
-    double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
-    int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
-    double frequency_hz = 0;     ///< of the sine or pulse; of noise the ground's; of a record the predominant one
-    double pga_m_s2 = 0;
-    double phase_rad = 0;
-    double pulse_gamma = 0; ///< oscillatory character of a velocity pulse
-    /// The base motion that is this realization's own (noise, a distorted one, one of a set), else null.
-    std::shared_ptr<const Motion> motion;
-    double motion_scale = 1; ///< factor on its own motion
-    /// Vertical base motion of its own, instead of `base.vertical_ratio`; starts with the shaking. Null: none.
-    std::shared_ptr<const Motion> vertical;
-    ContactForm form = ContactForm::area;
-    RestitutionLaw restitution_law = RestitutionLaw::newton;
-    bool extended = false;   ///< run by the extended step even where every extension is neutral (`is_extended`)
-    bool reinforced = false; ///< with the rows of reinforcements even where every one is neutral (`model_of`)
-    double step_s = 0;
-    std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`
 };
+
+struct Realization : RealizationHeader, PlanarStructure {};
 
 } // namespace stylobate

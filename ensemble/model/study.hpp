@@ -310,30 +310,30 @@ struct SurvivalSpec {
     std::optional<HazardSpec> hazard = {};
 };
 
-/// The property in which the twin of a realization differs.
-enum class TwinBy {
+/// The property in which the replica of a realization differs.
+enum class ReplicaBy {
     move,      ///< the place of one drum
     step,      ///< the time step
     precision, ///< stepped in single precision
     form       ///< the contact form
 };
 
-/// One kind of twin: the same realization in all draws, except for one property.
-struct Twin {
-    TwinBy by = TwinBy::move;
+/// One kind of replica: the same realization in all draws, except for one property.
+struct Replica {
+    ReplicaBy by = ReplicaBy::move;
     double size = 0; ///< move: how far to the right [m]; step: times the realization's own
     ContactForm form = ContactForm::area;
-    friend bool operator==(const Twin&, const Twin&) = default;
+    friend bool operator==(const Replica&, const Replica&) = default;
 };
 
 /// Twins of every realization of a surface: how reliable a verdict is, and what decides it
-/// (ensemble/replicas/twins.hpp).
-struct TwinsSpec {
-    std::vector<Twin> kinds; ///< moves, then the step, the precision and the forms
+/// (ensemble/replicas/replicas.hpp).
+struct ReplicasSpec {
+    std::vector<Replica> kinds; ///< moves, then the step, the precision and the forms
     int block = 0;           ///< the drum that is moved, in layout order
-    /// Number of realizations of each cell, the first ones, whose displaced twins are followed step by step.
+    /// Number of realizations of each cell, the first ones, whose displaced replicas are followed step by step.
     std::uint64_t followed = 8;
-    double tolerance = 0.01; ///< predictable as long as twins are closer than this part of the drums' width
+    double tolerance = 0.01; ///< predictable as long as replicas are closer than this part of the drums' width
 };
 
 /// What can be perturbed. The names in study files are the enumerators' names.
@@ -486,7 +486,7 @@ struct Study {
     std::optional<SensitivitySpec> sensitivity;
     std::optional<RareSpec> rare;
     std::optional<SurvivalSpec> survival;    ///< beside `surface`, which has its axes
-    std::optional<TwinsSpec> twins;          ///< of a surface
+    std::optional<ReplicasSpec> replicas;          ///< of a surface
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -532,8 +532,8 @@ struct Study {
         return survival ? 1 + static_cast<int>(index / (realizations * cells())) : 1;
     }
     /// Realizations that are not perturbed replicas, under one event.
-    std::uint64_t originals() const { return twins || events() > 1 ? realizations * cells() : total(); }
-    /// Realizations of the whole study. Of a surface with twins: the originals, then all twins of the first kind in the
+    std::uint64_t originals() const { return replicas || events() > 1 ? realizations * cells() : total(); }
+    /// Realizations of the whole study. Of a surface with replicas: the originals, then all replicas of the first kind in the
     /// same order, and so on; of a survival study those of one event, then those of two, and so on.
     std::uint64_t total() const
     {
@@ -541,14 +541,14 @@ struct Study {
             return sensitivity->total();
         if (rare)
             return rare->simulations() * RareSpec::indices_of_simulation;
-        return realizations * cells() * (static_cast<std::uint64_t>(events()) + (twins ? twins->kinds.size() : 0));
+        return realizations * cells() * (static_cast<std::uint64_t>(events()) + (replicas ? replicas->kinds.size() : 0));
     }
-    /// The original of a twin, or the realization of one event with the same draws; of an original its own index.
-    std::uint64_t original(std::uint64_t index) const { return twins || events() > 1 ? index % originals() : index; }
+    /// The original of a replica, or the realization of one event with the same draws; of an original its own index.
+    std::uint64_t original(std::uint64_t index) const { return replicas || events() > 1 ? index % originals() : index; }
     /// Its kind; null of an original.
-    const Twin* twin(std::uint64_t index) const
+    const Replica* replica(std::uint64_t index) const
     {
-        return twins && index >= originals() ? &twins->kinds[index / originals() - 1] : nullptr;
+        return replicas && index >= originals() ? &replicas->kinds[index / originals() - 1] : nullptr;
     }
     /// The cell of a realization: frequency row x number of PGAs + PGA column, or motion x number of stripes + stripe.
     std::uint64_t cell(std::uint64_t index) const { return surface || fragility ? original(index) / realizations : 0; }

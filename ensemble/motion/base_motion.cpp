@@ -30,7 +30,7 @@ MotionFormula BaseMotion::formula(ExcitationKind kind)
     }
 }
 
-BaseMotion::BaseMotion(const ExcitationSpec& e, const Realization& r, const Motion* record)
+BaseMotion::BaseMotion(const ExcitationSpec& e, const RealizationHeader& r, const Motion* record)
     : formula_(formula(e.kind)), change_(r.change), step_s_(r.step_s)
 {
     if (e.kind == ExcitationKind::none) {

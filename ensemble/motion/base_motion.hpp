@@ -31,7 +31,7 @@ public:
     BaseMotion() = default;
     /// @param record needed for a record or a table (except in a fragility study), and must outlive this object; a
     ///        realization with its own motion (noise, a distorted motion, one of a set) is driven by that
-    BaseMotion(const ExcitationSpec& excitation, const Realization& realization, const Motion* record);
+    BaseMotion(const ExcitationSpec& excitation, const RealizationHeader& realization, const Motion* record);
 
     /// Along samples, for steps of `step_s`, from the time `offset_s` of the samples on.
     static BaseMotion along(std::shared_ptr<const Motion> motion, double step_s, double offset_s = 0);

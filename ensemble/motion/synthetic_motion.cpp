@@ -44,7 +44,7 @@ bool SyntheticMotion::covers(ExcitationKind kind)
            kind == ExcitationKind::sweep;
 }
 
-SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const Realization& r)
+SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const RealizationHeader& r)
 {
     const double phase_cycles = r.phase_rad / (2 * std::numbers::pi);
     switch (e.kind) {
@@ -64,7 +64,7 @@ SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const 
     }
 }
 
-SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const Realization& r) : shape_(shape_of(e, r))
+SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const RealizationHeader& r) : shape_(shape_of(e, r))
 {
     std::visit(
         [&](const auto& shape) {

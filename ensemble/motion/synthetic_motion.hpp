@@ -16,7 +16,7 @@ namespace stylobate {
 class SyntheticMotion {
 public:
     /// @pre `covers(excitation.kind)`
-    SyntheticMotion(const ExcitationSpec& excitation, const Realization& realization);
+    SyntheticMotion(const ExcitationSpec& excitation, const RealizationHeader& realization);
 
     static bool covers(ExcitationKind kind);
 
@@ -30,7 +30,7 @@ public:
 
 private:
     using Shape = std::variant<RickerWavelet, VelocityPulse, TaperedSine, SineSweep>;
-    static Shape shape_of(const ExcitationSpec& excitation, const Realization& realization);
+    static Shape shape_of(const ExcitationSpec& excitation, const RealizationHeader& realization);
 
     Shape shape_;
     double scale_ = 1;

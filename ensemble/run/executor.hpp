@@ -46,7 +46,7 @@ struct RunPlan {
     /// `RunOrder(total).place(p)`. `mark_done` fills it.
     DoneSet done;
     /// The study that the realizations are stepped as, which must be the experiment's but for what a step needs
-    /// (`TwinRange`); null: the experiment's own.
+    /// (`ReplicaRange`); null: the experiment's own.
     const Study* as = nullptr;
     /// The next place to run, of those that this process and others share; called from several threads at once, may
     /// wait. Empty: those of the shard that are not done, in their order.

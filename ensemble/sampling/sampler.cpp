@@ -48,7 +48,7 @@ bool replaces(const Perturbation& perturbation)
 /// The originals of a study with perturbed replicas, in another contact form.
 Study in_form(Study study, ContactForm form)
 {
-    study.twins.reset();
+    study.replicas.reset();
     study.contact.form = form;
 
     return study;
@@ -124,10 +124,10 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
                           [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
     points_ = PointSet(study, places);
 
-    if (!study.twins)
+    if (!study.replicas)
         return;
-    for (const Twin& kind : study.twins->kinds) {
-        if (kind.by != TwinBy::form) {
+    for (const Replica& kind : study.replicas->kinds) {
+        if (kind.by != ReplicaBy::form) {
             forms_.push_back(nullptr);
             continue;
         }
@@ -138,24 +138,24 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
 Realization Sampler::realization(std::uint64_t index) const
 {
     assert(index < study_->total() && "the index is one of the study's");
-    const Twin* twin = study_->twin(index);
-    if (twin == nullptr)
+    const Replica* replica = study_->replica(index);
+    if (replica == nullptr)
         return build(index, points_);
-    const OtherForm* form = forms_[static_cast<std::size_t>(twin - study_->twins->kinds.data())].get();
+    const OtherForm* form = forms_[static_cast<std::size_t>(replica - study_->replicas->kinds.data())].get();
     Realization realization = (form ? form->sampler : *this).realization(study_->original(index));
     realization.index = index;
-    if (twin->by == TwinBy::move)
-        move(*twin, realization);
-    if (twin->by == TwinBy::step)
-        realization.step_s *= twin->size;
+    if (replica->by == ReplicaBy::move)
+        move(*replica, realization);
+    if (replica->by == ReplicaBy::step)
+        realization.step_s *= replica->size;
     return realization;
 }
 
 /// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
-void Sampler::move(const Twin& twin, Realization& realization) const
+void Sampler::move(const Replica& replica, Realization& realization) const
 {
-    const int moved = study_->twins->block;
-    realization.blocks[static_cast<std::size_t>(moved)].x_m += twin.size;
+    const int moved = study_->replicas->block;
+    realization.blocks[static_cast<std::size_t>(moved)].x_m += replica.size;
     for (int j = 0; j < realization.beds(); ++j) {
         const Joint& bed = realization.joints[static_cast<std::size_t>(j)];
         if (bed.lower != moved && bed.upper != moved)
@@ -165,7 +165,7 @@ void Sampler::move(const Twin& twin, Realization& realization) const
         if (std::abs(above.x_m - below.x_m) >= above.half_width_m + below.half_width_m)
             throw InputError(fmt::format("twins.moves_m: displaced by {:g} m, {} of realization {} does not touch {} "
                                          "any more. Reduce the displacement.",
-                                         twin.size, name(moved), study_->original(realization.index),
+                                         replica.size, name(moved), study_->original(realization.index),
                                          name(bed.lower == moved ? bed.upper : bed.lower)));
     }
 }

@@ -85,7 +85,7 @@ private:
 
     void watch_pairs();
     Realization build(std::uint64_t index, const PointSet& points) const;
-    void move(const Twin& twin, Realization& realization) const;
+    void move(const Replica& replica, Realization& realization) const;
     Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
     void stack(const Values& values, Realization& realization) const;
     void lay_epistyles(const Values& values, Realization& realization) const;
@@ -111,7 +111,7 @@ private:
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
     PointSet points_;
-    std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of twins) of another contact form, else null
+    std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of replicas) of another contact form, else null
     std::optional<Distribution> twin_; ///< of a fragility study with twins: how far a drum is from its twin's place
 };
 

@@ -15,7 +15,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Stopped by the caller before there was a result: `follow` with a function that returned false.
+/// Stopped by the caller before there was a result: `replay` with a function that returned false.
 class Stopped : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

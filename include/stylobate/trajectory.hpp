@@ -41,14 +41,14 @@ struct Trajectory {
 /// @param index from 0 to `experiment.realizations() - 1`
 /// @throws InputError if there is no such realization, and for a study of rare events, whose realizations follow from
 ///         each other
-Trajectory follow(const Experiment& experiment, std::uint64_t index);
+Trajectory replay(const Experiment& experiment, std::uint64_t index);
 
 /// Runs one realization of a result again, as `stylobate replay` does.
 /// @param settings may only give the present path of its record: "excitation.file=PATH"
 /// @param go_on polled many times a second; false: stop. May be empty
 /// @throws InputError as above, and if the record is not the one of the result, or the settings give anything else
 /// @throws Stopped if `go_on` returned false
-Trajectory follow(const Result& result, std::uint64_t index, const std::vector<std::string>& settings = {},
+Trajectory replay(const Result& result, std::uint64_t index, const std::vector<std::string>& settings = {},
                   const std::function<bool()>& go_on = {});
 
 /// Draws the structure at a time, to scale, in the frame of the base: a vector picture for any browser. A file that is

@@ -54,7 +54,7 @@ inline const std::vector<double> usual_moves_m = {1e-12, 1e-9, 1e-6, 1e-3};
 inline const ListKey moves("moves_m", usual_moves_m, move_range,
                            "displacements of one drum to the right, ascending, a replica for each; at most a quarter "
                            "of the drum's width, and of the default those that are");
-inline const WholeKey block("block", &TwinsSpec::block,
+inline const WholeKey block("block", &ReplicasSpec::block,
                             {0, 199, "A free drum, counted from 0, column by column from the bottom."},
                             "the drum that is displaced, counted from 0, column by column from the bottom",
                             {.absent = "the uppermost drum of the first column"});
@@ -66,13 +66,13 @@ inline const NumberKey step_ratio("step_ratio", 0.8,
 inline const BooleanKey precision("precision", "a replica in single precision",
                                   {.absent = "true where single precision supports the model, else false"});
 inline const BooleanKey forms("forms", true, "replicas with the other contact forms");
-inline const WholeKey followed("followed", &TwinsSpec::followed,
+inline const WholeKey followed("followed", &ReplicasSpec::followed,
                                {0, most_realizations,
                                 "Realizations of each cell whose displaced replicas are tracked step by step."},
                                "realizations of each cell whose displaced replicas are tracked step by step; no more "
                                "than study.realizations");
 inline const NumberKey tolerance(
-    "tolerance", &TwinsSpec::tolerance,
+    "tolerance", &ReplicasSpec::tolerance,
     {1e-6, 1, false, "The separation limit of replicas: a fraction of the drums' width, and radians.", from_percent},
     "separation at which a motion is no longer predictable: a fraction of the drums' width, and radians");
 inline const TableKey table("twins", "perturbed replicas of every realization of a surface",

@@ -209,10 +209,10 @@ void read_beside_surface(const KeyReader& top, Study& study, const std::filesyst
                         "Give fewer realizations, cells or events.");
     }
     if (top.has("twins")) {
-        study.twins = read_twins(top.table(twins_keys::table), study);
+        study.replicas = read_replicas(top.table(twins_keys::table), study);
         if (study.total() > most_realizations)
             keys.refuse("realizations",
-                        fmt::format("and {} replicas of each give {}, more than {}", study.twins->kinds.size(),
+                        fmt::format("and {} replicas of each give {}, more than {}", study.replicas->kinds.size(),
                                     study.total(), most_realizations),
                         "Give fewer realizations, cells or replicas.");
     }

@@ -94,7 +94,7 @@ bool knows_single(const Study& study)
 }
 
 /// Rigid blocks have no stiffness that another form could take.
-bool is_form_of_twins(const Study& study, ContactForm form)
+bool is_form_of_replicas(const Study& study, ContactForm form)
 {
     return study.contact.form != ContactForm::rigid && form != ContactForm::rigid;
 }
@@ -183,7 +183,7 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
     return spec;
 }
 
-TwinsSpec read_twins(const KeyReader& keys, const Study& study)
+ReplicasSpec read_replicas(const KeyReader& keys, const Study& study)
 {
     if (study.kind != StudyKind::surface)
         keys.refuse_all(fmt::format("[twins] is not used by study.kind = \"{}\".\n  Remove it, or give study.kind = "
@@ -199,7 +199,7 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
     if (study.run.precision == Precision::single)
         keys.refuse_all("[twins] compares double precision with single, and run.precision = \"single\".\n  Give "
                         "run.precision = \"double\".");
-    TwinsSpec twins;
+    ReplicasSpec twins;
     twins.block = read_block(keys, study.structure);
     const double width_m = find_drum(study.structure, static_cast<std::size_t>(twins.block)).drum->width_m;
     Range move = twins_keys::moves.range;
@@ -219,22 +219,22 @@ TwinsSpec read_twins(const KeyReader& keys, const Study& study)
             keys.refuse(twins_keys::moves.name,
                         fmt::format("is not in ascending order: {:g} comes before {:g}", moves[i - 1], moves[i]),
                         "Give the smallest first, each once.");
-        twins.kinds.push_back({TwinBy::move, moves[i], study.contact.form});
+        twins.kinds.push_back({ReplicaBy::move, moves[i], study.contact.form});
     }
     const double ratio = keys.read(twins_keys::step_ratio);
     if (ratio != 1)
-        twins.kinds.push_back({TwinBy::step, ratio, study.contact.form});
+        twins.kinds.push_back({ReplicaBy::step, ratio, study.contact.form});
     if (keys.read_or(twins_keys::precision, knows_single(study))) {
         if (!knows_single(study))
             keys.refuse(twins_keys::precision.name,
                         "requests replicas in single precision, which supports only the paper's model",
                         "Remove it, or the mechanisms, contact.form and contact.damping.");
-        twins.kinds.push_back({TwinBy::precision, 0, study.contact.form});
+        twins.kinds.push_back({ReplicaBy::precision, 0, study.contact.form});
     }
     if (keys.read(twins_keys::forms))
         for (const auto& name : contact_form_names)
-            if (name.value != study.contact.form && is_form_of_twins(study, name.value))
-                twins.kinds.push_back({TwinBy::form, 0, name.value});
+            if (name.value != study.contact.form && is_form_of_replicas(study, name.value))
+                twins.kinds.push_back({ReplicaBy::form, 0, name.value});
     twins.followed = keys.has(twins_keys::followed) ? keys.read_up_to(twins_keys::followed, study.realizations)
                                                     : std::min(twins.followed, study.realizations);
     twins.tolerance = keys.read(twins_keys::tolerance);

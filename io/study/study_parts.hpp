@@ -63,7 +63,7 @@ SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study);
 /// @param study with its perturbations and its excitation
 RareSpec read_rare(const KeyReader& keys, const Study& study);
 /// @param study all else of it
-TwinsSpec read_twins(const KeyReader& keys, const Study& study);
+ReplicasSpec read_replicas(const KeyReader& keys, const Study& study);
 /// @param top    the whole file
 /// @param study  all else of it
 /// @param beside the study's folder: a hazard curve is looked for there, and then in the working folder

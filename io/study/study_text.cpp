@@ -270,19 +270,19 @@ Entries entries_of(const FragilitySpec& f, const KeyUse& use)
     return out;
 }
 
-Entries entries_of(const TwinsSpec& spec)
+Entries entries_of(const ReplicasSpec& spec)
 {
     using namespace twins_keys;
     std::vector<double> displacements;
     double ratio = 1;
     bool single = false, other_forms = false;
-    for (const Twin& each : spec.kinds) {
-        if (each.by == TwinBy::move)
+    for (const Replica& each : spec.kinds) {
+        if (each.by == ReplicaBy::move)
             displacements.push_back(each.size);
-        if (each.by == TwinBy::step)
+        if (each.by == ReplicaBy::step)
             ratio = each.size;
-        single = single || each.by == TwinBy::precision;
-        other_forms = other_forms || each.by == TwinBy::form;
+        single = single || each.by == ReplicaBy::precision;
+        other_forms = other_forms || each.by == ReplicaBy::form;
     }
     Entries out(table);
     out.add_fields(table, spec);
@@ -401,8 +401,8 @@ std::string study_text(const Study& study)
     table(excitation_keys::table.name, entries_of(study.excitation, study.structure, use));
     if (study.surface)
         table(surface_keys::table.name, entries_of(*study.surface));
-    if (study.twins)
-        table(twins_keys::table.name, entries_of(*study.twins));
+    if (study.replicas)
+        table(twins_keys::table.name, entries_of(*study.replicas));
     if (study.fragility)
         table(fragility_keys::table.name, entries_of(*study.fragility, use));
     if (study.sensitivity)

@@ -34,10 +34,10 @@ sb::Result run(const sb::Experiment& experiment, const std::optional<std::filesy
         listener(progress));
 }
 
-sb::Trajectory follow(const sb::Result& result, std::uint64_t index, const std::vector<std::string>& settings)
+sb::Trajectory replay(const sb::Result& result, std::uint64_t index, const std::vector<std::string>& settings)
 {
     return interruptible<sb::Progress, sb::Trajectory>(
-        [&](const Tell& tell) { return sb::follow(result, index, settings, [&] { return tell(std::nullopt); }); }, {});
+        [&](const Tell& tell) { return sb::replay(result, index, settings, [&] { return tell(std::nullopt); }); }, {});
 }
 
 } // namespace
@@ -52,7 +52,7 @@ void add_run(py::module_& module)
             return "<Progress: " + std::to_string(p.done) + " of " + std::to_string(p.total) + " realizations>";
         });
     module.def("run", &run, "experiment"_a, "output"_a, "threads"_a, "simd"_a, "progress"_a);
-    module.def("follow", &follow, "result"_a, "index"_a, "settings"_a = std::vector<std::string>());
+    module.def("replay", &replay, "result"_a, "index"_a, "settings"_a = std::vector<std::string>());
 }
 
 } // namespace stylobate::python

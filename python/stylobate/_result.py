@@ -188,7 +188,7 @@ class Result:
 
         settings: only {"excitation.file": path}, the present place of the study's record.
         """
-        return Replay(_core.follow(self._core, whole_number(index, "index"), _settings(settings)))
+        return Replay(_core.replay(self._core, whole_number(index, "index"), _settings(settings)))
 
     def plot(self, ax=None, limit_state="collapse"):
         """Draws a surface (probability over frequency and PGA) or fragility curves with Matplotlib; returns the axes."""

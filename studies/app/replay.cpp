@@ -64,7 +64,7 @@ std::string falls_text(const std::vector<std::size_t>& sequence, const std::vect
 
 /// When all had collapsed, -1 if never. NaN where that is not known: of a run that ended at its first fall, unless
 /// nothing else was there to fall.
-double total_collapse_s(const Study& study, const FollowedRealization& f)
+double total_collapse_s(const Study& study, const TracedRealization& f)
 {
     const auto free = std::count_if(f.realization.blocks.begin(), f.realization.blocks.end(),
                                     [](const Block& block) { return !block.fixed && block.role != BlockRole::ground; });
@@ -200,7 +200,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.pga_m_s2.clear();
     one.code_version = code_version();
     one.build = code_build();
-    const FollowedRealization f = follow(experiment, index, options.isa());
+    const TracedRealization f = trace(experiment, index, options.isa());
     const ResultRow row = result_row(experiment.study(), f.realization, f.outcome);
     if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
         write_replay(trajectory, one, row, f.trajectory);

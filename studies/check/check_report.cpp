@@ -48,7 +48,7 @@ std::string cells_text(const Study& study)
         return fmt::format(" ({} frequencies x {} PGAs{}{})", study.surface->frequency_hz.count,
                            study.surface->pga_m_s2.count,
                            study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
-                           study.twins ? fmt::format(", each with {} replicas", study.twins->kinds.size()) : "");
+                           study.replicas ? fmt::format(", each with {} replicas", study.replicas->kinds.size()) : "");
     if (study.fragility)
         return fmt::format(" ({} motions x {} intensities x {})", study.fragility->motions, study.fragility->stripes(),
                            study.realizations);

@@ -18,7 +18,7 @@ std::vector<std::uint64_t> chosen_indices(const Study& study, const PartRun& pla
 {
     std::vector<std::uint64_t> originals;
     for (const std::uint64_t index : plain.indices)
-        if (!study.twin(index))
+        if (!study.replica(index))
             originals.push_back(index);
     std::vector<std::uint64_t> chosen;
     for (const std::uint64_t i : spread_evenly(wanted, originals.size()))

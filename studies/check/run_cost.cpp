@@ -1,7 +1,7 @@
 #include "studies/check/run_cost.hpp"
 
 #include "ensemble/model/time_counts.hpp"
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "io/store/result_layout.hpp"
 #include "studies/check/study_trial.hpp"
 #include "studies/experiment/duration.hpp"
@@ -44,16 +44,16 @@ double row_memory(const Study& study, const ResultHeader& header, double blocks)
         return outcome + 200;
     if (study.sensitivity)
         return 80;
-    if (study.twins)
+    if (study.replicas)
         return 50;
     return header.selected ? 150 : 12;
 }
 
 /// Kinds of replicas that are followed.
-double moves_of(const TwinsSpec& twins)
+double moves_of(const ReplicasSpec& twins)
 {
     return static_cast<double>(std::count_if(twins.kinds.begin(), twins.kinds.end(),
-                                             [](const Twin& twin) { return twin.by == TwinBy::move; }));
+                                             [](const Replica& twin) { return twin.by == ReplicaBy::move; }));
 }
 
 /// Of the trial; without one, all.
@@ -82,8 +82,8 @@ double file_bytes(const Study& study, const ResultHeader& header, const Trial* t
                    static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total);
     if (study.fragility)
         bytes += fragility_cell_bytes * cells;
-    if (study.twins)
-        bytes += followed_bytes * static_cast<double>(followed_originals(study)) * moves_of(*study.twins);
+    if (study.replicas)
+        bytes += followed_bytes * static_cast<double>(separated_originals(study)) * moves_of(*study.replicas);
     return bytes;
 }
 
@@ -138,9 +138,9 @@ double samples_of(const Study& study, const Trial* trial, double longest_s)
 /// Replicas that are followed beside their originals, once more.
 double followed_again(const Study& study)
 {
-    if (!study.twins)
+    if (!study.replicas)
         return 0;
-    return static_cast<double>(followed_originals(study)) * (1 + moves_of(*study.twins));
+    return static_cast<double>(separated_originals(study)) * (1 + moves_of(*study.replicas));
 }
 
 } // namespace
@@ -248,7 +248,7 @@ double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
     // what that library keeps of data sets: measured from 100 trajectories to 6400, short ones and long ones
     constexpr double each = 33e3, cached = 165e3, cache = 50e6;
     const auto n = static_cast<double>(study.kind == StudyKind::single ? size.trajectories : 0);
-    const auto followed = static_cast<double>(study.twins ? followed_originals(study) : 0);
+    const auto followed = static_cast<double>(study.replicas ? separated_originals(study) : 0);
     const double pairs = followed > 0 ? 6e6 + 7.6e3 * followed : 0; // measured with 0, 512 and 2048 of them
     return peak_bytes + writer + rows + pairs + each * n + std::min(cache, cached * n);
 }

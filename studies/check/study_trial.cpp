@@ -1,7 +1,7 @@
 #include "studies/check/study_trial.hpp"
 
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/experiment/duration.hpp"
@@ -116,16 +116,16 @@ private:
     {
         double busy = 0;
         std::uint64_t asked = 0;
-        FollowPlan plan;
+        TracePlan plan;
         plan.indices = indices;
         plan.recorded = trajectories;
-        plan.sink = [this](const FollowedRealization& f) { take(f.realization, f.outcome); };
+        plan.sink = [this](const TracedRealization& f) { take(f.realization, f.outcome); };
         plan.stop = [&](double occupancy, const SimulatedTime&) {
             busy += occupancy;
             ++asked;
             return observer.stop_requested();
         };
-        follow_all(experiment_, options_, plan);
+        trace_all(experiment_, options_, plan);
         return asked > 0 ? busy / static_cast<double>(asked) : 1;
     }
 
@@ -234,9 +234,9 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
                 Observer& observer)
 {
     const Study& study = experiment.study();
-    std::vector<TwinRange> ranges;
-    if (study.twins)
-        ranges = twin_ranges(study);
+    std::vector<ReplicaRange> ranges;
+    if (study.replicas)
+        ranges = replica_ranges(study);
     else
         ranges.push_back({0, end_of_drawn(study), study});
     const std::uint64_t lanes =
@@ -246,8 +246,8 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
     Trial trial;
     trial.threads = options.threads;
     trial.lanes = lanes;
-    for (const TwinRange& range : ranges) {
-        PartTrial part(experiment, options, study.twins ? &range.study : nullptr,
+    for (const ReplicaRange& range : ranges) {
+        PartTrial part(experiment, options, study.replicas ? &range.study : nullptr,
                        TrialOrder(study, range.begin, range.end));
         trial.unfinished = trial.unfinished || !try_part(part, lanes, seconds / static_cast<double>(ranges.size()),
                                                          trajectories, observer, Clock::now());

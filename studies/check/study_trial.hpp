@@ -83,7 +83,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
 /// realization that has been taken is replaced by the next one of its cell, in a full cell by one of the next cell.
 class TrialOrder {
 public:
-    /// @param begin, end indices: all realizations of the study, or a range of whole cells of it (`TwinRange`)
+    /// @param begin, end indices: all realizations of the study, or a range of whole cells of it (`ReplicaRange`)
     TrialOrder(const Study& study, std::uint64_t begin, std::uint64_t end);
 
     /// The next ones, ascending; fewer where fewer are left.

@@ -139,7 +139,7 @@ std::string reason_of(const InputError& error)
 /// Checks the study under the law as one that a user gives.
 void complete(ContactLaw& law, Study study)
 {
-    study.twins.reset();
+    study.replicas.reset();
     if (study.kind == StudyKind::single)
         study.output.trajectories = 0;
     study.chosen.clear();

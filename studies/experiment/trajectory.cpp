@@ -2,7 +2,7 @@
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/block_names.hpp"
 
@@ -62,10 +62,10 @@ private:
 };
 
 /// Realizations in the lanes of a bundle, each with its trajectory if it is recorded.
-class Follower {
+class TracedLanes {
 public:
-    Follower(const Experiment& experiment, const Study& stepped, Isa isa, const Realization& pattern,
-             std::uint64_t waiting)
+    TracedLanes(const Experiment& experiment, const Study& stepped, Isa isa, const Realization& pattern,
+                std::uint64_t waiting)
         : experiment_(experiment), stepped_(stepped), isa_(isa),
           lanes_(stepped, experiment.record(), kernels(isa), pattern, waiting),
           places_(static_cast<std::size_t>(lanes_.lanes()))
@@ -82,7 +82,7 @@ public:
         if (record)
             begin(trajectory, realization);
         lanes_.load(lane, std::move(realization));
-        follow(lane, std::move(trajectory), record);
+        begin_trace(lane, std::move(trajectory), record);
     }
 
     /// A chunk, from sample to sample of any of them: where the steps are parted changes no bit.
@@ -110,15 +110,15 @@ public:
     /// Frees the lane of one that has ended. One that is handed over is followed to its end before.
     /// @param go_on asked meanwhile; false: stop
     /// @return nothing if it was stopped
-    std::optional<FollowedRealization> take(int lane, const std::function<bool()>& go_on)
+    std::optional<TracedRealization> take(int lane, const std::function<bool()>& go_on)
     {
         Place& place = places_[static_cast<std::size_t>(lane)];
-        FollowedRealization followed{lanes_.realization(lane), {}, std::move(place.trajectory)};
+        TracedRealization followed{lanes_.realization(lane), {}, std::move(place.trajectory)};
         if (const std::optional<HandOver>& handed = lanes_.handed(lane)) {
-            Follower taker(experiment_, stepped_, isa_, compliant_form(handed->realization), 1);
+            TracedLanes taker(experiment_, stepped_, isa_, compliant_form(handed->realization), 1);
             take_over(taker.lanes_, 0, *handed);
-            taker.follow(0, std::move(followed.trajectory), place.recorder.has_value());
-            std::optional<FollowedRealization> rest = taker.to_end(go_on);
+            taker.begin_trace(0, std::move(followed.trajectory), place.recorder.has_value());
+            std::optional<TracedRealization> rest = taker.to_end(go_on);
             if (!rest)
                 return std::nullopt;
             followed.outcome = std::move(rest->outcome);
@@ -132,7 +132,7 @@ public:
     }
 
     /// The one in the first lane alone. @return nothing if `go_on`, asked every 1024 steps, returned false
-    std::optional<FollowedRealization> to_end(const std::function<bool()>& go_on)
+    std::optional<TracedRealization> to_end(const std::function<bool()>& go_on)
     {
         constexpr int chunks_between_questions = 1024 / chunk_steps;
         for (int chunk = 0; !done(0); ++chunk) {
@@ -167,7 +167,7 @@ private:
     }
 
     /// Follows what has just been loaded.
-    void follow(int lane, Trajectory trajectory, bool record)
+    void begin_trace(int lane, Trajectory trajectory, bool record)
     {
         Place& place = places_[static_cast<std::size_t>(lane)];
         place.steps = lanes_.steps(lane);
@@ -203,20 +203,19 @@ private:
 
 } // namespace
 
-FollowedRealization follow(const Experiment& experiment, std::uint64_t index, Isa isa,
-                           const std::function<bool()>& go_on)
+TracedRealization trace(const Experiment& experiment, std::uint64_t index, Isa isa, const std::function<bool()>& go_on)
 {
     const Realization r = experiment.sampler().realization(index);
     const Study stepped = stepped_as(experiment.study(), index);
-    Follower lanes(experiment, stepped, isa, r, 1);
+    TracedLanes lanes(experiment, stepped, isa, r, 1);
     lanes.load(0, r, true);
-    std::optional<FollowedRealization> followed = lanes.to_end([&] { return !go_on || go_on(); });
+    std::optional<TracedRealization> followed = lanes.to_end([&] { return !go_on || go_on(); });
     if (!followed)
-        throw FollowStopped();
+        throw TraceStopped();
     return std::move(*followed);
 }
 
-bool follow_all(const Experiment& experiment, const RunOptions& options, const FollowPlan& plan)
+bool trace_all(const Experiment& experiment, const RunOptions& options, const TracePlan& plan)
 {
     if (plan.indices.empty())
         return true;
@@ -226,11 +225,11 @@ bool follow_all(const Experiment& experiment, const RunOptions& options, const F
     Observer nobody;
     Crew crew(nobody); // its mutex guards the plan's functions and what follows
     std::atomic<std::size_t> next = 0;
-    std::map<std::size_t, FollowedRealization> ended;
+    std::map<std::size_t, TracedRealization> ended;
     std::size_t delivered = 0;
     crew.run(options.threads, [&] {
-        Follower lanes(experiment, experiment.study(), options.isa, pattern,
-                       count / static_cast<std::uint64_t>(options.threads));
+        TracedLanes lanes(experiment, experiment.study(), options.isa, pattern,
+                          count / static_cast<std::uint64_t>(options.threads));
         std::vector<std::size_t> number(static_cast<std::size_t>(lanes.lanes()));
         const auto go_on = [&] {
             const std::unique_lock lock(crew.mutex(), std::try_to_lock);
@@ -265,7 +264,7 @@ bool follow_all(const Experiment& experiment, const RunOptions& options, const F
     return delivered + ended.size() == count;
 }
 
-ResultRow result_row(const Study& study, const Realization& realization, const Outcome& outcome)
+ResultRow result_row(const Study& study, const RealizationHeader& realization, const Outcome& outcome)
 {
     ResultRow row;
     row.index = realization.index;

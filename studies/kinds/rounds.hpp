@@ -34,7 +34,7 @@ public:
     virtual bool run(const Round& round) = 0;
     /// Runs all realizations of the study, and keeps the trajectories of the first ones. The rows come in the order
     /// of their indices.
-    virtual bool follow(std::uint64_t kept_trajectories) = 0;
+    virtual bool trace(std::uint64_t kept_trajectories) = 0;
 
     const Experiment& experiment;
     const RunOptions& options;

@@ -152,7 +152,7 @@ private:
             tbb::task_arena(options_.threads).execute([&] {
                 in_parallel(std::size_t{0}, indices.size(), [&](std::size_t i) {
                     if (!is_stored(indices[i]))
-                        followed[i] = follow(experiment, indices[i], isa_).trajectory;
+                        followed[i] = trace(experiment, indices[i], isa_).trajectory;
                 });
             });
         }

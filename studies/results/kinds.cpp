@@ -39,7 +39,7 @@ const Entry kinds[] = {
     {[](const Study& s, const ResultHeader&) { return s.rare.has_value(); }, make<RareKind>, RareKind::own_pictures},
     {[](const Study& s, const ResultHeader&) { return s.surface && s.survival; }, make<SurvivalKind>,
      SurvivalKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.surface && s.twins; }, make<ReplicasKind>,
+    {[](const Study& s, const ResultHeader&) { return s.surface && s.replicas; }, make<ReplicasKind>,
      ReplicasKind::own_pictures},
     {[](const Study& s, const ResultHeader&) { return s.surface && s.surface->adaptive; }, make<AdaptiveKind>,
      AdaptiveKind::own_pictures},

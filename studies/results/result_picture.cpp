@@ -62,7 +62,7 @@ FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t in
     if (index < results.header().first || index >= results.end())
         throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
                                      results.header().first, results.end() - 1));
-    FollowedRealization f = follow(experiment, index, isa);
+    TracedRealization f = trace(experiment, index, isa);
     return {std::move(f.trajectory), std::move(f.outcome.fall_time_s), f.outcome.state, f.realization.frequency_hz,
             f.realization.pga_m_s2};
 }

@@ -100,7 +100,7 @@ public:
         return part.done == size;
     }
 
-    bool follow(std::uint64_t kept_trajectories) override
+    bool trace(std::uint64_t kept_trajectories) override
     {
         if (!store_.keeps_trajectories())
             return run({.fair = true});
@@ -112,7 +112,7 @@ public:
         const RunOrder order(total);
         const RunOrder::Places places = order.places(shard);
         progress.total = places.size();
-        FollowPlan plan;
+        TracePlan plan;
         plan.recorded = kept_trajectories;
         for (std::uint64_t index = 0; index < total; ++index) {
             if (!places.has(order.place(index)))
@@ -127,7 +127,7 @@ public:
             progress.seconds = seconds();
             progress.rate = static_cast<double>(run_now) / progress.seconds;
         };
-        plan.sink = [&](const FollowedRealization& f) {
+        plan.sink = [&](const TracedRealization& f) {
             if (f.realization.index < kept_trajectories)
                 store_.add(f.trajectory); // before its row: where the row is, it is
             take(result_row(experiment.study(), f.realization, f.outcome));
@@ -147,7 +147,7 @@ public:
             observer.progress(progress);
             return observer.stop_requested();
         };
-        const bool complete = !observer.stop_requested() && follow_all(experiment, options, plan);
+        const bool complete = !observer.stop_requested() && trace_all(experiment, options, plan);
         observer.progress(progress);
         return complete;
     }

@@ -51,7 +51,7 @@ bool RecordedRounds::run(const Round& round)
     return !stopped_ && !(missing_ && recorded_.ends_at_missing);
 }
 
-bool RecordedRounds::follow(std::uint64_t)
+bool RecordedRounds::trace(std::uint64_t)
 {
     std::vector<std::uint64_t> again;
     for (const std::uint64_t index : recorded_.followed)
@@ -70,7 +70,7 @@ bool RecordedRounds::follow(std::uint64_t)
                 if (stopped_ = stopped_ || observer.stop_requested(); stopped_)
                     return;
             }
-            const FollowedRealization f = stylobate::follow(experiment, again[i], options.isa, go_on);
+            const TracedRealization f = stylobate::trace(experiment, again[i], options.isa, go_on);
             const std::lock_guard lock(mutex);
             recorded_.take(result_row(experiment.study(), f.realization, f.outcome));
             recorded_.take_movement(f.trajectory);

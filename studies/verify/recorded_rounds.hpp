@@ -36,7 +36,7 @@ public:
     RecordedRounds(const Experiment& experiment, const RunOptions& options, Observer& observer, Recorded recorded);
 
     bool run(const Round& round) override;
-    bool follow(std::uint64_t kept_trajectories) override;
+    bool trace(std::uint64_t kept_trajectories) override;
 
     /// Realizations that were asked for, and the first of them that is not there.
     std::uint64_t asked() const { return asked_; }

@@ -241,7 +241,7 @@ private:
         }
         tables.text = names.empty() ? "the study has none beside its realizations"
                                     : names + ", computed again from what is stored of the realizations";
-        if (study_.twins)
+        if (study_.replicas)
             tables.text += "; not the pairs that were followed (/twins)";
     }
 

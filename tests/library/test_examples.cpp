@@ -83,7 +83,7 @@ TEST_F(Examples, TheFollowedRealizationIsTheReplayedOne)
     const ResultReader reader(folder / "t.h5");
     const Outcome outcome = reader.row(3).outcome;
     const Trajectory t = reader.trajectory(3);
-    const std::string got = read_bytes(installed / "follow.txt");
+    const std::string got = read_bytes(installed / "replay.txt");
     ASSERT_EQ(outcome.state, State::collapsed);
     std::string want =
         fmt::format("realization 3 collapsed after {:.6f} s\n{} fell first, at {:.6f} s\n", outcome.end_time_s,
@@ -92,7 +92,7 @@ TEST_F(Examples, TheFollowedRealizationIsTheReplayedOne)
         want += fmt::format("{:.3f} s: {} at x = {:.6f} m, turned by {:.6f} rad\n", t.time_s[sample], t.name[6],
                             t.x_m[sample * 7 + 6], t.theta_rad[sample * 7 + 6]);
     EXPECT_EQ(got.substr(0, want.size()), want);
-    const std::string svg = read_bytes(installed / "follow.svg");
+    const std::string svg = read_bytes(installed / "replay.svg");
     EXPECT_EQ(count_of(svg, "<polygon"), 7U);
     EXPECT_NE(svg.find(fmt::format("{:.3f} s</text>", t.time_s.back())), std::string::npos);
 }

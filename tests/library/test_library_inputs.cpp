@@ -93,7 +93,7 @@ TEST_F(LibraryInputs, AFunctionOfTimeShakesAsItsSamplesInAFile)
         most = std::max(most, outcome.peak_top_displacement_m);
     }
     EXPECT_GT(most, 0.001) << "it was shaken";
-    EXPECT_EQ(api::follow(experiment, 5).outcome.peak_top_displacement_m, got.outcomes()[5].peak_top_displacement_m);
+    EXPECT_EQ(api::replay(experiment, 5).outcome.peak_top_displacement_m, got.outcomes()[5].peak_top_displacement_m);
 }
 
 TEST_F(LibraryInputs, ARecordTakesThePlaceOfTheExcitation)

@@ -232,7 +232,7 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     const ResultReader reader(folder / "t.h5");
     const Trajectory want = reader.trajectory(9);
     const api::Experiment experiment(api::Study::from_file(inputs + "small_scale_column.toml", four_cells));
-    const api::Trajectory got = api::follow(experiment, 9);
+    const api::Trajectory got = api::replay(experiment, 9);
     EXPECT_EQ(got.time_s, want.time_s);
     EXPECT_EQ(got.x_m, want.x_m);
     EXPECT_EQ(got.y_m, want.y_m);
@@ -246,15 +246,15 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     EXPECT_EQ(got.sample_at(-1), 0U);
     EXPECT_EQ(got.sample_at(got.time_s[5]), 5U);
     EXPECT_EQ(got.sample_at(1e9), got.time_s.size() - 1);
-    EXPECT_THROW(api::follow(experiment, 16), api::InputError);
+    EXPECT_THROW(api::replay(experiment, 16), api::InputError);
 
     const api::Result result = api::Result::from_file(folder / "program.h5");
     int asked = 0;
-    EXPECT_EQ(api::follow(result, 9, {}, [&] { return ++asked > 0; }).x_m, want.x_m);
+    EXPECT_EQ(api::replay(result, 9, {}, [&] { return ++asked > 0; }).x_m, want.x_m);
     EXPECT_GT(asked, 10);
-    EXPECT_THROW(api::follow(result, 9, {}, [] { return false; }), api::Stopped);
-    EXPECT_THROW(api::follow(result, 16), api::InputError);
-    EXPECT_THROW(api::follow(result, 9, {"contact.friction=0.5"}), api::InputError);
+    EXPECT_THROW(api::replay(result, 9, {}, [] { return false; }), api::Stopped);
+    EXPECT_THROW(api::replay(result, 16), api::InputError);
+    EXPECT_THROW(api::replay(result, 9, {"contact.friction=0.5"}), api::InputError);
     EXPECT_EQ(result.too_many_invalid(), "");
     EXPECT_EQ(result.input_units().size(), result.input_names().size());
 

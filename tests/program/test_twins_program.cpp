@@ -12,8 +12,8 @@ namespace {
 
 constexpr int realizations = 6;
 constexpr std::uint64_t originals = 16 * realizations;
-const std::vector<std::string> small_twins = short_surface(realizations);
-const std::vector<std::string> twins = with(small_twins, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
+const std::vector<std::string> small_replicas = short_surface(realizations);
+const std::vector<std::string> twins = with(small_replicas, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
 
 class TwinsProgram : public ColumnProgram {};
 
@@ -28,7 +28,7 @@ TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
 {
     const Ended ended = run(words(twins, "twins.h5", "2"));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
-    ASSERT_EQ(run(words(small_twins, "plain.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(small_replicas, "plain.h5", "2")).status, 0);
     const ResultReader with_twins(folder / "twins.h5"), plain(folder / "plain.h5");
     ASSERT_EQ(with_twins.rows().size(), 7 * originals);
     for (const ResultRow& row : plain.rows())
@@ -87,7 +87,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
     EXPECT_NE(page.find("moved by 1e-09 m"), std::string::npos);
     EXPECT_NE(page.find(std::to_string(originals) + " valid realizations"), std::string::npos);
 
-    ASSERT_EQ(run(words(small_twins, "plain.h5", "2")).status, 0);
+    ASSERT_EQ(run(words(small_replicas, "plain.h5", "2")).status, 0);
     expect_refused(Words{"export", "plain.h5", "--to", "png", "--picture", "twins"}, {"plain.h5", "[twins]"});
     ASSERT_EQ(run(words(with(twins, {"twins.followed=0"}), "none.h5", "2")).status, 0);
     expect_refused(Words{"export", "none.h5", "--to", "png", "--picture", "predictability"}, {"twins.followed"});
@@ -96,7 +96,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
 TEST_F(TwinsProgram, BadInputIsRefusedWithItsRange)
 {
     const auto refused = [&](const std::vector<std::string>& settings, const std::vector<std::string>& says) {
-        expect_refused(words(with(small_twins, settings), "none.h5", "1"), says);
+        expect_refused(words(with(small_replicas, settings), "none.h5", "1"), says);
     };
     refused({"twins.moves_m=[1e-3, 1e-6]"}, {"twins.moves_m", "ascending", "1e-06"});
     refused({"twins.moves_m=[1e-6, 1e-6]"}, {"twins.moves_m", "ascending"});

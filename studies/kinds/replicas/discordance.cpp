@@ -18,7 +18,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 double independent_share(const PairCounts& c)
 {
     const auto n = static_cast<double>(c.trials()), a = static_cast<double>(c.original + c.both),
-               b = static_cast<double>(c.twin + c.both);
+               b = static_cast<double>(c.replica + c.both);
     return n < 2 ? nan : (a * (n - b) + (n - a) * b - static_cast<double>(c.discordant())) / (n * (n - 1));
 }
 
@@ -61,7 +61,7 @@ DiscordanceRatio discordance_ratio(const std::vector<PairCounts>& cells)
         if (c.trials() >= 2) {
             all.neither += c.neither;
             all.original += c.original;
-            all.twin += c.twin;
+            all.replica += c.replica;
             all.both += c.both;
             const auto n = static_cast<double>(c.trials());
             pairs += n;
@@ -85,9 +85,9 @@ DiscordanceRatio discordance_ratio(const std::vector<PairCounts>& cells)
         if (c.trials() < 2)
             continue;
         const auto n = static_cast<double>(c.trials());
-        const double a = static_cast<double>(c.original + c.both) / n, b = static_cast<double>(c.twin + c.both) / n;
+        const double a = static_cast<double>(c.original + c.both) / n, b = static_cast<double>(c.replica + c.both) / n;
         const std::array<double, 4> count = {static_cast<double>(c.neither), static_cast<double>(c.original),
-                                             static_cast<double>(c.twin), static_cast<double>(c.both)};
+                                             static_cast<double>(c.replica), static_cast<double>(c.both)};
         const std::array<double, 4> adds = {-ratio.ratio * (a + b), 1 - ratio.ratio * (1 - b + a),
                                             1 - ratio.ratio * (b + 1 - a), -ratio.ratio * (2 - a - b)};
         double sum = 0, squares = 0;

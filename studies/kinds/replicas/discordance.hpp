@@ -1,10 +1,10 @@
 #pragma once
 /// Share of discordant pairs (perturbed replica and original with different verdicts), and its interpretation.
 ///
-/// Let A be the verdict of an original (1: collapsed) and B that of its twin. Pairs of different originals are
+/// Let A be the verdict of an original (1: collapsed) and B that of its replica. Pairs of different originals are
 /// independent, so the share of pairs with A != B has a binomial interval. Two independent realizations of a cell
 /// differ with probability I = a (1 - b) + (1 - a) b, a and b the probabilities of collapse of the two kinds (2 p (1 -
-/// p) for moved twins, whose p is the original's). As P(A != B) = I - 2 cov(A, B), the ratio
+/// p) for moved replicas, whose p is the original's). As P(A != B) = I - 2 cov(A, B), the ratio
 ///
 ///   P(A != B) / I
 ///
@@ -20,16 +20,16 @@ namespace stylobate {
 
 /// Pairs of a cell by their verdicts.
 struct PairCounts {
-    std::uint64_t neither = 0, original = 0, twin = 0, both = 0; ///< who collapsed
-    std::uint64_t trials() const { return neither + original + twin + both; }
-    std::uint64_t discordant() const { return original + twin; }
+    std::uint64_t neither = 0, original = 0, replica = 0, both = 0; ///< who collapsed
+    std::uint64_t trials() const { return neither + original + replica + both; }
+    std::uint64_t discordant() const { return original + replica; }
 };
 
 /// Predictability of a verdict, by the probability that a perturbed replica has another one. For a fair coin it is 1/2.
 enum class Sureness {
-    certain,  ///< below 1/20: nineteen of twenty twins agree
+    certain,  ///< below 1/20: nineteen of twenty replicas agree
     probable, ///< up to 1/4: three of four agree
-    coin_flip ///< above: twins differ at least half as often as tosses of a fair coin do
+    coin_flip ///< above: replicas differ at least half as often as tosses of a fair coin do
 };
 inline constexpr std::array<const char*, 3> sureness_names = {"certain", "probable", "coin flip"};
 inline constexpr double certain_below = 0.05, coin_flip_above = 0.25;

@@ -1,8 +1,8 @@
 #include "studies/kinds/replicas/replicas_kind.hpp"
 
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "io/tables/rows.hpp"
-#include "studies/kinds/replicas/twins_text.hpp"
+#include "studies/kinds/replicas/replicas_text.hpp"
 
 #include <numeric>
 
@@ -11,7 +11,7 @@ namespace stylobate {
 std::uint64_t ReplicasKind::size_of(const Shard& shard) const
 {
     std::uint64_t size = 0;
-    for (const TwinRange& range : twin_ranges(study_))
+    for (const ReplicaRange& range : replica_ranges(study_))
         size += RunOrder(range.end - range.begin).places(shard).size();
     return size;
 }
@@ -19,7 +19,7 @@ std::uint64_t ReplicasKind::size_of(const Shard& shard) const
 bool ReplicasKind::plan(Rounds& rounds)
 {
     rounds.progress.total = size_of(rounds.shard);
-    for (const TwinRange& range : twin_ranges(study_)) {
+    for (const ReplicaRange& range : replica_ranges(study_)) {
         std::vector<std::uint64_t> indices(range.end - range.begin);
         std::iota(indices.begin(), indices.end(), range.begin);
         // replicas are no further trials
@@ -28,7 +28,7 @@ bool ReplicasKind::plan(Rounds& rounds)
     }
     if (!rounds.shard.whole() || !rounds.options.leads())
         return true; // pairs are followed where all are there
-    followed_ = follow_twins(rounds.experiment, rounds.options, rounds.observer);
+    followed_ = replica_separations(rounds.experiment, rounds.options, rounds.observer);
     return !rounds.observer.stop_requested();
 }
 
@@ -41,7 +41,7 @@ void ReplicasKind::take(const ResultRow& row)
 void ReplicasKind::restore(const ResultReader& reader)
 {
     if (const Table table = reader.table("twins"); !table.empty())
-        followed_ = rows_of<FollowedTwin>(table, "original");
+        followed_ = rows_of<ReplicaSeparation>(table, "original");
     conclude();
 }
 
@@ -56,12 +56,12 @@ std::vector<Table> ReplicasKind::tables() const
 
 std::string ReplicasKind::text() const
 {
-    return SurfaceKind::text() + twins_text(twins_);
+    return SurfaceKind::text() + replicas_text(replicas_);
 }
 
 void ReplicasKind::add_to(Json& json) const
 {
-    json.member("twins", twins_json(twins_));
+    json.member("twins", replicas_json(replicas_));
 }
 
 Picture ReplicasKind::picture(const ResultReader& reader, const std::string& results,
@@ -73,39 +73,39 @@ Picture ReplicasKind::picture(const ResultReader& reader, const std::string& res
     if (request.name == "twins")
         return {"twins", "Predictability of the verdict", "",
                 [this](const std::string& title, const std::filesystem::path& file) {
-                    plot_discordance(twins_, title, file);
+                    plot_discordance(replicas_, title, file);
                 }};
     return {"predictability", "Predictability horizon of the motion", "",
-            [this](const std::string& title, const std::filesystem::path& file) { plot_growth(twins_, title, file); }};
+            [this](const std::string& title, const std::filesystem::path& file) { plot_growth(replicas_, title, file); }};
 }
 
 std::vector<std::pair<std::string, std::string>> ReplicasKind::files(const std::string& format,
                                                                      const std::string& name) const
 {
     auto files = SurfaceKind::files(format, name);
-    files.emplace_back("twins.csv", twins_csv(twins_));
-    if (!twins_.growth.empty())
-        files.emplace_back("predictability.csv", predictability_csv(twins_));
+    files.emplace_back("twins.csv", replicas_csv(replicas_));
+    if (!replicas_.growth.empty())
+        files.emplace_back("predictability.csv", predictability_csv(replicas_));
     return files;
 }
 
 void ReplicasKind::sections(PageWriter& writer) const
 {
     SurfaceKind::sections(writer);
-    twins_section(
-        twins_, writer.page,
+    replicas_section(
+        replicas_, writer.page,
         [&] {
             writer.picture(
                 "Predictability of the verdict: a map for each kind of perturbed replica, with contours of the "
                 "probability of collapse.",
                 [&](const std::filesystem::path& png) {
-                    plot_discordance(twins_, "Predictability of the verdict", png);
+                    plot_discordance(replicas_, "Predictability of the verdict", png);
                 });
         },
         [&] {
             writer.picture("Growth of the separation, and the predictability horizon of the motion.",
                            [&](const std::filesystem::path& png) {
-                               plot_growth(twins_, "Predictability horizon of the motion", png);
+                               plot_growth(replicas_, "Predictability horizon of the motion", png);
                            });
         });
 }

@@ -2,7 +2,7 @@
 /// A surface whose realizations have perturbed replicas ([twins]): how often their verdicts differ, and how long the
 /// motion of some of them stays together.
 
-#include "studies/kinds/replicas/twins.hpp"
+#include "studies/kinds/replicas/replicas.hpp"
 #include "studies/kinds/surface/surface_kind.hpp"
 
 namespace stylobate {
@@ -19,7 +19,7 @@ public:
     /// Kind by kind of replica: each bundle has one contact form and one precision. Pairs are followed at the end, and
     /// again if that was interrupted.
     bool plan(Rounds& rounds) override;
-    void conclude() override { twins_ = twins_of(study_, header_, rows_, followed_); }
+    void conclude() override { replicas_ = replicas_of(study_, header_, rows_, followed_); }
     void restore(const ResultReader& reader) override;
     std::vector<Table> tables() const override;
     std::string text() const override;
@@ -42,8 +42,8 @@ protected:
 
 private:
     std::vector<ReplicaRow> rows_;
-    std::vector<FollowedTwin> followed_;
-    Twins twins_; ///< once it is complete
+    std::vector<ReplicaSeparation> followed_;
+    Replicas replicas_; ///< once it is complete
 };
 
 } // namespace stylobate

@@ -25,7 +25,7 @@ public:
         return kept_.words;
     }
     bool prepares_file_alone() const override { return true; }
-    bool plan(Rounds& rounds) override { return rounds.follow(kept_.count); }
+    bool plan(Rounds& rounds) override { return rounds.trace(kept_.count); }
     /// A copy of a trial, run again, stands alone.
     bool is_trial(std::uint64_t index) const override { return header_.total == 1 || Kind::is_trial(index); }
 

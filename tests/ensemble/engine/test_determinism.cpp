@@ -164,7 +164,7 @@ TEST(Determinism, OneRealizationFollowedStepByStepHasTheBitsOfTheEnsemble)
     const EnsembleRun want = run_all(loaded.study(), {best_isa(), 2});
     for (const std::uint64_t index : {0U, 13U, 27U, 39U})
         for (const Isa isa : usable_isas()) {
-            const FollowedRealization f = follow(loaded.experiment(), index, isa);
+            const TracedRealization f = trace(loaded.experiment(), index, isa);
             EXPECT_EQ(outcome_bits(f.outcome), want.outcomes.at(index)) << to_string(isa) << ", realization " << index;
             // samples from 0 to the end, evenly
             ASSERT_FALSE(f.trajectory.time_s.empty());

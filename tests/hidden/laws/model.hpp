@@ -78,7 +78,7 @@ struct BedState {
     double bristle[2] = {0, 0};    ///< B: deflection at the left and right end
     double normal_n_s[2] = {0, 0}; ///< A: impulses of the last step
     double shear_n_s[2] = {0, 0};
-    double gap_shift_m[2] = {0, 0}; ///< added to the gaps: see `Twin`
+    double gap_shift_m[2] = {0, 0}; ///< added to the gaps: see `Replica`
     double width_m = 0;             ///< of the bed, as of the last step
     double width_at_rest_m = 0;
 };

@@ -91,7 +91,7 @@ TEST(Survival, ABlockThatSlidesUnderOneEventSlidesTwiceAndThriceAsFarUnderTwoAnd
     const Experiment experiment(study);
     std::vector<double> offset;
     for (std::uint64_t events = 0; events < 3; ++events) {
-        const FollowedRealization f = follow(experiment, 2 * 2 + events * study.originals(), Isa::scalar);
+        const TracedRealization f = trace(experiment, 2 * 2 + events * study.originals(), Isa::scalar);
         ASSERT_EQ(f.outcome.bed_offset_m.size(), 1U);
         ASSERT_EQ(f.outcome.rotation_rad.size(), 1U);
         offset.push_back(f.outcome.bed_offset_m[0]);
@@ -106,7 +106,7 @@ TEST(Survival, ABlockThatSlidesUnderOneEventSlidesTwiceAndThriceAsFarUnderTwoAnd
     EXPECT_NEAR(offset[2], 3 * offset[0], 0.015 * std::fabs(offset[0]));
     // another kind does not have it
     const Study plain = parse_study(squat("kind = \"full_sine\"", ""), "squat", {"study.kind=survival"});
-    EXPECT_FALSE(follow(Experiment(plain), 0, Isa::scalar).outcome.bed_offset_m.empty());
+    EXPECT_FALSE(trace(Experiment(plain), 0, Isa::scalar).outcome.bed_offset_m.empty());
 }
 
 /// A monument that was measured is at rest; that it stands is known without waiting.
@@ -192,7 +192,7 @@ TEST(Survival, ObservedRotationsAreOfTheFreeBlocks)
                                                                   "tolerance_m = 1, rotation_rad = [0.02, -0.03], "
                                                                   "rotation_tolerance_rad = 0.001 }"),
                                     "fixed", {"structure.blocks=3", "structure.fixed_blocks=1"});
-    const Outcome simulated = follow(Experiment(study), 0, Isa::scalar).outcome;
+    const Outcome simulated = trace(Experiment(study), 0, Isa::scalar).outcome;
     ASSERT_EQ(simulated.rotation_rad.size(), 3U) << "an outcome has the fixed block too";
     SurvivalCounts counts(study, header_of(study));
     ASSERT_EQ(counts.names().size(), 3U) << "one joint, two free blocks";

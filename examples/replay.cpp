@@ -1,6 +1,6 @@
-// One realization, followed through time and drawn.
+// One realization of a study through time, and its picture.
 //
-//   follow STUDY.toml PICTURE.svg
+//   replay STUDY.toml PICTURE.svg
 
 #include <stylobate/stylobate.hpp>
 
@@ -11,7 +11,7 @@ namespace sb = stylobate::api;
 int main(int argc, char** argv)
 try {
     if (argc != 3) {
-        std::fprintf(stderr, "usage: follow STUDY.toml PICTURE.svg\n");
+        std::fprintf(stderr, "usage: replay STUDY.toml PICTURE.svg\n");
         return 2;
     }
     const sb::Study study = sb::Study::from_file(argv[1], {"study.realizations=16",
@@ -20,7 +20,7 @@ try {
     const sb::Experiment experiment(study);
 
     // Realization 3, whatever else is run: each is a pure function of the study and its index.
-    const sb::Trajectory trajectory = sb::follow(experiment, 3);
+    const sb::Trajectory trajectory = sb::replay(experiment, 3);
     const sb::Outcome& outcome = trajectory.outcome;
     std::printf("realization %llu %s after %.6f s\n", static_cast<unsigned long long>(outcome.index),
                 sb::to_string(outcome.state), outcome.end_time_s);

@@ -1,6 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "studies/kinds/replicas/twins_text.hpp"
+#include "studies/kinds/replicas/replicas_text.hpp"
 
 #include <fmt/format.h>
 
@@ -29,12 +29,12 @@ double class_place(const DiscordantShare& share)
     return verdict ? classes()[static_cast<std::size_t>(*verdict)].from : std::numeric_limits<double>::quiet_NaN();
 }
 
-MapPicture on_axes(const Twins& twins)
+MapPicture on_axes(const Replicas& replicas)
 {
     MapPicture picture;
-    picture.frequency_hz = twins.frequency_hz;
-    picture.pga_m_s2 = twins.pga_m_s2;
-    picture.line = twins.probability;
+    picture.frequency_hz = replicas.frequency_hz;
+    picture.pga_m_s2 = replicas.pga_m_s2;
+    picture.line = replicas.probability;
     return picture;
 }
 
@@ -59,16 +59,16 @@ double top_of(const std::vector<double>& values, double share)
 
 } // namespace
 
-void plot_discordance(const Twins& twins, const std::string& title, const std::filesystem::path& png)
+void plot_discordance(const Replicas& replicas, const std::string& title, const std::filesystem::path& png)
 {
-    MapPicture picture = on_axes(twins);
+    MapPicture picture = on_axes(replicas);
     picture.title = title;
     picture.subtitle = fmt::format("{} pairs in each cell for each kind of perturbed replica · verdict: collapsed or "
                                    "not · titles: discordant pairs",
-                                   twins.realizations);
-    picture.columns = twins.kinds.size() > 4 ? 4 : static_cast<int>(twins.kinds.size());
+                                   replicas.realizations);
+    picture.columns = replicas.kinds.size() > 4 ? 4 : static_cast<int>(replicas.kinds.size());
     picture.key = fmt::format("{} · grey: {}", key, too_few_pairs);
-    for (const KindDiscordance& kind : twins.kinds) {
+    for (const KindDiscordance& kind : replicas.kinds) {
         MapPanel panel;
         panel.title = fmt::format("{}: {:.2g} %", kind.name, 100 * kind.all.all.probability);
         for (const DiscordantShare& share : kind.cells)
@@ -79,16 +79,16 @@ void plot_discordance(const Twins& twins, const std::string& title, const std::f
     plot_maps(picture, png);
 }
 
-void plot_growth(const Twins& twins, const std::string& title, const std::filesystem::path& png)
+void plot_growth(const Replicas& replicas, const std::string& title, const std::filesystem::path& png)
 {
-    if (twins.growth.empty())
+    if (replicas.growth.empty())
         throw InputError("no tracked pair begins closer than the tolerance: there is nothing to draw.\n"
                          "  Run the study with twins.followed above 0, and a smaller one of twins.moves_m.");
-    MapPicture picture = on_axes(twins);
+    MapPicture picture = on_axes(replicas);
     picture.title = title;
     picture.subtitle =
         fmt::format("{} pairs tracked in each cell · predictable until the replicas are {:g} % of a drum's width apart",
-                    twins.followed, 100 * twins.tolerance);
+                    replicas.followed, 100 * replicas.tolerance);
     picture.columns = 2;
     picture.key = fmt::format("{} · grey: no growth to fit a slope to, or fewer than half of the pairs diverge", key);
     const auto add = [&](std::string name, std::vector<double> values, double high) {
@@ -107,18 +107,18 @@ void plot_growth(const Twins& twins, const std::string& title, const std::filesy
             values.push_back(e.value);
         return values;
     };
-    const TwinGrowth& smallest = twins.growth.front();
+    const ReplicaGrowth& smallest = replicas.growth.front();
     const std::vector<double> exponents = values_of(smallest.exponent_per_s);
-    add(fmt::format("growth of the separation [1/s], {}", twins.kinds[smallest.kind].name), exponents,
+    add(fmt::format("growth of the separation [1/s], {}", replicas.kinds[smallest.kind].name), exponents,
         top_of(exponents, 0.98));
-    const std::size_t shown = std::min<std::size_t>(3, twins.growth.size());
+    const std::size_t shown = std::min<std::size_t>(3, replicas.growth.size());
     std::vector<double> horizons;
     for (std::size_t i = 0; i < shown; ++i)
-        for (const Estimated& e : twins.growth[i].horizon_s)
+        for (const Estimated& e : replicas.growth[i].horizon_s)
             horizons.push_back(e.value);
     for (std::size_t i = 0; i < shown; ++i)
-        add(fmt::format("horizon [s], {}", twins.kinds[twins.growth[i].kind].name),
-            values_of(twins.growth[i].horizon_s), top_of(horizons, 0.9)); // the few longest saturate
+        add(fmt::format("horizon [s], {}", replicas.kinds[replicas.growth[i].kind].name),
+            values_of(replicas.growth[i].horizon_s), top_of(horizons, 0.9)); // the few longest saturate
     plot_maps(picture, png);
 }
 

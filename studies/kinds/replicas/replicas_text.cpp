@@ -1,4 +1,4 @@
-#include "studies/kinds/replicas/twins_text.hpp"
+#include "studies/kinds/replicas/replicas_text.hpp"
 
 #include "io/tables/csv.hpp"
 
@@ -37,14 +37,14 @@ std::string percents(double lower, double upper)
 }
 
 /// The smallest move at which the verdict of a cell is not certain, and in how many cells it is that one.
-std::string lost_text(const Twins& twins)
+std::string lost_text(const Replicas& replicas)
 {
     std::string text;
-    for (std::size_t k = 0; k <= twins.moves + 1; ++k) {
-        const auto cells = std::count(twins.lost_at.begin(), twins.lost_at.end(), k);
+    for (std::size_t k = 0; k <= replicas.moves + 1; ++k) {
+        const auto cells = std::count(replicas.lost_at.begin(), replicas.lost_at.end(), k);
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
-                            k < twins.moves    ? fmt::format("{:g} m", twins.kinds[k].kind.size)
-                            : k == twins.moves ? "none"
+                            k < replicas.moves    ? fmt::format("{:g} m", replicas.kinds[k].kind.size)
+                            : k == replicas.moves ? "none"
                                                : too_few_pairs,
                             cells);
     }
@@ -52,10 +52,10 @@ std::string lost_text(const Twins& twins)
 }
 
 /// Where no verdict can be stated, and how many pairs it takes; empty where all can.
-std::string open_text(const Twins& twins)
+std::string open_text(const Replicas& replicas)
 {
     std::uint64_t open = 0, all = 0;
-    for (const KindDiscordance& kind : twins.kinds) {
+    for (const KindDiscordance& kind : replicas.kinds) {
         open += kind.open;
         all += kind.open + kind.classes[0] + kind.classes[1] + kind.classes[2];
     }
@@ -63,14 +63,14 @@ std::string open_text(const Twins& twins)
                      : fmt::format(
                            "{} in {} of {} cells of all kinds of perturbed replicas ({} pairs in each). A cell without "
                            "a discordant pair needs {}, a cell at the edge of a class more: raise study.realizations.",
-                           too_few_pairs, open, all, twins.realizations, fewest_pairs());
+                           too_few_pairs, open, all, replicas.realizations, fewest_pairs());
 }
 
 /// In words, the growth of one displacement.
-std::string growth_sentence(const Twins& twins, const TwinGrowth& growth)
+std::string growth_sentence(const Replicas& replicas, const ReplicaGrowth& growth)
 {
     std::string text = fmt::format("{}: {} of {} pairs diverge; median growth {}/s ({}), median horizon {} s ({})",
-                                   twins.kinds[growth.kind].name, growth.pairs_lost, growth.pairs,
+                                   replicas.kinds[growth.kind].name, growth.pairs_lost, growth.pairs,
                                    number(growth.all_exponents_per_s.value), interval(growth.all_exponents_per_s),
                                    number(growth.all_horizons_s.value), interval(growth.all_horizons_s));
     if (growth.gained_s.count > 0)
@@ -89,40 +89,40 @@ Json estimated_json(const Estimated& e)
         .member("upper", e.upper);
 }
 
-void add_cell(CsvRow& row, const Twins& twins, std::size_t cell)
+void add_cell(CsvRow& row, const Replicas& replicas, std::size_t cell)
 {
-    const std::size_t np = twins.pga_m_s2.size();
-    row << cell << twins.frequency_hz[cell / np] << twins.pga_m_s2[cell % np] << twins.probability[cell];
+    const std::size_t np = replicas.pga_m_s2.size();
+    row << cell << replicas.frequency_hz[cell / np] << replicas.pga_m_s2[cell % np] << replicas.probability[cell];
 }
 
 } // namespace
 
-std::string twins_text(const Twins& twins)
+std::string replicas_text(const Replicas& replicas)
 {
     std::string text = fmt::format(
         "  discordant pairs (95 % intervals); relative to independent realizations; cells that are {} / {} / {} / {}\n",
         sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
-    for (const KindDiscordance& kind : twins.kinds)
+    for (const KindDiscordance& kind : replicas.kinds)
         text += fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {} / {}\n", kind.name,
                             kind.all.all.discordant, kind.all.all.trials, percent(kind.all.all.probability),
                             percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
                             interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2],
                             kind.open);
-    if (const std::string open = open_text(twins); !open.empty())
+    if (const std::string open = open_text(replicas); !open.empty())
         text += fmt::format("  {}\n", open);
     text += fmt::format("  smallest displacement at which the verdict is not certain, and number of cells: {}\n",
-                        lost_text(twins));
-    for (const TwinGrowth& growth : twins.growth)
-        text += fmt::format("  {}\n", growth_sentence(twins, growth));
-    if (twins.invalid_pairs > 0)
-        text += fmt::format("  {} pairs with an invalid member are omitted\n", twins.invalid_pairs);
+                        lost_text(replicas));
+    for (const ReplicaGrowth& growth : replicas.growth)
+        text += fmt::format("  {}\n", growth_sentence(replicas, growth));
+    if (replicas.invalid_pairs > 0)
+        text += fmt::format("  {} pairs with an invalid member are omitted\n", replicas.invalid_pairs);
     return text;
 }
 
-Json twins_json(const Twins& twins)
+Json replicas_json(const Replicas& replicas)
 {
     Json kinds = Json::list();
-    for (const KindDiscordance& kind : twins.kinds) {
+    for (const KindDiscordance& kind : replicas.kinds) {
         Json cells = Json::object();
         for (std::size_t i = 0; i < sureness_names.size(); ++i)
             cells.member(sureness_names[i], kind.classes[i]);
@@ -141,17 +141,17 @@ Json twins_json(const Twins& twins)
                        .member("cells", cells));
     }
     Json lost_at = Json::list();
-    for (std::size_t k = 0; k <= twins.moves + 1; ++k) {
+    for (std::size_t k = 0; k <= replicas.moves + 1; ++k) {
         Json lost = Json::object();
-        lost.member("move_m", k < twins.moves ? twins.kinds[k].kind.size : std::nan(""))
-            .member("known", k <= twins.moves)
-            .member("cells", std::count(twins.lost_at.begin(), twins.lost_at.end(), k));
+        lost.member("move_m", k < replicas.moves ? replicas.kinds[k].kind.size : std::nan(""))
+            .member("known", k <= replicas.moves)
+            .member("cells", std::count(replicas.lost_at.begin(), replicas.lost_at.end(), k));
         lost_at.item(lost);
     }
     Json growths = Json::list();
-    for (const TwinGrowth& growth : twins.growth)
+    for (const ReplicaGrowth& growth : replicas.growth)
         growths.item(Json::object()
-                         .member("name", twins.kinds[growth.kind].name)
+                         .member("name", replicas.kinds[growth.kind].name)
                          .member("start", growth.start)
                          .member("pairs", growth.pairs)
                          .member("pairs_lost", growth.pairs_lost)
@@ -160,14 +160,14 @@ Json twins_json(const Twins& twins)
                          .member("gained_s", estimated_json(growth.gained_s))
                          .member("gained_exponent_per_s", growth.gained_exponent_per_s));
     return Json::object()
-        .member("tolerance", twins.tolerance)
-        .member("invalid_pairs", twins.invalid_pairs)
+        .member("tolerance", replicas.tolerance)
+        .member("invalid_pairs", replicas.invalid_pairs)
         .member("kinds", kinds)
         .member("lost_at", lost_at)
         .member("growth", growths);
 }
 
-void twins_section(const Twins& twins, HtmlPage& page, const std::function<void()>& verdicts,
+void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
                    const std::function<void()>& growth)
 {
     page.section("Predictability of the verdict");
@@ -176,14 +176,14 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
         "one quantity. A verdict (collapsed or not) is certain where fewer than {:g} % of the pairs are discordant, "
         "and a coin flip where more than {:g} % are (two independent tosses of a fair coin differ in 50 %). A class is "
         "assigned only where the 95 % interval of that share lies within it.",
-        twins.realizations, 100 * certain_below, 100 * coin_flip_above));
+        replicas.realizations, 100 * certain_below, 100 * coin_flip_above));
     verdicts();
     HtmlTable table{"lrrrrrrrrr",
                     {"replica", "discordant", "share", "95 %", "relative to independent", "95 %", "certain", "probable",
                      "coin flip", too_few_pairs},
                     {},
                     "Pairs over all cells, and cells by class"};
-    for (const KindDiscordance& kind : twins.kinds)
+    for (const KindDiscordance& kind : replicas.kinds)
         table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.discordant, kind.all.all.trials),
                               percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
                               number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
@@ -193,37 +193,37 @@ void twins_section(const Twins& twins, HtmlPage& page, const std::function<void(
     page.note("Relative to independent: the share of discordant pairs over that of two independent realizations of the "
               "same cell. It is the fraction of the verdict's variance in a cell that is due to the quantity in which "
               "the replicas differ.");
-    if (const std::string open = open_text(twins); !open.empty())
+    if (const std::string open = open_text(replicas); !open.empty())
         page.box("warn", "Note", open);
     page.paragraph(
         fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
-                    lost_text(twins)));
-    if (twins.invalid_pairs > 0)
-        page.note(fmt::format("{} pairs with an invalid member are omitted.", twins.invalid_pairs));
-    if (twins.growth.empty())
+                    lost_text(replicas)));
+    if (replicas.invalid_pairs > 0)
+        page.note(fmt::format("{} pairs with an invalid member are omitted.", replicas.invalid_pairs));
+    if (replicas.growth.empty())
         return;
     page.heading("Predictability horizon of the motion");
     growth();
     std::vector<Html> items;
-    for (const TwinGrowth& each : twins.growth)
-        items.emplace_back(growth_sentence(twins, each) + ".");
+    for (const ReplicaGrowth& each : replicas.growth)
+        items.emplace_back(growth_sentence(replicas, each) + ".");
     page.list(items);
     page.note(fmt::format("{} pairs of each cell were tracked. Growth: slope of the logarithm of the separation over "
                           "time, from the first motion of the original. Horizon: the time until the replicas are {:g} "
                           "% of a drum's width apart (or as many radians); a pair that ends before is counted as one "
                           "that does not diverge. Medians over all pairs with the interval of order statistics.",
-                          twins.followed, 100 * twins.tolerance));
+                          replicas.followed, 100 * replicas.tolerance));
 }
 
-std::string twins_csv(const Twins& twins)
+std::string replicas_csv(const Replicas& replicas)
 {
     std::string text = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,pairs,flips,probability,lower,upper,"
                        "independent,class\n";
-    for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
-        for (const KindDiscordance& kind : twins.kinds) {
+    for (std::size_t cell = 0; cell < replicas.probability.size(); ++cell)
+        for (const KindDiscordance& kind : replicas.kinds) {
             const DiscordantShare& s = kind.cells[cell];
             CsvRow row(text);
-            add_cell(row, twins, cell);
+            add_cell(row, replicas, cell);
             row << kind.name << s.trials << s.discordant << s.probability << s.lower << s.upper << s.independent
                 << (s.verdict()    ? sureness_names[static_cast<std::size_t>(*s.verdict())]
                     : s.trials > 0 ? too_few_pairs
@@ -232,17 +232,17 @@ std::string twins_csv(const Twins& twins)
     return text;
 }
 
-std::string predictability_csv(const Twins& twins)
+std::string predictability_csv(const Replicas& replicas)
 {
     std::string text = "cell,frequency_hz,pga_m_s2,collapse_probability,twin,lost,exponents,exponent_per_s,"
                        "exponent_lower,exponent_upper,horizons,horizon_s,horizon_lower_s,horizon_upper_s\n";
-    for (std::size_t cell = 0; cell < twins.probability.size(); ++cell)
-        for (const TwinGrowth& each : twins.growth) {
+    for (std::size_t cell = 0; cell < replicas.probability.size(); ++cell)
+        for (const ReplicaGrowth& each : replicas.growth) {
             const Estimated& e = each.exponent_per_s[cell];
             const Estimated& h = each.horizon_s[cell];
             CsvRow row(text);
-            add_cell(row, twins, cell);
-            row << twins.kinds[each.kind].name << each.lost[cell] << e.count << e.value << e.lower << e.upper << h.count
+            add_cell(row, replicas, cell);
+            row << replicas.kinds[each.kind].name << each.lost[cell] << e.count << e.value << e.lower << e.upper << h.count
                 << h.value << h.lower << h.upper;
         }
     return text;

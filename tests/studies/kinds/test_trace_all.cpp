@@ -60,12 +60,12 @@ void expect_as_alone(Study study, std::uint64_t realizations)
     const std::uint64_t recorded = realizations - 2;
     for (const Isa isa : usable_isas())
         for (const int threads : {1, 3}) {
-            FollowPlan plan;
+            TracePlan plan;
             plan.indices.resize(realizations);
             std::iota(plan.indices.begin(), plan.indices.end(), 0);
             plan.recorded = recorded;
             std::uint64_t next = 0;
-            plan.sink = [&](const FollowedRealization& f) {
+            plan.sink = [&](const TracedRealization& f) {
                 const std::uint64_t i = next++;
                 ASSERT_EQ(f.realization.index, i);
                 EXPECT_EQ(f.outcome.steps, outcomes[i].steps);
@@ -74,7 +74,7 @@ void expect_as_alone(Study study, std::uint64_t realizations)
                 EXPECT_EQ(f.outcome.sliding_path_m, outcomes[i].sliding_path_m);
                 EXPECT_EQ(f.trajectory.x_m, i < recorded ? x_m[i] : std::vector<double>());
             };
-            EXPECT_TRUE(follow_all(experiment, {isa, threads}, plan));
+            EXPECT_TRUE(trace_all(experiment, {isa, threads}, plan));
             EXPECT_EQ(next, realizations) << to_string(isa) << ", " << threads << " threads";
         }
 }
@@ -135,18 +135,18 @@ TEST(FollowAll, WhatIsHandedOverCanBeStopped)
         rigid.advance();
     ASSERT_TRUE(rigid.handed(0));
     std::uint64_t asked = 0;
-    const FollowedRealization whole = follow(experiment, 0, Isa::scalar, [&] { return ++asked > 0; });
+    const TracedRealization whole = trace(experiment, 0, Isa::scalar, [&] { return ++asked > 0; });
     EXPECT_GT(1024 * asked, whole.outcome.steps);
     const std::uint64_t of_rigid = rigid.steps(0) / 1024 + 1;
     ASSERT_GT(asked, of_rigid + 1);
     asked = 0;
-    EXPECT_THROW(follow(experiment, 0, Isa::scalar, [&] { return ++asked <= of_rigid + 1; }), FollowStopped);
-    FollowPlan plan;
+    EXPECT_THROW(trace(experiment, 0, Isa::scalar, [&] { return ++asked <= of_rigid + 1; }), TraceStopped);
+    TracePlan plan;
     plan.indices = {0};
-    plan.sink = [](const FollowedRealization&) { ADD_FAILURE() << "it had not ended"; };
+    plan.sink = [](const TracedRealization&) { ADD_FAILURE() << "it had not ended"; };
     asked = 0;
     plan.stop = [&](double, const SimulatedTime&) { return ++asked > rigid.steps(0) / chunk_steps + 1; };
-    EXPECT_FALSE(follow_all(experiment, {Isa::scalar, 1}, plan));
+    EXPECT_FALSE(trace_all(experiment, {Isa::scalar, 1}, plan));
 }
 
 TEST(FollowAll, StopsAndDeliversWhatHasEnded)
@@ -154,11 +154,11 @@ TEST(FollowAll, StopsAndDeliversWhatHasEnded)
     Study study = shaken(rocking_column(3), 5);
     study.realizations = 40;
     const Experiment experiment(study);
-    FollowPlan plan;
+    TracePlan plan;
     plan.indices.resize(study.realizations);
     std::iota(plan.indices.begin(), plan.indices.end(), 0);
     std::uint64_t ended = 0, last = 0;
-    plan.sink = [&](const FollowedRealization& f) {
+    plan.sink = [&](const TracedRealization& f) {
         EXPECT_TRUE(ended == 0 || f.realization.index > last);
         last = f.realization.index;
         ++ended;
@@ -168,7 +168,7 @@ TEST(FollowAll, StopsAndDeliversWhatHasEnded)
         EXPECT_LE(occupancy, 1);
         return ended >= 5;
     };
-    EXPECT_FALSE(follow_all(experiment, {Isa::scalar, 1}, plan));
+    EXPECT_FALSE(trace_all(experiment, {Isa::scalar, 1}, plan));
     EXPECT_GE(ended, 5u);
     EXPECT_LT(ended, 40u);
 }

@@ -3,7 +3,7 @@
 /// predictability horizon.
 
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
-#include "ensemble/model/followed_twin.hpp"
+#include "ensemble/model/replica_separation.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
@@ -15,9 +15,9 @@
 
 namespace stylobate {
 
-/// One kind of twin over the surface.
+/// One kind of replica over the surface.
 struct KindDiscordance {
-    Twin kind;
+    Replica kind;
     std::string name;                   ///< "moved by 1e-12 m"
     std::vector<DiscordantShare> cells; ///< (nf x np)
     DiscordanceRatio all;
@@ -25,9 +25,9 @@ struct KindDiscordance {
     std::uint64_t open = 0;                 ///< undecided cells (too few pairs); those without a pair are not counted
 };
 
-/// How the separation of twins of one kind grows.
-struct TwinGrowth {
-    std::size_t kind = 0;                  ///< in `Twins::kinds`
+/// How the separation of replicas of one kind grows.
+struct ReplicaGrowth {
+    std::size_t kind = 0;                  ///< in `Replicas::kinds`
     double start = 0;                      ///< separation at rest, median
     std::vector<Estimated> exponent_per_s; ///< (nf x np) mean
     std::vector<Estimated> horizon_s;      ///< (nf x np) median; infinite: not lost
@@ -41,14 +41,14 @@ struct TwinGrowth {
     double gained_exponent_per_s = 0; ///< NaN for the greatest move
 };
 
-struct Twins {
+struct Replicas {
     std::vector<double> frequency_hz, pga_m_s2;
     std::uint64_t realizations = 0; ///< originals of each cell
     std::uint64_t followed = 0;     ///< of these
     double tolerance = 0;
     std::vector<double> probability; ///< (nf x np) of collapse, of the originals; NaN without a valid one
     std::vector<KindDiscordance> kinds;
-    std::vector<TwinGrowth> growth;  ///< of the moves that begin below the tolerance
+    std::vector<ReplicaGrowth> growth;  ///< of the moves that begin below the tolerance
     std::uint64_t invalid_pairs = 0; ///< with an invalid member: left out
     /// (nf x np) number of the smallest move at which the verdict is not certain, by its interval; as many as there are
     /// moves: it is certain at all of them; one more: undecided (too few pairs).
@@ -63,10 +63,10 @@ struct ReplicaRow {
 };
 
 /// @param rows of all realizations of a surface with replicas, in any order   @param followed pairs
-Twins twins_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
-               const std::vector<FollowedTwin>& followed);
+Replicas replicas_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
+               const std::vector<ReplicaSeparation>& followed);
 
 /// "moved by 1e-09 m", "step x 0.8", "single precision", "form two_corner"
-std::string describe(const Twin& kind);
+std::string describe(const Replica& kind);
 
 } // namespace stylobate

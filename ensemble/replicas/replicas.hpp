@@ -16,7 +16,7 @@
 /// that opens, a joint that slips) occurs in only one of the two; the exponent therefore belongs to a size.
 
 #include "ensemble/experiment.hpp"
-#include "ensemble/model/followed_twin.hpp"
+#include "ensemble/model/replica_separation.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
@@ -27,14 +27,14 @@
 namespace stylobate {
 
 /// Realizations that one `LaneSet` can step together, and the study that they follow.
-struct TwinRange {
+struct ReplicaRange {
     std::uint64_t begin = 0, end = 0; ///< indices
     Study study;
 };
-/// All realizations of a study with twins, in the order of their indices.
-std::vector<TwinRange> twin_ranges(const Study& study);
+/// All realizations of a study with replicas, in the order of their indices.
+std::vector<ReplicaRange> replica_ranges(const Study& study);
 
-/// How a realization is stepped: the study itself, but for twins in single precision.
+/// How a realization is stepped: the study itself, but for replicas in single precision.
 Study stepped_as(const Study& study, std::uint64_t index);
 
 /// How far a block of the original has moved when the growth begins to count, in widths or radians.
@@ -42,15 +42,15 @@ inline constexpr double left_place = 1e-3;
 /// Fewest samples of a slope.
 inline constexpr int least_checks = 8;
 
-/// Follows the displaced replicas of the first `TwinsSpec::followed` realizations of each cell, in the order of the
+/// Follows the displaced replicas of the first `ReplicasSpec::followed` realizations of each cell, in the order of the
 /// originals and the kinds; pairs whose original is invalid are left out. The same bits for every instruction set and
 /// number of threads.
 ///
 /// @param observer is notified of originals that are done
 /// @return fewer originals' if the observer asked to stop
-std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOptions& options, Observer& observer);
+std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options, Observer& observer);
 
 /// Originals that are followed.
-std::uint64_t followed_originals(const Study& study);
+std::uint64_t separated_originals(const Study& study);
 
 } // namespace stylobate

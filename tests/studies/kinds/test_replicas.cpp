@@ -4,11 +4,11 @@
 #include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/slope.hpp"
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
-#include "studies/kinds/replicas/twins.hpp"
+#include "studies/kinds/replicas/replicas.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
 #include <gtest/gtest.h>
@@ -26,9 +26,9 @@ namespace {
 
 const std::string input = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/small_scale_column.toml";
 
-Study twins_study(const std::vector<std::string>& settings,
-                  const std::string& frequencies = "{from=9.0,to=9.0,count=1}",
-                  const std::string& pgas = "{from=9.0,to=9.0,count=1}", int realizations = 3)
+Study replicas_study(const std::vector<std::string>& settings,
+                     const std::string& frequencies = "{from=9.0,to=9.0,count=1}",
+                     const std::string& pgas = "{from=9.0,to=9.0,count=1}", int realizations = 3)
 {
     std::vector<std::string> all{"study.realizations=" + std::to_string(realizations),
                                  "surface.frequency_hz=" + frequencies, "surface.pga_m_s2=" + pgas};
@@ -76,7 +76,7 @@ Outcomes run(const Study& study, Isa isa, int threads)
 {
     const Experiment experiment(study);
     Outcomes outcomes;
-    for (const TwinRange& range : twin_ranges(study)) {
+    for (const ReplicaRange& range : replica_ranges(study)) {
         std::vector<std::uint64_t> indices;
         for (std::uint64_t index = range.begin; index < range.end; ++index)
             indices.push_back(index);
@@ -102,16 +102,16 @@ Outcomes run_plain(const Study& study)
     return outcomes;
 }
 
-std::vector<FollowedTwin> follow(const Study& study, Isa isa = best_isa(), int threads = 2)
+std::vector<ReplicaSeparation> follow(const Study& study, Isa isa = best_isa(), int threads = 2)
 {
     Observer observer;
-    return follow_twins(Experiment(study), {isa, threads}, observer);
+    return replica_separations(Experiment(study), {isa, threads}, observer);
 }
 
-std::vector<std::uint64_t> bits(const std::vector<FollowedTwin>& pairs)
+std::vector<std::uint64_t> bits(const std::vector<ReplicaSeparation>& pairs)
 {
     std::vector<std::uint64_t> all;
-    for (const FollowedTwin& p : pairs) {
+    for (const ReplicaSeparation& p : pairs) {
         all.insert(all.end(), {p.original, p.kind});
         for (const double v : {p.start, p.exponent_per_s, p.horizon_s, p.followed_s, p.original_end_s})
             all.push_back(std::bit_cast<std::uint64_t>(v));
@@ -119,47 +119,47 @@ std::vector<std::uint64_t> bits(const std::vector<FollowedTwin>& pairs)
     return all;
 }
 
-TEST(Twins, EachDiffersFromItsOriginalInOneThingAlone)
+TEST(Replicas, EachDiffersFromItsOriginalInOneThingAlone)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-12, 1e-3]", "twins.block=4"});
-    ASSERT_EQ(study.twins->kinds.size(), 6U);
+    const Study study = replicas_study({"twins.moves_m=[1e-12, 1e-3]", "twins.block=4"});
+    ASSERT_EQ(study.replicas->kinds.size(), 6U);
     const std::uint64_t n = study.originals();
     EXPECT_EQ(study.total(), 7 * n);
     const Sampler sampler(study, nullptr);
-    const Experiment plain_experiment(twins_study({}));
+    const Experiment plain_experiment(replicas_study({}));
     const Sampler& plain = plain_experiment.sampler();
-    const Experiment two_corner_experiment(twins_study({"contact.form=\"two_corner\""}));
+    const Experiment two_corner_experiment(replicas_study({"contact.form=\"two_corner\""}));
     const Sampler& two_corner = two_corner_experiment.sampler();
-    const Experiment points_experiment(twins_study({"contact.form=\"points\""}));
+    const Experiment points_experiment(replicas_study({"contact.form=\"points\""}));
     const Sampler& points = points_experiment.sampler();
     for (std::uint64_t i = 0; i < n; ++i) {
         const Realization original = sampler.realization(i);
         expect_same(original, plain.realization(i));
         for (std::uint64_t kind = 0; kind < 6; ++kind) {
             const std::uint64_t index = (kind + 1) * n + i;
-            const Realization twin = sampler.realization(index);
-            EXPECT_EQ(twin.index, index);
+            const Realization replica = sampler.realization(index);
+            EXPECT_EQ(replica.index, index);
             EXPECT_EQ(study.original(index), i);
             EXPECT_EQ(study.cell(index), study.cell(i));
             const bool form = kind >= 4;
-            expect_same(twin, kind == 4 ? two_corner.realization(i) : kind == 5 ? points.realization(i) : original);
-            for (std::size_t b = 0; b < twin.blocks.size(); ++b) {
+            expect_same(replica, kind == 4 ? two_corner.realization(i) : kind == 5 ? points.realization(i) : original);
+            for (std::size_t b = 0; b < replica.blocks.size(); ++b) {
                 const double move = kind == 0 ? 1e-12 : kind == 1 ? 1e-3 : 0;
-                EXPECT_EQ(twin.blocks[b].x_m, original.blocks[b].x_m + (b == 4 ? move : 0));
+                EXPECT_EQ(replica.blocks[b].x_m, original.blocks[b].x_m + (b == 4 ? move : 0));
             }
-            EXPECT_EQ(twin.form, kind == 4   ? ContactForm::two_corner
-                                 : kind == 5 ? ContactForm::points
-                                             : ContactForm::area);
+            EXPECT_EQ(replica.form, kind == 4   ? ContactForm::two_corner
+                                    : kind == 5 ? ContactForm::points
+                                                : ContactForm::area);
             if (!form) {
-                EXPECT_EQ(twin.step_s, kind == 2 ? 0.8 * original.step_s : original.step_s) << kind;
+                EXPECT_EQ(replica.step_s, kind == 2 ? 0.8 * original.step_s : original.step_s) << kind;
             }
         }
     }
 }
 
-TEST(Twins, AnExperimentIsTheSameWhereverItLies)
+TEST(Replicas, AnExperimentIsTheSameWhereverItLies)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-3]", "twins.block=4"});
+    const Study study = replicas_study({"twins.moves_m=[1e-3]", "twins.block=4"});
     std::vector<Experiment> moved;
     moved.emplace_back(study);
     const Sampler& sampler = moved.front().sampler();
@@ -175,19 +175,19 @@ TEST(Twins, AnExperimentIsTheSameWhereverItLies)
     }
 }
 
-TEST(Twins, MovedByNothingTheyAreEqualToTheLastBit)
+TEST(Replicas, MovedByNothingTheyAreEqualToTheLastBit)
 {
     const Study study =
-        twins_study({"twins.moves_m=[0]", "twins.step_ratio=1", "twins.precision=false", "twins.forms=false"},
-                    "{from=6.0,to=9.0,count=2}", "{from=6.0,to=9.0,count=2}");
-    ASSERT_EQ(study.twins->kinds.size(), 1U);
+        replicas_study({"twins.moves_m=[0]", "twins.step_ratio=1", "twins.precision=false", "twins.forms=false"},
+                       "{from=6.0,to=9.0,count=2}", "{from=6.0,to=9.0,count=2}");
+    ASSERT_EQ(study.replicas->kinds.size(), 1U);
     const Outcomes outcomes = run(study, best_isa(), 2);
     ASSERT_EQ(outcomes.size(), study.total());
     for (std::uint64_t i = 0; i < study.originals(); ++i)
         EXPECT_EQ(outcomes.at(i), outcomes.at(study.originals() + i)) << i;
-    const std::vector<FollowedTwin> pairs = follow(study);
+    const std::vector<ReplicaSeparation> pairs = follow(study);
     ASSERT_EQ(pairs.size(), study.originals());
-    for (const FollowedTwin& pair : pairs) {
+    for (const ReplicaSeparation& pair : pairs) {
         EXPECT_EQ(pair.start, 0);
         EXPECT_TRUE(std::isnan(pair.exponent_per_s));
         EXPECT_TRUE(std::isnan(pair.horizon_s));
@@ -195,13 +195,13 @@ TEST(Twins, MovedByNothingTheyAreEqualToTheLastBit)
     }
 }
 
-TEST(Twins, ThoseOfTheNumericsAreTheStudiesThatRunSo)
+TEST(Replicas, ThoseOfTheNumericsAreTheStudiesThatRunSo)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-9]", "twins.step_ratio=0.5"});
+    const Study study = replicas_study({"twins.moves_m=[1e-9]", "twins.step_ratio=0.5"});
     const Outcomes outcomes = run(study, best_isa(), 2);
     const std::uint64_t n = study.originals();
     const auto expect_kind = [&](std::uint64_t kind, const std::vector<std::string>& settings) {
-        const Outcomes want = run_plain(twins_study(settings));
+        const Outcomes want = run_plain(replicas_study(settings));
         ASSERT_EQ(want.size(), n);
         for (std::uint64_t i = 0; i < n; ++i)
             EXPECT_EQ(outcomes.at(kind * n + i), want.at(i)) << settings[0] << ' ' << i;
@@ -213,10 +213,10 @@ TEST(Twins, ThoseOfTheNumericsAreTheStudiesThatRunSo)
     expect_kind(5, {"contact.form=\"points\""});
 }
 
-TEST(Twins, TheSameBitsOnEveryInstructionSetAndNumberOfThreads)
+TEST(Replicas, TheSameBitsOnEveryInstructionSetAndNumberOfThreads)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-12, 1e-6]", "excitation.cycles=5"}, "{from=4.0,to=9.0,count=2}",
-                                    "{from=9.0,to=9.0,count=1}");
+    const Study study = replicas_study({"twins.moves_m=[1e-12, 1e-6]", "excitation.cycles=5"},
+                                       "{from=4.0,to=9.0,count=2}", "{from=9.0,to=9.0,count=1}");
     const Outcomes outcomes = run(study, Isa::scalar, 1);
     const std::vector<std::uint64_t> pairs = bits(follow(study, Isa::scalar, 1));
     ASSERT_EQ(pairs.size(), 7 * 2 * study.originals());
@@ -227,33 +227,33 @@ TEST(Twins, TheSameBitsOnEveryInstructionSetAndNumberOfThreads)
         }
 }
 
-TEST(Twins, AStandingColumnKeepsThemAsTheyAre)
+TEST(Replicas, AStandingColumnKeepsThemAsTheyAre)
 {
     // far below what opens a joint: nothing grows, and no verdict differs
-    const Study study = twins_study({"twins.moves_m=[1e-12, 1e-6]", "twins.forms=false"}, "{from=1.0,to=2.0,count=2}",
-                                    "{from=0.2,to=0.2,count=1}");
+    const Study study = replicas_study({"twins.moves_m=[1e-12, 1e-6]", "twins.forms=false"},
+                                       "{from=1.0,to=2.0,count=2}", "{from=0.2,to=0.2,count=1}");
     const Outcomes outcomes = run(study, best_isa(), 2);
     for (const auto& [index, outcome] : outcomes)
         EXPECT_EQ(outcome[0], static_cast<std::uint64_t>(State::stood)) << index;
-    for (const FollowedTwin& pair : follow(study)) {
+    for (const ReplicaSeparation& pair : follow(study)) {
         EXPECT_TRUE(std::isnan(pair.horizon_s));
         EXPECT_TRUE(std::isnan(pair.exponent_per_s)) << "it never leaves its place";
     }
 }
 
-TEST(Twins, ABlockOnAWideFloorIsTheSameWhereverItStands)
+TEST(Replicas, ABlockOnAWideFloorIsTheSameWhereverItStands)
 {
     // whatever it does there, rocking and sliding included, the twin does it a little to the right: nothing grows
     const std::string floor_and_block =
         "structure={drums=[{width_m=1.0,height_m=0.05,mass_kg=10},{width_m=0.048,height_m=0.12,mass_kg=0.56}],"
         "fixed_blocks=1,depth_m=0.048,kind=\"column\"}";
-    const Study study = twins_study(
+    const Study study = replicas_study(
         {floor_and_block, "twins.moves_m=[1e-6]", "twins.step_ratio=1", "twins.precision=false", "twins.forms=false"},
         "{from=6.0,to=6.0,count=1}", "{from=7.0,to=7.0,count=1}", 4);
-    const std::vector<FollowedTwin> pairs = follow(study);
+    const std::vector<ReplicaSeparation> pairs = follow(study);
     ASSERT_EQ(pairs.size(), 4U);
     int slopes = 0;
-    for (const FollowedTwin& pair : pairs) {
+    for (const ReplicaSeparation& pair : pairs) {
         EXPECT_NEAR(pair.start, 1e-6 / 0.048, 0.02 * pair.start); // widths are drawn
         EXPECT_TRUE(std::isnan(pair.horizon_s));
         if (!std::isnan(pair.exponent_per_s)) {
@@ -264,13 +264,13 @@ TEST(Twins, ABlockOnAWideFloorIsTheSameWhereverItStands)
     EXPECT_GT(slopes, 0) << "it moves";
 }
 
-TEST(Twins, WhereItIsChaoticTheHorizonGrowsWithTheLogarithmOfTheMove)
+TEST(Replicas, WhereItIsChaoticTheHorizonGrowsWithTheLogarithmOfTheMove)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-15, 1e-12, 1e-9]", "twins.followed=24"},
-                                    "{from=9.0,to=9.0,count=1}", "{from=10.0,to=10.0,count=1}", 24);
+    const Study study = replicas_study({"twins.moves_m=[1e-15, 1e-12, 1e-9]", "twins.followed=24"},
+                                       "{from=9.0,to=9.0,count=1}", "{from=10.0,to=10.0,count=1}", 24);
     std::vector<double> gains, exponents;
     std::map<std::uint64_t, double> before;
-    for (const FollowedTwin& pair : follow(study)) {
+    for (const ReplicaSeparation& pair : follow(study)) {
         if (pair.kind > 0)
             gains.push_back(before.at(pair.original) - pair.horizon_s);
         if (pair.kind == 0)
@@ -286,49 +286,49 @@ TEST(Twins, WhereItIsChaoticTheHorizonGrowsWithTheLogarithmOfTheMove)
     EXPECT_LT(std::fabs(std::log(of_gain / exponent.value)), std::log(2.0)) << of_gain << ' ' << exponent.value;
 }
 
-TEST(Twins, MovesAreAtMostAQuarterOfTheDrumsWidth)
+TEST(Replicas, MovesAreAtMostAQuarterOfTheDrumsWidth)
 {
     const auto moves = [](const std::string& width_m) {
-        const Study study = twins_study(
+        const Study study = replicas_study(
             {"twins.step_ratio=1", "twins.precision=false", "twins.forms=false", "structure.drum_width_m=" + width_m});
         EXPECT_EQ(parse_study(study.text, "again").text, study.text);
         std::vector<double> sizes;
-        for (const auto& kind : study.twins->kinds)
+        for (const auto& kind : study.replicas->kinds)
             sizes.push_back(kind.size);
         return sizes;
     };
     EXPECT_EQ(moves("0.004"), (std::vector<double>{1e-12, 1e-9, 1e-6, 1e-3}));
     EXPECT_EQ(moves("0.0039"), (std::vector<double>{1e-12, 1e-9, 1e-6}));
     EXPECT_THROW(moves("3e-12"), InputError);
-    EXPECT_THROW(twins_study({"twins.moves_m=[1e-3]", "structure.drum_width_m=0.0039"}), InputError);
+    EXPECT_THROW(replicas_study({"twins.moves_m=[1e-3]", "structure.drum_width_m=0.0039"}), InputError);
 }
 
-TEST(Twins, TheStudysTextTellsAllOfThem)
+TEST(Replicas, TheStudysTextTellsAllOfThem)
 {
-    const Study base = twins_study({"twins.moves_m=[0, 3e-7]", "twins.step_ratio=0.7", "twins.precision=false",
-                                    "twins.followed=1", "twins.tolerance=0.03", "twins.block=2"});
+    const Study base = replicas_study({"twins.moves_m=[0, 3e-7]", "twins.step_ratio=0.7", "twins.precision=false",
+                                       "twins.followed=1", "twins.tolerance=0.03", "twins.block=2"});
     const Study again = parse_study(base.text, "again");
     EXPECT_EQ(again.text, base.text);
-    EXPECT_EQ(again.twins->kinds, base.twins->kinds);
-    EXPECT_EQ(again.twins->block, 2);
-    EXPECT_EQ(again.twins->followed, 1U);
-    EXPECT_EQ(again.twins->tolerance, 0.03);
-    const std::vector<std::function<void(TwinsSpec&)>> changes = {
-        [](TwinsSpec& t) { t.kinds[1].size = 4e-7; },
-        [](TwinsSpec& t) { t.kinds[2].size = 0.71; },
-        [](TwinsSpec& t) { t.kinds.pop_back(), t.kinds.pop_back(); },
-        [](TwinsSpec& t) {
-            t.kinds.insert(t.kinds.begin() + 3, {TwinBy::precision, 0, ContactForm::area});
+    EXPECT_EQ(again.replicas->kinds, base.replicas->kinds);
+    EXPECT_EQ(again.replicas->block, 2);
+    EXPECT_EQ(again.replicas->followed, 1U);
+    EXPECT_EQ(again.replicas->tolerance, 0.03);
+    const std::vector<std::function<void(ReplicasSpec&)>> changes = {
+        [](ReplicasSpec& t) { t.kinds[1].size = 4e-7; },
+        [](ReplicasSpec& t) { t.kinds[2].size = 0.71; },
+        [](ReplicasSpec& t) { t.kinds.pop_back(), t.kinds.pop_back(); },
+        [](ReplicasSpec& t) {
+            t.kinds.insert(t.kinds.begin() + 3, {ReplicaBy::precision, 0, ContactForm::area});
         },
-        [](TwinsSpec& t) { t.block = 3; },
-        [](TwinsSpec& t) { t.followed = 0; },
-        [](TwinsSpec& t) { t.tolerance = 0.02; }};
+        [](ReplicasSpec& t) { t.block = 3; },
+        [](ReplicasSpec& t) { t.followed = 0; },
+        [](ReplicasSpec& t) { t.tolerance = 0.02; }};
     for (std::size_t i = 0; i < changes.size(); ++i) {
         Study changed = base;
-        changes[i](*changed.twins);
+        changes[i](*changed.replicas);
         EXPECT_NE(study_text(changed), base.text) << i;
     }
-    EXPECT_NE(twins_study({}).text, base.text);
+    EXPECT_NE(replicas_study({}).text, base.text);
 }
 
 TEST(Slope, IsThatOfTheNormalEquations)
@@ -348,7 +348,7 @@ TEST(Slope, IsThatOfTheNormalEquations)
 
 TEST(Discordance, SharesByHand)
 {
-    const DiscordantShare share = discordant_share({.neither = 3, .original = 1, .twin = 2, .both = 4});
+    const DiscordantShare share = discordant_share({.neither = 3, .original = 1, .replica = 2, .both = 4});
     EXPECT_EQ(share.trials, 10U);
     EXPECT_EQ(share.discordant, 3U);
     EXPECT_DOUBLE_EQ(share.probability, 0.3);
@@ -379,7 +379,7 @@ PairCounts simulated(std::mt19937_64& random, double p, double decided, int pair
     PairCounts c;
     for (int i = 0; i < pairs; ++i) {
         const bool a = collapses(random), b = own(random) ? collapses(random) : a;
-        ++(a && b ? c.both : a ? c.original : b ? c.twin : c.neither);
+        ++(a && b ? c.both : a ? c.original : b ? c.replica : c.neither);
     }
     return c;
 }
@@ -416,8 +416,8 @@ TEST(Discordance, TheRatioIsTheShareThatTwinsDoNotHaveInCommon)
 /// cell that differ from either of its members.
 TEST(Discordance, IntervalOfTheRatioByHand)
 {
-    const std::vector<PairCounts> cells = {{.neither = 4, .original = 1, .twin = 2, .both = 3},
-                                           {.neither = 2, .original = 2, .twin = 1, .both = 3}};
+    const std::vector<PairCounts> cells = {{.neither = 4, .original = 1, .replica = 2, .both = 3},
+                                           {.neither = 2, .original = 2, .replica = 1, .both = 3}};
     const DiscordanceRatio found = discordance_ratio(cells);
     // 47 of 90 comparisons of different pairs differ in the first cell (as above), 5 x 4 + 3 x 4 - 3 of 56 in the
     // second
@@ -429,7 +429,7 @@ TEST(Discordance, IntervalOfTheRatioByHand)
         std::vector<std::pair<int, int>> pairs;
         pairs.insert(pairs.end(), c.neither, {0, 0});
         pairs.insert(pairs.end(), c.original, {1, 0});
-        pairs.insert(pairs.end(), c.twin, {0, 1});
+        pairs.insert(pairs.end(), c.replica, {0, 1});
         pairs.insert(pairs.end(), c.both, {1, 1});
         const auto n = static_cast<double>(pairs.size());
         double sum = 0, squares = 0;
@@ -452,14 +452,14 @@ TEST(Discordance, IntervalOfTheRatioByHand)
 /// Twins moved by 1e-9 and 1e-6 m: of three originals both kinds came apart, 2, 3 and 4 s later after the smaller move.
 TEST(Growth, GainOfASmallerMoveByHand)
 {
-    const Study study = twins_study({"twins.moves_m=[1e-9, 1e-6]"});
+    const Study study = replicas_study({"twins.moves_m=[1e-9, 1e-6]"});
     const double late[] = {5, 7, 9}, early[] = {3, 4, 5};
-    std::vector<FollowedTwin> pairs;
+    std::vector<ReplicaSeparation> pairs;
     for (std::uint64_t i = 0; i < 3; ++i) {
         pairs.push_back({i, 0, 1e-9, 2.0 + static_cast<double>(i), late[i], 10, 10});
         pairs.push_back({i, 1, 1e-6, 3, early[i], 10, 10});
     }
-    const Twins found = twins_of(study, {}, {}, pairs);
+    const Replicas found = replicas_of(study, {}, {}, pairs);
     ASSERT_EQ(found.growth.size(), 2U);
     EXPECT_EQ(found.growth[0].pairs_lost, 3U);
     EXPECT_NEAR(found.growth[0].gained_s.value, 3, 1e-12);

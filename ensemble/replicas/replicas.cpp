@@ -1,4 +1,4 @@
-#include "ensemble/replicas/twins.hpp"
+#include "ensemble/replicas/replicas.hpp"
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/numerics/slope.hpp"
@@ -36,10 +36,10 @@ public:
     }
     std::size_t checks() const { return values_.size() / (3 * free_.size()); }
 
-    double separation(const Snapshot& twin, std::size_t check) const
+    double separation(const Snapshot& replica, std::size_t check) const
     {
         double sum = 0;
-        visit(check, twin, [&](double d) { sum += d * d; });
+        visit(check, replica, [&](double d) { sum += d * d; });
         return std::sqrt(sum);
     }
     /// Distance of the last sample from the first one.
@@ -91,7 +91,7 @@ public:
         return kind_ < 0 ? check_original(lanes, lane) : check_replica(lanes, lane);
     }
 
-    std::vector<FollowedTwin> pairs() && { return std::move(pairs_); }
+    std::vector<ReplicaSeparation> pairs() && { return std::move(pairs_); }
 
 private:
     double time(std::size_t check) const { return static_cast<double>(check * chunk_steps) * step_s_; }
@@ -110,21 +110,21 @@ private:
     /// The next displaced replica, if there is one. One that begins beyond the tolerance is done at once.
     bool next(LaneSet& lanes, int lane)
     {
-        const std::vector<Twin>& kinds = study_.twins->kinds;
+        const std::vector<Replica>& kinds = study_.replicas->kinds;
         while (++kind_ < static_cast<int>(kinds.size())) {
-            if (kinds[static_cast<std::size_t>(kind_)].by != TwinBy::move)
+            if (kinds[static_cast<std::size_t>(kind_)].by != ReplicaBy::move)
                 continue;
             lanes.load(lane,
                        sampler_.realization(original_ + (static_cast<std::uint64_t>(kind_) + 1) * study_.originals()));
             check_ = 0;
             growth_ = Slope();
-            FollowedTwin pair;
+            ReplicaSeparation pair;
             pair.original = original_;
             pair.kind = static_cast<std::uint64_t>(kind_);
             pair.start = history_.separation(lanes.snapshot(lane), 0);
             pair.original_end_s = time(history_.checks() - 1);
             pair.exponent_per_s = nan;
-            pair.horizon_s = pair.start < study_.twins->tolerance ? nan : 0;
+            pair.horizon_s = pair.start < study_.replicas->tolerance ? nan : 0;
             pairs_.push_back(pair);
             if (std::isnan(pair.horizon_s))
                 return true;
@@ -134,10 +134,10 @@ private:
 
     bool check_replica(LaneSet& lanes, int lane)
     {
-        FollowedTwin& pair = pairs_.back();
+        ReplicaSeparation& pair = pairs_.back();
         const double s = history_.separation(lanes.snapshot(lane), ++check_);
         pair.followed_s = time(check_);
-        if (s < study_.twins->tolerance) {
+        if (s < study_.replicas->tolerance) {
             if (left_at_ > 0 && check_ >= left_at_ && time(check_) <= shaking_s_ && s > 0)
                 growth_.add(time(check_), std::log(s));
             if (check_ + 1 < history_.checks() && !lanes.done(lane))
@@ -155,10 +155,10 @@ private:
     History history_;
     std::size_t left_at_ = 0; ///< check at which the original had left its place; 0: never
     double step_s_ = 0, shaking_s_ = 0;
-    int kind_ = -1; ///< of the twin that is followed; -1: the original
+    int kind_ = -1; ///< of the replica that is followed; -1: the original
     std::size_t check_ = 0;
     Slope growth_;
-    std::vector<FollowedTwin> pairs_;
+    std::vector<ReplicaSeparation> pairs_;
 };
 
 /// Groups in the lanes of a bundle, as `drive` steps them.
@@ -192,7 +192,7 @@ public:
             }
     }
     /// Frees the lane of a group that is done. @return its number, and its pairs
-    std::pair<std::uint64_t, std::vector<FollowedTwin>> take(int lane)
+    std::pair<std::uint64_t, std::vector<ReplicaSeparation>> take(int lane)
     {
         Place& place = places_[static_cast<std::size_t>(lane)];
         lanes_.clear(lane);
@@ -214,38 +214,38 @@ private:
 Study stepped_as(const Study& study, std::uint64_t index)
 {
     Study stepped = study;
-    if (const Twin* twin = study.twin(index); twin && twin->by == TwinBy::precision)
+    if (const Replica* replica = study.replica(index); replica && replica->by == ReplicaBy::precision)
         stepped.run.precision = Precision::single;
     return stepped;
 }
 
-std::vector<TwinRange> twin_ranges(const Study& study)
+std::vector<ReplicaRange> replica_ranges(const Study& study)
 {
-    std::vector<TwinRange> ranges;
+    std::vector<ReplicaRange> ranges;
     const std::uint64_t n = study.originals();
     for (std::uint64_t begin = 0; begin < study.total(); begin += n) {
-        const Twin* twin = study.twin(begin);
+        const Replica* replica = study.replica(begin);
         // moves and steps go with the originals
-        if (twin == nullptr || twin->by == TwinBy::precision || twin->by == TwinBy::form)
+        if (replica == nullptr || replica->by == ReplicaBy::precision || replica->by == ReplicaBy::form)
             ranges.push_back({begin, begin, stepped_as(study, begin)});
         ranges.back().end = begin + n;
     }
     return ranges;
 }
 
-std::uint64_t followed_originals(const Study& study)
+std::uint64_t separated_originals(const Study& study)
 {
-    const bool moves = std::any_of(study.twins->kinds.begin(), study.twins->kinds.end(),
-                                   [](const Twin& kind) { return kind.by == TwinBy::move; });
-    return moves ? study.cells() * std::min(study.twins->followed, study.realizations) : 0;
+    const bool moves = std::any_of(study.replicas->kinds.begin(), study.replicas->kinds.end(),
+                                   [](const Replica& kind) { return kind.by == ReplicaBy::move; });
+    return moves ? study.cells() * std::min(study.replicas->followed, study.realizations) : 0;
 }
 
-std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOptions& options, Observer& observer)
+std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options, Observer& observer)
 {
     const Study& study = experiment.study();
     const Sampler& sampler = experiment.sampler();
-    const std::uint64_t all = followed_originals(study), of_cell = all / study.cells();
-    std::vector<std::vector<FollowedTwin>> pairs(all);
+    const std::uint64_t all = separated_originals(study), of_cell = all / study.cells();
+    std::vector<std::vector<ReplicaSeparation>> pairs(all);
     if (all == 0)
         return {};
     const Realization pattern = sampler.realization(0);
@@ -281,8 +281,8 @@ std::vector<FollowedTwin> follow_twins(const Experiment& experiment, const RunOp
     });
     report(true);
 
-    std::vector<FollowedTwin> joined;
-    for (const std::vector<FollowedTwin>& of : pairs)
+    std::vector<ReplicaSeparation> joined;
+    for (const std::vector<ReplicaSeparation>& of : pairs)
         joined.insert(joined.end(), of.begin(), of.end());
     return joined;
 }

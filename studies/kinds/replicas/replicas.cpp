@@ -1,4 +1,4 @@
-#include "studies/kinds/replicas/twins.hpp"
+#include "studies/kinds/replicas/replicas.hpp"
 
 #include "io/keys/words.hpp"
 
@@ -16,26 +16,26 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// @param rows by index
-void count_discordant(const Study& study, const std::vector<ReplicaRow>& rows, Twins& out)
+void count_discordant(const Study& study, const std::vector<ReplicaRow>& rows, Replicas& out)
 {
     const std::uint64_t n = study.originals();
     const auto cells = static_cast<std::size_t>(study.cells());
     std::vector<std::vector<PairCounts>> counts(out.kinds.size(), std::vector<PairCounts>(cells));
     std::vector<std::uint64_t> valid(cells), collapsed(cells);
     for (const ReplicaRow& row : rows) {
-        const State twin = row.state, original = rows[row.index % n].state;
+        const State replica = row.state, original = rows[row.index % n].state;
         if (row.index < n) {
-            valid[row.cell] += twin != State::invalid;
-            collapsed[row.cell] += twin == State::collapsed;
+            valid[row.cell] += replica != State::invalid;
+            collapsed[row.cell] += replica == State::collapsed;
             continue;
         }
-        if (twin == State::invalid || original == State::invalid) {
+        if (replica == State::invalid || original == State::invalid) {
             ++out.invalid_pairs;
             continue;
         }
         PairCounts& c = counts[row.index / n - 1][row.cell];
-        const bool fell = original == State::collapsed, twin_fell = twin == State::collapsed;
-        ++(fell && twin_fell ? c.both : fell ? c.original : twin_fell ? c.twin : c.neither);
+        const bool fell = original == State::collapsed, replica_fell = replica == State::collapsed;
+        ++(fell && replica_fell ? c.both : fell ? c.original : replica_fell ? c.replica : c.neither);
     }
     for (std::size_t cell = 0; cell < cells; ++cell)
         out.probability.push_back(valid[cell] > 0
@@ -69,15 +69,15 @@ double median(std::vector<double> values)
     return median_of(std::move(values)).value;
 }
 
-TwinGrowth growth_of(const Study& study, std::size_t kind, const std::vector<FollowedTwin>& pairs)
+ReplicaGrowth growth_of(const Study& study, std::size_t kind, const std::vector<ReplicaSeparation>& pairs)
 {
-    TwinGrowth growth;
+    ReplicaGrowth growth;
     growth.kind = kind;
     const auto cells = static_cast<std::size_t>(study.cells());
     std::vector<std::vector<double>> exponents(cells), horizons(cells);
     std::vector<double> starts, all_exponents, all_horizons;
     growth.lost.resize(cells);
-    for (const FollowedTwin& pair : pairs)
+    for (const ReplicaSeparation& pair : pairs)
         if (pair.kind == kind) {
             const auto cell = static_cast<std::size_t>(study.cell(pair.original));
             const bool lost = !std::isnan(pair.horizon_s);
@@ -103,15 +103,15 @@ TwinGrowth growth_of(const Study& study, std::size_t kind, const std::vector<Fol
 }
 
 /// Horizons of one kind against those of the next one.
-void add_gain(const std::vector<Twin>& kinds, std::size_t next, const std::vector<FollowedTwin>& pairs,
-              TwinGrowth& growth)
+void add_gain(const std::vector<Replica>& kinds, std::size_t next, const std::vector<ReplicaSeparation>& pairs,
+              ReplicaGrowth& growth)
 {
     std::map<std::uint64_t, double> of_next;
-    for (const FollowedTwin& pair : pairs)
+    for (const ReplicaSeparation& pair : pairs)
         if (pair.kind == next)
             of_next.emplace(pair.original, pair.horizon_s);
     std::vector<double> gains;
-    for (const FollowedTwin& pair : pairs)
+    for (const ReplicaSeparation& pair : pairs)
         if (pair.kind == growth.kind)
             if (const auto found = of_next.find(pair.original); found != of_next.end())
                 gains.push_back(pair.horizon_s - found->second); // NaN unless both came apart
@@ -121,38 +121,38 @@ void add_gain(const std::vector<Twin>& kinds, std::size_t next, const std::vecto
 
 } // namespace
 
-std::string describe(const Twin& kind)
+std::string describe(const Replica& kind)
 {
     switch (kind.by) {
-    case TwinBy::move:
+    case ReplicaBy::move:
         return fmt::format("moved by {:g} m", kind.size);
-    case TwinBy::step:
+    case ReplicaBy::step:
         return fmt::format("step x {:g}", kind.size);
-    case TwinBy::precision:
+    case ReplicaBy::precision:
         return "single precision";
-    case TwinBy::form:
+    case ReplicaBy::form:
         return fmt::format("form {}", word_for(contact_form_names, kind.form));
     }
     return {};
 }
 
-Twins twins_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
-               const std::vector<FollowedTwin>& pairs)
+Replicas replicas_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
+               const std::vector<ReplicaSeparation>& pairs)
 {
-    Twins out;
+    Replicas out;
     out.frequency_hz = header.frequency_hz;
     out.pga_m_s2 = header.pga_m_s2;
     out.realizations = study.realizations;
-    out.followed = study.twins->followed;
-    out.tolerance = study.twins->tolerance;
-    for (const Twin& kind : study.twins->kinds) {
+    out.followed = study.replicas->followed;
+    out.tolerance = study.replicas->tolerance;
+    for (const Replica& kind : study.replicas->kinds) {
         out.kinds.push_back({kind, describe(kind), {}, {}, {}, {}});
-        out.moves += kind.by == TwinBy::move;
+        out.moves += kind.by == ReplicaBy::move;
     }
     std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
     count_discordant(study, rows, out);
     for (std::size_t k = 0; k < out.moves; ++k) {
-        const bool begins_beyond = std::all_of(pairs.begin(), pairs.end(), [&](const FollowedTwin& pair) {
+        const bool begins_beyond = std::all_of(pairs.begin(), pairs.end(), [&](const ReplicaSeparation& pair) {
             return pair.kind != k || pair.start >= out.tolerance;
         });
         if (!begins_beyond)
@@ -161,7 +161,7 @@ Twins twins_of(const Study& study, const ResultHeader& header, std::vector<Repli
     for (std::size_t i = 0; i < out.growth.size(); ++i) {
         out.growth[i].gained_exponent_per_s = std::numeric_limits<double>::quiet_NaN();
         if (i + 1 < out.growth.size())
-            add_gain(study.twins->kinds, out.growth[i + 1].kind, pairs, out.growth[i]);
+            add_gain(study.replicas->kinds, out.growth[i + 1].kind, pairs, out.growth[i]);
     }
     return out;
 }
