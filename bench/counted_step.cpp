@@ -2,7 +2,7 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
-#include "kernels/step.hpp"
+#include "kernels/planar/step.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// The kernels of one instruction set behind plain function pointers, and the choice of one at run time.
 
 #include "kernels/base_motion.hpp"
-#include "kernels/bundle.hpp"
+#include "kernels/planar/bundle.hpp"
 
 #include <string_view>
 #include <vector>

@@ -5,7 +5,7 @@
 
 At each frequency the realization with the largest displacement of the top, among those that stand, is run again, and
 its trajectory gives the stroke of the lowest joint (the middle of the lowest drum's lower face, from its start) and the
-tension of the cable by kernels/mechanisms/tendon.hpp. Prints a Markdown row for each of the two that the variant has.
+tension of the cable by kernels/planar/mechanisms/tendon.hpp. Prints a Markdown row for each of the two that the variant has.
 """
 import csv
 import math

@@ -26,7 +26,7 @@ Realization monolith(const Setting& s, double part)
     r.joints[0].tangential_stiffness_n_m *= s.shear;
     r.joints[0].tangential_damping_n_s_m *= std::sqrt(s.shear); // the same ratio
     if (s.form == ContactForm::area && s.damping == DampingAt::ends)
-        r.joints[0].extension.face_damping = 1;
+        r.joints[0].mechanisms.face_damping = 1;
     const StepBound bound = step_bound(r);
     r.step_s = s.step_fraction * (s.basis == StepBasis::structure ? structure_step_bound(r, bound) : bound).dt_s;
     return r;

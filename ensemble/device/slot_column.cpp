@@ -35,7 +35,8 @@ void write_column(const LaneSet& one, double* column)
         const Block& block = place.realization.blocks[i];
         const bool over = k < topology.fixed || limits.fallen(i); // nothing more is to come of it
         const double infinite = std::numeric_limits<double>::infinity();
-        const double safe = height_tolerance * std::fabs(block.y_m) + 2.001 * std::fabs(block.extension.eccentricity_m);
+        const double safe =
+            height_tolerance * std::fabs(block.y_m) + 2.001 * std::fabs(block.mechanisms.eccentricity_m);
         *column++ = over ? -infinite : limits.lowest_m(block) + safe;
         *column++ = over ? infinite : limits.turn_limit_rad(i);
     }
@@ -61,7 +62,7 @@ void read_column(LaneSet& one, const double* column)
 
 bool tables_given(const Study& study, const LaneSet::Place& place)
 {
-    const BaseExtension& base = place.realization.base;
+    const BaseMechanisms& base = place.realization.base;
     const bool on_device = !BaseMotion::on_host(study) || BaseMotion::along_shared_samples(study);
     return !on_device || place.vertical || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
 }

@@ -182,7 +182,7 @@ struct AdvanceSlot {
     /// A chunk from the realization's step `done` on.
     STYLOBATE_INLINE void step(int slot, int chunk, std::uint64_t done) const
     {
-        const int tables = chunk_steps * (m.topology.model.extended() ? 2 + OfPitch::count : 1);
+        const int tables = chunk_steps * (m.topology.model.has_mechanism_rows() ? 2 + OfPitch::count : 1);
         Bundle all = m.bundle;
         bind_tables(m.topology, all, m.tables + static_cast<long>(chunk) * tables * m.slots);
         const Bundle b = lane_of(all, slot);
@@ -286,7 +286,7 @@ void with_model(const SlotMemory& m, int chunks, F&& f)
     };
     const auto of_form = [&]<ContactForm form>() {
         if (t.model.mechanisms)
-            of_pairs.template operator()<double, Extended<form>, false>();
+            of_pairs.template operator()<double, Mechanisms<form>, false>();
         else
             plain.template operator()<double, form>();
     };

@@ -15,10 +15,10 @@ constexpr auto detail = ParameterRole::detail;
 constexpr auto extra = ParameterRole::extra;
 constexpr std::monostate by_sampler{};
 
-using Joint_ = JointExtension;
-using Block_ = BlockExtension;
-using OnJoint_ = JointReinforcement;
-using OnBlock_ = BlockReinforcement;
+using Joint_ = JointMechanisms;
+using Block_ = BlockMechanisms;
+using OnJoint_ = JointStrengthening;
+using OnBlock_ = BlockStrengthening;
 
 // name, suffix, unit, low, high, open, role, neutral, member, what it is
 constexpr MechanismParameter stribeck[] = {
@@ -50,10 +50,10 @@ constexpr MechanismParameter corner_wear[] = {{"loss", "_m_rad", "m/rad", 0, 10,
                                                &Joint_::corner_wear_m_rad,
                                                "length lost at both ends per path of the relative rotation"}};
 constexpr MechanismParameter table_pitch[] = {{"rotation", "_rad_s2_m", "rad s2/m", -1, 1, false, acting, 0,
-                                               &BaseExtension::pitch_rad_s2_m,
+                                               &BaseMechanisms::pitch_rad_s2_m,
                                                "rotation of the table per horizontal acceleration"}};
 constexpr MechanismParameter vertical_motion[] = {
-    {"ratio", "", "", -10, 10, false, acting, 0, &BaseExtension::vertical_ratio,
+    {"ratio", "", "", -10, 10, false, acting, 0, &BaseMechanisms::vertical_ratio,
      "vertical over horizontal acceleration; or file, component, unit and baseline of a vertical record"}};
 constexpr MechanismParameter harmonic_distortion[] = {
     {"second", "", "", -1, 1, false, acting, 0, &BaseChange::second,

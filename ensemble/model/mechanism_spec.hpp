@@ -1,6 +1,6 @@
 #pragma once
 /// The mechanisms that a study can name: one table defines them, from which studies are read, written, perturbed
-/// and explained. The equations are in `kernels/mechanisms/` and, for the base, in `base_motion.hpp`.
+/// and explained. The equations are in `kernels/planar/mechanisms/` and, for the base, in `base_motion.hpp`.
 
 #include "ensemble/model/structure.hpp"
 
@@ -77,8 +77,8 @@ struct MechanismParameter {
     ParameterRole role;
     double neutral; ///< of an acting one; of the others the default
     /// The member that it is in a realization; none where the sampler does something else with it.
-    std::variant<std::monostate, double JointExtension::*, double BlockExtension::*, double BaseExtension::*,
-                 double BaseChange::*, double JointReinforcement::*, double BlockReinforcement::*>
+    std::variant<std::monostate, double JointMechanisms::*, double BlockMechanisms::*, double BaseMechanisms::*,
+                 double BaseChange::*, double JointStrengthening::*, double BlockStrengthening::*>
         member;
     const char* says;
 

@@ -2,7 +2,7 @@
 /// One perturbed structure and its base motion: a pure function of (study, seed, index). Plain data, SI units.
 
 #include "ensemble/model/motion.hpp"
-#include "kernels/model.hpp"
+#include "kernels/planar/step_model.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -17,8 +17,8 @@ enum class BlockRole : std::uint8_t {
     ground    ///< what a structure stands on, and what has fallen lies on
 };
 
-/// What the extensions of the model (`kernels/mechanisms/`) make of a joint. Every default is neutral.
-struct JointExtension {
+/// What the mechanisms (`kernels/planar/mechanisms/`) make of a joint. Every default is neutral.
+struct JointMechanisms {
     double dynamic_ratio = 1;         ///< stribeck: mu_d / mu
     double stribeck_velocity_m_s = 1; ///< stribeck: v_s
     double wear_per_m = 0;            ///< friction_wear: mu (1 - k S), S the slip of the joint so far
@@ -34,23 +34,23 @@ struct JointExtension {
     double chip_right_m = 0;          ///< corner_loss: at its right end
     double corner_wear_m_rad = 0;     ///< corner_wear: further loss at both ends per path of the relative rotation
     double wedge_rad = 0;             ///< wedge: the lower block's face is turned by this, counter-clockwise
-    friend bool operator==(const JointExtension&, const JointExtension&) = default;
+    friend bool operator==(const JointMechanisms&, const JointMechanisms&) = default;
 };
 
 /// The same of a block.
-struct BlockExtension {
+struct BlockMechanisms {
     double drag_n_s2_m2 = 0;   ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
     double eccentricity_m = 0; ///< eccentricity: centre of mass from the geometric centre, along the width
     double tie_n_m = 0;        ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative
     double tie_n_s_m = 0;      ///< tie: c
     double tie_n = 0;          ///< tie: f
     double tie_n_m_s = 0;      ///< tie: moment against the rotation, per rate of rotation
-    friend bool operator==(const BlockExtension&, const BlockExtension&) = default;
+    friend bool operator==(const BlockMechanisms&, const BlockMechanisms&) = default;
 };
 
-/// What strengthens a joint (`kernels/mechanisms/reinforced.hpp`). Every default is neutral. All of it was put in when
-/// the structure was at rest.
-struct JointReinforcement {
+/// What strengthens a joint (`kernels/planar/mechanisms/strengthening.hpp`). Every default is neutral. All of it was
+/// put in when the structure was at rest.
+struct JointStrengthening {
     double bearing_n_m = 0;        ///< bearing: k
     double bearing_n_s_m = 0;      ///< bearing: c
     double bearing_per_m = 0;      ///< bearing: 1 / R, the curvature of its dish
@@ -61,11 +61,11 @@ struct JointReinforcement {
     double hold_length_m = 0;      ///< pull_out: opening at which a dowel is out
     double hold_spread_m = 0;      ///< pull_out: of the two dowels from the middle of the upper face
     bool bonded() const { return bond_tension_n_m > 0; }
-    friend bool operator==(const JointReinforcement&, const JointReinforcement&) = default;
+    friend bool operator==(const JointStrengthening&, const JointStrengthening&) = default;
 };
 
 /// The same of a block.
-struct BlockReinforcement {
+struct BlockStrengthening {
     double tendon_n_m = 0;         ///< tendon: k, from the middle of the block's top face down to the fixed ground
     double tendon_prestress_n = 0; ///< tendon: T0, at rest
     double tendon_yield_n = 1e12;  ///< tendon: T_y
@@ -76,14 +76,14 @@ struct BlockReinforcement {
     double clamp_height_m = 0;     ///< clamp: above the middle of this block
     double clamp_break_m = 10;     ///< clamp: elongation at which it breaks
     int clamp_to = -1;             ///< the block beside it at the right; -1: no clamp
-    friend bool operator==(const BlockReinforcement&, const BlockReinforcement&) = default;
+    friend bool operator==(const BlockStrengthening&, const BlockStrengthening&) = default;
 };
 
 /// The same of the base, beside what changes its horizontal motion alone (gain, offset in time, distortion).
-struct BaseExtension {
+struct BaseMechanisms {
     double pitch_rad_s2_m = 0; ///< table_pitch: rotation of the table about the middle of the base, per acceleration
     double vertical_ratio = 0; ///< vertical_motion: vertical over horizontal acceleration of the base
-    friend bool operator==(const BaseExtension&, const BaseExtension&) = default;
+    friend bool operator==(const BaseMechanisms&, const BaseMechanisms&) = default;
 };
 
 /// Changes of the horizontal motion of the base before it reaches the structure (`base_motion.hpp`). Every default
@@ -111,8 +111,8 @@ struct Block {
     bool fixed = false;       ///< moves with the base
     BlockRole role = BlockRole::drum;
     int column = 0; ///< of a drum, from the left; -1 for all else
-    BlockExtension extension{};
-    BlockReinforcement reinforcement{};
+    BlockMechanisms mechanisms{};
+    BlockStrengthening strengthening{};
 };
 
 /// The bed between two blocks, or what becomes one if they meet.
@@ -126,8 +126,8 @@ struct Joint {
     double damping_chord_m = 0; ///< contact length at which the dashpots have these coefficients; 0: at any length
     double friction = 0;
     double restitution = 0; ///< of the rigid form, 0 to 1 (`RestitutionLaw`)
-    JointExtension extension{};
-    JointReinforcement reinforcement{};
+    JointMechanisms mechanisms{};
+    JointStrengthening strengthening{};
 };
 
 /// What every model's realization has: its index, its shaking, its step and what was drawn.
@@ -154,14 +154,15 @@ struct PlanarStructure {
     std::vector<Joint> joints; ///< with at least one free block each: the beds at rest, then the watched pairs
     int watched = 0;           ///< number of joints, the last ones, between blocks that share no bed but may meet
     int drums = 0;             ///< blocks without the ground
-    BaseExtension base;
+    BaseMechanisms base;
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
     int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
     ContactForm form = ContactForm::area;
     RestitutionLaw restitution_law = RestitutionLaw::newton;
-    bool extended = false;   ///< run by the extended step even where every extension is neutral (`is_extended`)
-    bool reinforced = false; ///< with the rows of reinforcements even where every one is neutral (`model_of`)
+    bool with_mechanisms =
+        false;                 ///< run by the step with mechanisms even where every mechanism is neutral (`model_of`)
+    bool strengthened = false; ///< with the rows of strengthening even where every one is neutral (`model_of`)
 
     int beds() const { return static_cast<int>(joints.size()) - watched; }
     /// Blocks that are stepped.

@@ -6,7 +6,7 @@
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/structure.hpp"
-#include "kernels/model.hpp"
+#include "kernels/planar/step_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -330,7 +330,7 @@ struct Replica {
 /// (ensemble/replicas/replicas.hpp).
 struct ReplicasSpec {
     std::vector<Replica> kinds; ///< moves, then the step, the precision and the forms
-    int block = 0;           ///< the drum that is moved, in layout order
+    int block = 0;              ///< the drum that is moved, in layout order
     /// Number of realizations of each cell, the first ones, whose displaced replicas are followed step by step.
     std::uint64_t followed = 8;
     double tolerance = 0.01; ///< predictable as long as replicas are closer than this part of the drums' width
@@ -486,7 +486,7 @@ struct Study {
     std::optional<SensitivitySpec> sensitivity;
     std::optional<RareSpec> rare;
     std::optional<SurvivalSpec> survival;    ///< beside `surface`, which has its axes
-    std::optional<ReplicasSpec> replicas;          ///< of a surface
+    std::optional<ReplicasSpec> replicas;    ///< of a surface
     std::vector<Perturbation> perturbations; ///< at most one for each quantity, in the order of the enumeration
     std::vector<MechanismSpec> mechanisms;   ///< in the order of the enumeration, then of their first places
     std::optional<VerticalSpec> vertical;
@@ -533,15 +533,16 @@ struct Study {
     }
     /// Realizations that are not perturbed replicas, under one event.
     std::uint64_t originals() const { return replicas || events() > 1 ? realizations * cells() : total(); }
-    /// Realizations of the whole study. Of a surface with replicas: the originals, then all replicas of the first kind in the
-    /// same order, and so on; of a survival study those of one event, then those of two, and so on.
+    /// Realizations of the whole study. Of a surface with replicas: the originals, then all replicas of the first kind
+    /// in the same order, and so on; of a survival study those of one event, then those of two, and so on.
     std::uint64_t total() const
     {
         if (sensitivity)
             return sensitivity->total();
         if (rare)
             return rare->simulations() * RareSpec::indices_of_simulation;
-        return realizations * cells() * (static_cast<std::uint64_t>(events()) + (replicas ? replicas->kinds.size() : 0));
+        return realizations * cells() *
+               (static_cast<std::uint64_t>(events()) + (replicas ? replicas->kinds.size() : 0));
     }
     /// The original of a replica, or the realization of one event with the same draws; of an original its own index.
     std::uint64_t original(std::uint64_t index) const { return replicas || events() > 1 ? index % originals() : index; }

@@ -1,6 +1,6 @@
 #include "ensemble/planar/limit_states.hpp"
 
-#include "kernels/bundle.hpp"
+#include "kernels/planar/bundle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "ensemble/planar/planar_model.hpp"
 
 #include "ensemble/statics/mechanisms.hpp"
-#include "kernels/step.hpp"
+#include "kernels/planar/step.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -54,7 +54,7 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
         }
     };
     for (const Block& block : pattern.blocks) // what a clamp holds to may touch no free block
-        if (const int right = block.reinforcement.clamp_to;
+        if (const int right = block.strengthening.clamp_to;
             right >= 0 && pattern.blocks[static_cast<std::size_t>(right)].fixed)
             take(right);
     // from the end: those on which others rest come last, next to the free blocks, as `Topology::stack` asks
@@ -78,7 +78,7 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
     close_.resize(static_cast<std::size_t>(topology_.watched));
     bed_lists_.resize(static_cast<std::size_t>(bed_lists_size(topology_)));
     list_beds(topology_, bed_lists_.data());
-    if (topology_.model.reinforced)
+    if (topology_.model.strengthened)
         list_clamps(pattern);
 
     if (topology_.model.rigid()) {
@@ -87,13 +87,13 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
         topology_.rigid_edges = rigid_order_.edges;
     }
 
-    twice_ = !is_single(study) && topology_.model == Model{} && topology_.stack && topology_.watched == 0 &&
+    twice_ = !is_single(study) && topology_.model == StepModel{} && topology_.stack && topology_.watched == 0 &&
              topology_.free_blocks() <= kernels.twice_blocks && waiting > static_cast<std::uint64_t>(kernels.lanes);
     lanes_ = static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : (twice_ ? 2 : 1) * kernels.lanes);
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
     if (is_single(study)) {
-        if (topology_.model.extended())
+        if (topology_.model.has_mechanism_rows())
             throw std::invalid_argument("run.precision = \"single\" supports only the paper's model and rigid blocks");
         single_.emplace(topology_, bundle_, kernels_);
     }
@@ -104,7 +104,7 @@ void PlanarModel::list_clamps(const Realization& pattern)
     // of the kernel's blocks: a fixed block that nothing touches is none of them
     int* const clamped = bed_lists_.data() + (bed_lists_.size() - order_.size());
     for (std::size_t i = 0; i < pattern.blocks.size(); ++i)
-        if (const int right = pattern.blocks[i].reinforcement.clamp_to; right >= 0)
+        if (const int right = pattern.blocks[i].strengthening.clamp_to; right >= 0)
             clamped[place_of_[i]] = place_of_[static_cast<std::size_t>(right)];
 }
 
@@ -123,7 +123,7 @@ void PlanarModel::begin(int lane, Place& place)
 {
     const Realization& r = place.realization;
     assert((!model_of(r).mechanisms || topology_.model.mechanisms) &&
-           (!model_of(r).reinforced || topology_.model.reinforced) && r.form == topology_.model.form &&
+           (!model_of(r).strengthened || topology_.model.strengthened) && r.form == topology_.model.form &&
            "the realizations of a bundle follow the model of the pattern that it was made from");
     place.watch.seated = 1;
     place.watch.beds_alone =
@@ -159,7 +159,7 @@ void PlanarModel::store_state(int lane, const Place& place)
         bundle_.at(OfBlock::dt2_per_inertia, k, lane) = dt2 / block.inertia_kg_m2;
         bundle_.at(OfBlock::least_y, k, lane) = place.measured.limits.lowest_m(block);
         bundle_.at(OfBlock::most_turn, k, lane) = place.measured.limits.turn_limit_rad(i);
-        const double e = block.extension.eccentricity_m, theta = rest.theta_rad[i];
+        const double e = block.mechanisms.eccentricity_m, theta = rest.theta_rad[i];
         bundle_.at(OfBlock::x, k, lane) = rest.x_m[i] - e * (1 - std::cos(theta));
         bundle_.at(OfBlock::y, k, lane) = rest.y_m[i] + e * std::sin(theta);
         bundle_.at(OfBlock::theta, k, lane) = theta;
@@ -187,10 +187,10 @@ void PlanarModel::store_state(int lane, const Place& place)
         bundle_.at(OfJoint::spring, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
         bundle_.at(OfJoint::shear_force, k, lane) = rest.spring_n[static_cast<std::size_t>(k)];
     }
-    if (topology_.model.extended())
-        store_extension(statics, order_, bundle_, lane);
-    if (topology_.model.reinforced)
-        store_reinforcement(statics, order_, bundle_, lane);
+    if (topology_.model.has_mechanism_rows())
+        store_mechanisms(statics, order_, bundle_, lane);
+    if (topology_.model.strengthened)
+        store_strengthening(statics, order_, bundle_, lane);
     if (topology_.model.rigid())
         store_rigid(lane, r);
     bundle_.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(r.base_tilt_rad);
@@ -243,13 +243,13 @@ void PlanarModel::first_increments(int lane, Watch& w)
     w.start_spring_j = w.start_shear_j;
     for (int j = 0; j < topology_.joints; ++j)
         w.start_spring_j += one.at(OfJoint::elastic, j, 0);
-    if (topology_.model.extended())
+    if (topology_.model.has_mechanism_rows())
         for (int j = 0; j < topology_.beds(); ++j)
-            for (const auto field : {OfJointExtension::dowel_at, OfJointExtension::dowel_force})
+            for (const auto field : {OfJointMechanisms::dowel_at, OfJointMechanisms::dowel_force})
                 bundle_.at(field, j, lane) = one.at(field, j, 0);
-    if (topology_.model.reinforced) {
-        using J = OfJointReinforcement;
-        using B = OfBlockReinforcement;
+    if (topology_.model.strengthened) {
+        using J = OfJointStrengthening;
+        using B = OfBlockStrengthening;
         for (int j = 0; j < topology_.joints; ++j)
             for (int f = J::memory; f < J::count; ++f)
                 bundle_.at(static_cast<J::Field>(f), j, lane) = one.at(static_cast<J::Field>(f), j, 0);
@@ -289,11 +289,11 @@ void PlanarModel::fill_tables(const LaneBases& bases, const std::vector<Place>& 
     } else {
         bases.fill(table);
     }
-    if (topology_.model.extended())
-        each_busy([&](int lane, const Place& place) { fill_extension(lane, bases, place); });
+    if (topology_.model.has_mechanism_rows())
+        each_busy([&](int lane, const Place& place) { fill_mechanisms(lane, bases, place); });
 }
 
-void PlanarModel::fill_extension(int lane, const LaneBases& bases, const Place& place)
+void PlanarModel::fill_mechanisms(int lane, const LaneBases& bases, const Place& place)
 {
     const Realization& r = place.realization;
     const double first = bases.first_step(lane);
@@ -423,15 +423,15 @@ Snapshot PlanarModel::snapshot(int lane, const Place& place) const
 void nudge(LaneSet& set, int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
 {
     const Topology& topology = set.model().topology();
-    assert(topology.model.mechanisms && "only the extended model can be nudged");
+    assert(topology.model.mechanisms && "only a model with mechanisms can be nudged");
     const int k = set.model().place_of(block);
     const double dt = set.realization(lane).step_s, dt2 = dt * dt;
     if (k < topology.fixed)
         return;
     const Bundle& bundle = set.model().bundle();
-    bundle.at(OfBlockExtension::nudge_x, k, lane) = dt2 * x_m_s2;
-    bundle.at(OfBlockExtension::nudge_y, k, lane) = dt2 * y_m_s2;
-    bundle.at(OfBlockExtension::nudge_theta, k, lane) = dt2 * theta_rad_s2;
+    bundle.at(OfBlockMechanisms::nudge_x, k, lane) = dt2 * x_m_s2;
+    bundle.at(OfBlockMechanisms::nudge_y, k, lane) = dt2 * y_m_s2;
+    bundle.at(OfBlockMechanisms::nudge_theta, k, lane) = dt2 * theta_rad_s2;
 }
 
 } // namespace stylobate

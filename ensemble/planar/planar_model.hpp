@@ -113,9 +113,9 @@ public:
         if (single_)
             single_->take(lane);
     }
-    /// Makes the tables of the base's motion of the next chunk: of all lanes, and what extensions need of one.
+    /// Makes the tables of the base's motion of the next chunk: of all lanes, and what mechanisms need of one.
     void fill_tables(const LaneBases& bases, const std::vector<Place>& places);
-    void fill_extension(int lane, const LaneBases& bases, const Place& place);
+    void fill_mechanisms(int lane, const LaneBases& bases, const Place& place);
     /// The rotation of the base and its change in a step.
     struct Turn {
         double angle_rad = 0, increment_rad = 0;
@@ -149,8 +149,8 @@ private:
     std::optional<SingleBundle> single_; ///< that is stepped for `bundle_`, in single precision
 };
 
-/// Accelerates a block (of the realization's numbering) from outside until the next call, in an extended model. The
-/// work counts as the base's.
+/// Accelerates a block (of the realization's numbering) from outside until the next call, in a model with mechanisms.
+/// The work counts as the base's.
 void nudge(LaneSet& set, int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2);
 
 } // namespace stylobate

@@ -4,9 +4,9 @@
 /// equal bits.
 
 #include "ensemble/engine/watch.hpp"
-#include "kernels/bundle.hpp"
-#include "kernels/neighbours.hpp"
-#include "kernels/rows.hpp"
+#include "kernels/planar/bundle.hpp"
+#include "kernels/planar/neighbours.hpp"
+#include "kernels/planar/rows.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {
@@ -18,13 +18,13 @@ constexpr int check_steps(const Topology& topology)
     return topology.model.rigid() ? chunk_steps / 4 : chunk_steps;
 }
 /// Displacement of a block's geometric centre.
-/// @param moved of what the kernel moves: of the centre of mass, in an extended model
+/// @param moved of what the kernel moves: of the centre of mass, in a model with mechanisms
 STYLOBATE_INLINE Planar<double> centre_of(const Topology& topology, const Bundle& b, int block, int lane,
                                           Planar<double> moved)
 {
-    if (topology.model.extended()) {
+    if (topology.model.has_mechanism_rows()) {
         const Angle<double> a = angle(moved.theta);
-        const double e = b.at(OfBlockExtension::eccentricity, block, lane);
+        const double e = b.at(OfBlockMechanisms::eccentricity, block, lane);
         moved.x += e * a.versine;
         moved.y -= e * a.sine;
     }
@@ -50,16 +50,16 @@ STYLOBATE_INLINE bool is_finite(const Topology& topology, const Bundle& b, int l
 STYLOBATE_INLINE double dowel_energy(const Topology& topology, const Bundle& b, int lane)
 {
     double energy = 0;
-    if (topology.model.extended())
+    if (topology.model.has_mechanism_rows())
         for (int j = 0; j < topology.beds(); ++j) {
-            const double force = b.at(OfJointExtension::dowel_force, j, lane);
-            energy += 0.5 * force * force * b.at(OfJointExtension::per_dowel_stiffness, j, lane);
+            const double force = b.at(OfJointMechanisms::dowel_force, j, lane);
+            energy += 0.5 * force * force * b.at(OfJointMechanisms::per_dowel_stiffness, j, lane);
         }
-    if (topology.model.reinforced) {
+    if (topology.model.strengthened) {
         for (int j = 0; j < topology.beds(); ++j)
-            energy += b.at(OfJointReinforcement::held, j, lane);
+            energy += b.at(OfJointStrengthening::held, j, lane);
         for (int i = 0; i < topology.blocks; ++i)
-            energy += b.at(OfBlockReinforcement::held, i, lane);
+            energy += b.at(OfBlockStrengthening::held, i, lane);
     }
     return energy;
 }
@@ -90,11 +90,11 @@ STYLOBATE_INLINE EnergyBalance energy_balance(const Topology& topology, const Bu
     o.friction = b.at(OfRealization::friction_energy, lane);
     o.damping = 0.5 * b.at(OfRealization::dashpot_energy, lane) + 0.5 * b.at(OfRealization::shear_energy, lane) -
                 (tangential - w.start_shear_j) - o.friction;
-    if (topology.model.extended()) {
+    if (topology.model.has_mechanism_rows()) {
         const double held = dowel_energy(topology, b, lane) - w.start_dowel_j;
         o.spring += held;
-        o.damping += 0.5 * b.at(OfRealizationExtension::joint_energy, lane) - held +
-                     0.5 * b.at(OfRealizationExtension::drag_energy, lane) * per_dt2;
+        o.damping += 0.5 * b.at(OfRealizationMechanisms::joint_energy, lane) - held +
+                     0.5 * b.at(OfRealizationMechanisms::drag_energy, lane) * per_dt2;
     }
     o.base_work = 0.5 * b.at(OfRealization::base_energy, lane) * per_dt2;
     const double lacks = o.kinetic + o.potential + o.spring + o.friction + o.damping - o.base_work;

@@ -1,8 +1,8 @@
 #pragma once
-/// In which order the rigid form eliminates the forces of the beds (`kernels/rigid/rigid_step.hpp`): found once for a
-/// topology.
+/// In which order the rigid form eliminates the forces of the beds (`kernels/planar/rigid/rigid_step.hpp`): found once
+/// for a topology.
 
-#include "kernels/topology.hpp"
+#include "kernels/planar/topology.hpp"
 
 #include <vector>
 

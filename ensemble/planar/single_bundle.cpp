@@ -13,7 +13,7 @@ SingleBundle::SingleBundle(const Topology& topology, const Bundle& host, const K
       own_(bind_bundle(topology, kernels.single_lanes, memory_.get(), host.close))
 {
     assert(host.lanes == kernels.single_lanes && "the host's bundle has a place for each lane");
-    assert(!topology.model.extended() && "single precision supports only the paper's model");
+    assert(!topology.model.has_mechanism_rows() && "single precision supports only the paper's model");
 }
 
 void SingleBundle::take(int lane)

@@ -3,7 +3,7 @@
 /// and reads: on the processor for many lanes at once, on a device for one slot.
 
 #include "ensemble/planar/planar_watch.hpp"
-#include "kernels/bundle.hpp"
+#include "kernels/planar/bundle.hpp"
 
 #include <initializer_list>
 

@@ -240,7 +240,8 @@ std::uint64_t separated_originals(const Study& study)
     return moves ? study.cells() * std::min(study.replicas->followed, study.realizations) : 0;
 }
 
-std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options, Observer& observer)
+std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options,
+                                                   Observer& observer)
 {
     const Study& study = experiment.study();
     const Sampler& sampler = experiment.sampler();

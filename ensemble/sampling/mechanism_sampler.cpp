@@ -14,7 +14,7 @@ namespace stylobate {
 namespace {
 
 /// Whether the kernels have it, and not the sampler or the base motion alone.
-bool is_extension(const MechanismRule& rule)
+bool has_mechanism_rows(const MechanismRule& rule)
 {
     return std::any_of(rule.parameters.begin(), rule.parameters.end(), [](const MechanismParameter& parameter) {
         return !std::holds_alternative<std::monostate>(parameter.member) &&
@@ -22,13 +22,13 @@ bool is_extension(const MechanismRule& rule)
     });
 }
 
-/// Whether it needs the rows of reinforcements.
-bool is_reinforcement(const MechanismRule& rule)
+/// Whether it needs the rows of strengthening.
+bool has_strengthening_rows(const MechanismRule& rule)
 {
     return rule.mechanism == Mechanism::mortar ||
            std::any_of(rule.parameters.begin(), rule.parameters.end(), [](const MechanismParameter& parameter) {
-               return std::holds_alternative<double JointReinforcement::*>(parameter.member) ||
-                      std::holds_alternative<double BlockReinforcement::*>(parameter.member);
+               return std::holds_alternative<double JointStrengthening::*>(parameter.member) ||
+                      std::holds_alternative<double BlockStrengthening::*>(parameter.member);
            });
 }
 
@@ -38,15 +38,15 @@ void set(const MechanismParameter& parameter, std::size_t place, double value, R
     std::visit(
         [&](auto member) {
             using Member = decltype(member);
-            if constexpr (std::is_same_v<Member, double JointExtension::*>)
-                realization.joints[place].extension.*member = value;
-            else if constexpr (std::is_same_v<Member, double BlockExtension::*>)
-                realization.blocks[place].extension.*member = value;
-            else if constexpr (std::is_same_v<Member, double JointReinforcement::*>)
-                realization.joints[place].reinforcement.*member = value;
-            else if constexpr (std::is_same_v<Member, double BlockReinforcement::*>)
-                realization.blocks[place].reinforcement.*member = value;
-            else if constexpr (std::is_same_v<Member, double BaseExtension::*>)
+            if constexpr (std::is_same_v<Member, double JointMechanisms::*>)
+                realization.joints[place].mechanisms.*member = value;
+            else if constexpr (std::is_same_v<Member, double BlockMechanisms::*>)
+                realization.blocks[place].mechanisms.*member = value;
+            else if constexpr (std::is_same_v<Member, double JointStrengthening::*>)
+                realization.joints[place].strengthening.*member = value;
+            else if constexpr (std::is_same_v<Member, double BlockStrengthening::*>)
+                realization.blocks[place].strengthening.*member = value;
+            else if constexpr (std::is_same_v<Member, double BaseMechanisms::*>)
                 realization.base.*member = value;
             else if constexpr (std::is_same_v<Member, double BaseChange::*>)
                 realization.change.*member = value;
@@ -67,14 +67,14 @@ MechanismSampler::MechanismSampler(const Study& study, const Layout& layout)
     : friction_(study.contact.friction), depth_m_(study.structure.depth_m), damping_(study.contact.damping),
       form_(study.contact.form)
 {
-    extended_ = (damping_ == DampingAt::ends && form_ == ContactForm::area) || study.vertical.has_value();
+    with_mechanisms_ = (damping_ == DampingAt::ends && form_ == ContactForm::area) || study.vertical.has_value();
     for (const MechanismSpec& spec : study.mechanisms)
         add(spec, layout);
     for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
         add(perturbation);
     for (const Acting& acting : acting_) {
-        extended_ = extended_ || (acting.may_act && is_extension(*acting.rule));
-        reinforced_ = reinforced_ || (acting.may_act && is_reinforcement(*acting.rule));
+        with_mechanisms_ = with_mechanisms_ || (acting.may_act && has_mechanism_rows(*acting.rule));
+        strengthened_ = strengthened_ || (acting.may_act && has_strengthening_rows(*acting.rule));
     }
     for (std::size_t i = 0; i < layout.blocks.size(); ++i)
         right_.push_back(right_neighbour(layout, static_cast<int>(i)));
@@ -186,12 +186,12 @@ double MechanismSampler::offset_m(const Values& values, std::size_t block) const
 
 void MechanismSampler::apply(const Values& values, Realization& realization) const
 {
-    realization.extended = extended_ || reinforced_;
-    realization.reinforced = reinforced_;
+    realization.with_mechanisms = with_mechanisms_ || strengthened_;
+    realization.strengthened = strengthened_;
     realization.form = form_;
     if (damping_ == DampingAt::ends && form_ == ContactForm::area) // the other forms have theirs there anyway
         for (Joint& joint : realization.joints)
-            joint.extension.face_damping = 1;
+            joint.mechanisms.face_damping = 1;
     for (std::size_t i = 0; i < acting_.size(); ++i) {
         const auto& [rule, at, may_act] = acting_[i];
         if (!may_act) // its details are without meaning
@@ -203,20 +203,20 @@ void MechanismSampler::apply(const Values& values, Realization& realization) con
                 set(rule->parameters[p], place, values[i][p][place], realization);
             check(*rule, values[i], place, realization.index);
             if (rule->mechanism == Mechanism::clamp)
-                realization.blocks[place].reinforcement.clamp_to = right_[place];
+                realization.blocks[place].strengthening.clamp_to = right_[place];
             if (rule->place != MechanismPlace::joint)
                 continue;
             Joint& joint = realization.joints[place];
             if (rule->mechanism == Mechanism::stribeck) {
-                joint.extension.dynamic_ratio = values[i][0][place] / friction_;
+                joint.mechanisms.dynamic_ratio = values[i][0][place] / friction_;
             } else if (rule->mechanism == Mechanism::joint_friction) {
                 joint.friction *= values[i][0][place];
             } else if (rule->mechanism == Mechanism::mortar) {
-                joint.reinforcement.bond_tension_n_m = values[i][0][place] * depth_m_;
-                joint.reinforcement.bond_cohesion_n_m = values[i][1][place] * depth_m_;
+                joint.strengthening.bond_tension_n_m = values[i][0][place] * depth_m_;
+                joint.strengthening.bond_cohesion_n_m = values[i][1][place] * depth_m_;
             } else if (rule->mechanism == Mechanism::hertz) {
                 const double given = values[i][1][place];
-                joint.extension.reference_overlap_m2 =
+                joint.mechanisms.reference_overlap_m2 =
                     given > 0 ? given : bed_load_n(realization, static_cast<int>(place)) / joint.normal_stiffness_n_m2;
             }
         }
@@ -242,8 +242,8 @@ void MechanismSampler::check(const MechanismRule& rule, const Values::value_type
 void MechanismSampler::check_room(const Realization& realization) const
 {
     for (int j = 0; j < realization.beds(); ++j) {
-        const JointExtension& extension = realization.joints[static_cast<std::size_t>(j)].extension;
-        const double lost = extension.chip_left_m + extension.chip_right_m, left = face_length_m(realization, j);
+        const JointMechanisms& mechanisms = realization.joints[static_cast<std::size_t>(j)].mechanisms;
+        const double lost = mechanisms.chip_left_m + mechanisms.chip_right_m, left = face_length_m(realization, j);
         if (lost > 0 && !(left > 0))
             throw InputError(fmt::format("mechanisms.corner_loss: in realization {} joint {} loses {:g} m of its face "
                                          "of {:g} m. Lower the values, or limit their spread with max.",
@@ -251,12 +251,13 @@ void MechanismSampler::check_room(const Realization& realization) const
     }
     for (std::size_t i = 0; i < realization.blocks.size(); ++i) {
         const Block& block = realization.blocks[i];
-        if (!(std::abs(block.extension.eccentricity_m) < block.half_width_m))
+        if (!(std::abs(block.mechanisms.eccentricity_m) < block.half_width_m))
             throw InputError(fmt::format("mechanisms.eccentricity: in realization {} the centre of mass of block {} "
                                          "lies {:g} m from its middle, outside the block of {:g} m. Lower the value, "
                                          "or limit its spread with min and max.",
-                                         realization.index, i, block.extension.eccentricity_m, 2 * block.half_width_m));
-        const BlockReinforcement& clamp = block.reinforcement;
+                                         realization.index, i, block.mechanisms.eccentricity_m,
+                                         2 * block.half_width_m));
+        const BlockStrengthening& clamp = block.strengthening;
         if (clamp.clamp_to < 0)
             continue;
         const Block& right = realization.blocks[static_cast<std::size_t>(clamp.clamp_to)];

@@ -69,8 +69,8 @@ private:
     double friction_ = 0; ///< of [contact]
     double depth_m_ = 0;  ///< of all blocks
     DampingAt damping_ = DampingAt::centroid;
-    bool extended_ = false;
-    bool reinforced_ = false;
+    bool with_mechanisms_ = false;
+    bool strengthened_ = false;
     std::vector<int> right_; ///< (blocks) the neighbour at the right; -1: none
     ContactForm form_ = ContactForm::area;
     std::vector<Acting> acting_;

@@ -16,13 +16,13 @@ BedAtRest bed_of(const Realization& r, int bed)
     const double ll = lower.x_m - lower.half_width_m, lr = lower.x_m + lower.half_width_m;
     const double ul = upper.x_m - upper.half_width_m, ur = upper.x_m + upper.half_width_m;
     const double left = std::max(ll, ul), right = std::min(lr, ur);
-    const double length = right - left - joint.extension.chip_left_m - joint.extension.chip_right_m;
+    const double length = right - left - joint.mechanisms.chip_left_m - joint.mechanisms.chip_right_m;
     return {joint, lower, upper, left, right, ll > ul, lr < ur, length, 0, {}};
 }
 
 BedLaw law_of(const BedAtRest& bed, ContactForm form, double load_n)
 {
-    const JointExtension& e = bed.joint.extension;
+    const JointMechanisms& e = bed.joint.mechanisms;
     BedLaw law;
     law.form = form;
     law.faces.sizes = {bed.lower.half_width_m, bed.lower.half_height_m, bed.upper.half_width_m,
@@ -32,7 +32,7 @@ BedLaw law_of(const BedAtRest& bed, ContactForm form, double load_n)
     law.faces.wedge_sine = std::sin(e.wedge_rad);
     law.faces.wedge_versine = 2 * std::sin(0.5 * e.wedge_rad) * std::sin(0.5 * e.wedge_rad);
     law.K_n = bed.joint.normal_stiffness_n_m2;
-    law.bonded = bed.joint.reinforcement.bonded();
+    law.bonded = bed.joint.strengthening.bonded();
     law.exponent = e.force_exponent - 1;
     law.per_reference = 1 / e.reference_overlap_m2;
     if (form == ContactForm::points)
@@ -146,7 +146,7 @@ std::vector<BedAtRest> beds_at_rest(const Realization& r)
         for (int k = j; k < r.beds(); ++k) {
             const Block& above = block_of(r, r.joints[static_cast<std::size_t>(k)].upper);
             if (bed.upper.role == BlockRole::drum && above.role == BlockRole::drum && above.column == bed.upper.column)
-                bed.force_n += above.reinforcement.tendon_prestress_n;
+                bed.force_n += above.strengthening.tendon_prestress_n;
         }
         beds.push_back(bed);
     }
@@ -199,9 +199,9 @@ FullContact full_contact(const Block& a, const Block& b, const Joint& joint)
 FullContact full_contact(const BedAtRest& bed, double times)
 {
     const Joint& joint = bed.joint;
-    const JointExtension& e = joint.extension;
+    const JointMechanisms& e = joint.mechanisms;
     FullContact contact = full_contact(bed.lower, bed.upper, joint);
-    const JointReinforcement& held = joint.reinforcement;
+    const JointStrengthening& held = joint.strengthening;
     const BedLaw& law = bed.law;
     const double L = contact.chord, load = times * bed.force_n;
     const double area = law.area(load);

@@ -3,7 +3,7 @@
 /// contact.
 
 #include "ensemble/model/realization.hpp"
-#include "kernels/mechanisms/extended.hpp"
+#include "kernels/planar/mechanisms/mechanisms.hpp"
 
 #include <vector>
 

@@ -32,17 +32,17 @@ double clamp_length_m(const Realization& r, int left, double x, double y, const 
 {
     const Block& b = block_of(r, left);
     const Pose& l = poses[static_cast<std::size_t>(left)];
-    const Pose& u = poses[static_cast<std::size_t>(b.reinforcement.clamp_to)];
+    const Pose& u = poses[static_cast<std::size_t>(b.strengthening.clamp_to)];
     const double end_x = u.x + x * std::cos(u.theta) - y * std::sin(u.theta);
     const double end_y = u.y + x * std::sin(u.theta) + y * std::cos(u.theta);
-    return (end_x - l.x) * std::cos(l.theta) + (end_y - l.y) * std::sin(l.theta) - b.extension.eccentricity_m;
+    return (end_x - l.x) * std::cos(l.theta) + (end_y - l.y) * std::sin(l.theta) - b.mechanisms.eccentricity_m;
 }
 
 void store_block(const Realization& r, int block, int i, const std::vector<Pose>& rest, const Bundle& b, int lane)
 {
-    using R = OfBlockReinforcement;
+    using R = OfBlockStrengthening;
     const Block& of = block_of(r, block);
-    const BlockReinforcement& e = of.reinforcement;
+    const BlockStrengthening& e = of.strengthening;
     if (e.tendon_n_m > 0) {
         const Pose upright{of.x_m, of.y_m, 0};
         b.at(R::tendon_stiffness, i, lane) = e.tendon_n_m;
@@ -70,8 +70,8 @@ void store_block(const Realization& r, int block, int i, const std::vector<Pose>
 void store_bed(const BedAtRest& bed, int j, double step_s, double spring_n, const std::vector<Pose>& rest,
                const Bundle& b, int lane)
 {
-    using R = OfJointReinforcement;
-    const JointReinforcement& e = bed.joint.reinforcement;
+    using R = OfJointStrengthening;
+    const JointStrengthening& e = bed.joint.strengthening;
     b.at(R::bearing_stiffness, j, lane) = e.bearing_n_m;
     b.at(R::bearing_dashpot, j, lane) = e.bearing_n_s_m / step_s;
     b.at(R::bearing_per_radius, j, lane) = e.bearing_per_m;
@@ -93,44 +93,44 @@ void store_bed(const BedAtRest& bed, int j, double step_s, double spring_n, cons
 
 } // namespace
 
-Model model_of(const Realization& r)
+StepModel model_of(const Realization& r)
 {
-    const bool reinforced =
-        r.reinforced ||
+    const bool strengthened =
+        r.strengthened ||
         std::any_of(r.blocks.begin(), r.blocks.end(),
-                    [](const Block& block) { return block.reinforcement != BlockReinforcement{}; }) ||
+                    [](const Block& block) { return block.strengthening != BlockStrengthening{}; }) ||
         std::any_of(r.joints.begin(), r.joints.end(),
-                    [](const Joint& joint) { return joint.reinforcement != JointReinforcement{}; });
-    const bool mechanisms = reinforced || r.extended || r.vertical != nullptr || r.base != BaseExtension{} ||
+                    [](const Joint& joint) { return joint.strengthening != JointStrengthening{}; });
+    const bool mechanisms = strengthened || r.with_mechanisms || r.vertical != nullptr || r.base != BaseMechanisms{} ||
                             std::any_of(r.blocks.begin(), r.blocks.end(),
-                                        [](const Block& block) { return block.extension != BlockExtension{}; }) ||
+                                        [](const Block& block) { return block.mechanisms != BlockMechanisms{}; }) ||
                             std::any_of(r.joints.begin(), r.joints.end(),
-                                        [](const Joint& joint) { return joint.extension != JointExtension{}; });
-    return {mechanisms, r.form, reinforced};
+                                        [](const Joint& joint) { return joint.mechanisms != JointMechanisms{}; });
+    return {mechanisms, r.form, strengthened};
 }
 
-void store_extension(const Statics& statics, const std::vector<int>& order, const Bundle& b, int lane)
+void store_mechanisms(const Statics& statics, const std::vector<int>& order, const Bundle& b, int lane)
 {
     const Realization& r = statics.realization;
     const double dt = r.step_s;
     for (std::size_t k = 0; k < order.size(); ++k) {
         const Block& block = block_of(r, order[k]);
         const int i = static_cast<int>(k);
-        b.at(OfBlockExtension::eccentricity, i, lane) = block.extension.eccentricity_m;
-        b.at(OfBlockExtension::reference_x, i, lane) = block.x_m + block.extension.eccentricity_m;
-        b.at(OfBlockExtension::reference_y, i, lane) = block.y_m;
-        b.at(OfBlockExtension::drag_per_mass, i, lane) = block.extension.drag_n_s2_m2 / block.mass_kg;
-        b.at(OfBlockExtension::tie_spring, i, lane) = dt * dt * block.extension.tie_n_m / block.mass_kg;
-        b.at(OfBlockExtension::tie_dashpot, i, lane) = dt * block.extension.tie_n_s_m / block.mass_kg;
-        b.at(OfBlockExtension::tie_pull, i, lane) = dt * dt * block.extension.tie_n / block.mass_kg;
-        b.at(OfBlockExtension::tie_turning, i, lane) = dt * block.extension.tie_n_m_s / block.inertia_kg_m2;
+        b.at(OfBlockMechanisms::eccentricity, i, lane) = block.mechanisms.eccentricity_m;
+        b.at(OfBlockMechanisms::reference_x, i, lane) = block.x_m + block.mechanisms.eccentricity_m;
+        b.at(OfBlockMechanisms::reference_y, i, lane) = block.y_m;
+        b.at(OfBlockMechanisms::drag_per_mass, i, lane) = block.mechanisms.drag_n_s2_m2 / block.mass_kg;
+        b.at(OfBlockMechanisms::tie_spring, i, lane) = dt * dt * block.mechanisms.tie_n_m / block.mass_kg;
+        b.at(OfBlockMechanisms::tie_dashpot, i, lane) = dt * block.mechanisms.tie_n_s_m / block.mass_kg;
+        b.at(OfBlockMechanisms::tie_pull, i, lane) = dt * dt * block.mechanisms.tie_n / block.mass_kg;
+        b.at(OfBlockMechanisms::tie_turning, i, lane) = dt * block.mechanisms.tie_n_m_s / block.inertia_kg_m2;
     }
     // of beds: watched pairs meet as in the paper's model
     for (int j = 0; j < r.beds(); ++j) {
-        using J = OfJointExtension;
+        using J = OfJointMechanisms;
         const BedAtRest& bed = statics.beds()[static_cast<std::size_t>(j)];
         const Joint& joint = bed.joint;
-        const JointExtension& e = joint.extension;
+        const JointMechanisms& e = joint.mechanisms;
         const BedLaw& law = bed.law;
         b.at(J::friction_drop, j, lane) = 1 - e.dynamic_ratio;
         b.at(J::per_stribeck_step, j, lane) = 1 / (e.stribeck_velocity_m_s * dt);
@@ -162,12 +162,12 @@ void store_extension(const Statics& statics, const std::vector<int>& order, cons
     }
 }
 
-void store_reinforcement(const Statics& statics, const std::vector<int>& order, const Bundle& b, int lane)
+void store_strengthening(const Statics& statics, const std::vector<int>& order, const Bundle& b, int lane)
 {
     const Realization& r = statics.realization;
     const std::vector<Pose> rest = poses_of(r, statics.before_tilt.value_or(statics.start));
     for (std::size_t k = 0; k < order.size(); ++k)
-        if (!block_of(r, order[k]).fixed || block_of(r, order[k]).reinforcement.clamp_to >= 0)
+        if (!block_of(r, order[k]).fixed || block_of(r, order[k]).strengthening.clamp_to >= 0)
             store_block(r, order[k], static_cast<int>(k), rest, b, lane);
     for (int j = 0; j < r.beds(); ++j) {
         const auto at = static_cast<std::size_t>(j);

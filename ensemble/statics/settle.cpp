@@ -1,6 +1,6 @@
 #include "ensemble/statics/settle.hpp"
 
-#include "kernels/mechanisms/mortar.hpp"
+#include "kernels/planar/mechanisms/mortar.hpp"
 
 #include <Eigen/Dense>
 
@@ -53,8 +53,8 @@ JointForce bond_force(const BedAtRest& bed, const Pose& l, const Pose& u)
     const BedLaw& law = bed.law;
     const Placement<double> place =
         onto_wedge(placement(lower, l, upper, u), law.faces.wedge_sine, law.faces.wedge_versine);
-    const double left = std::max(-lower.half_width_m - place.x, -upper.half_width_m) + joint.extension.chip_left_m;
-    const double right = std::min(lower.half_width_m - place.x, upper.half_width_m) - joint.extension.chip_right_m;
+    const double left = std::max(-lower.half_width_m - place.x, -upper.half_width_m) + joint.mechanisms.chip_left_m;
+    const double right = std::min(lower.half_width_m - place.x, upper.half_width_m) - joint.mechanisms.chip_right_m;
     const double at_left = left * place.sine - place.depth, at_right = right * place.sine - place.depth;
     const BondPull<double> pull = bond_pull(left, right, at_left, at_right);
     JointForce f;
@@ -98,7 +98,7 @@ JointForce joint_force(const Realization& r, const Joint& joint, bool is_bed, co
     const Pose centroid = into_base(cx, cy);
     // a bed's stiffness acts at the middle of its length, from which the centroid is drawn towards the deeper end
     const double length = std::min(chord, 2 * std::min(lower.half_width_m, upper.half_width_m));
-    const double turn = std::sin(u.theta - l.theta - (law == nullptr ? 0 : joint.extension.wedge_rad));
+    const double turn = std::sin(u.theta - l.theta - (law == nullptr ? 0 : joint.mechanisms.wedge_rad));
     const double spread = law != nullptr && law->form == ContactForm::two_corner ? 4 : 12; // k_theta = k_n L2 / spread
     const double aside =
         is_bed ? std::clamp(turn * length * length * length / (spread * o.area), -length / 2, length / 2) : 0;
@@ -146,7 +146,7 @@ JointForce full_bed(const BedAtRest& bed, const Pose& l, const Pose& u)
     const double k_n = joint.normal_stiffness_n_m2 * length;
     f.stiffness = k_n * opening * opening.transpose() + joint.tangential_stiffness_n_m * sliding * sliding.transpose() +
                   k_n * length * length / 12 * turning * turning.transpose();
-    f.force = k_n * length * length / 12 * joint.extension.wedge_rad * turning; // what would turn it by its wedge
+    f.force = k_n * length * length / 12 * joint.mechanisms.wedge_rad * turning; // what would turn it by its wedge
     return f;
 }
 
@@ -173,7 +173,7 @@ public:
             scale_.segment<3>(first_[b]) = Eigen::Vector3d(m * g, m * g, m * g * r.blocks[b].half_width_m);
         }
         for (std::size_t b = 0; b < r.blocks.size(); ++b)
-            if (first_[b] >= 0 && r.blocks[b].reinforcement.tendon_prestress_n > 0)
+            if (first_[b] >= 0 && r.blocks[b].strengthening.tendon_prestress_n > 0)
                 tendons_.push_back(static_cast<int>(b));
         K_.resize(size, size);
         residual_.resize(size);
@@ -199,7 +199,7 @@ public:
         residual_ = weight_;
         for (std::size_t b = 0; b < r_.blocks.size(); ++b) // a centre of mass beside the middle
             if (first_[b] >= 0) {
-                const double e = r_.blocks[b].extension.eccentricity_m;
+                const double e = r_.blocks[b].mechanisms.eccentricity_m;
                 residual_(first_[b] + 2) +=
                     e * (std::cos(at[b].theta) * weight_(first_[b] + 1) - std::sin(at[b].theta) * weight_(first_[b]));
             }
@@ -276,11 +276,11 @@ bool rests_otherwise(const Realization& r)
     return (r.form != ContactForm::area && r.form != ContactForm::rigid) ||
            std::any_of(r.blocks.begin(), r.blocks.end(),
                        [](const Block& block) {
-                           return block.extension.eccentricity_m != 0 || block.reinforcement.tendon_prestress_n > 0;
+                           return block.mechanisms.eccentricity_m != 0 || block.strengthening.tendon_prestress_n > 0;
                        }) ||
            std::any_of(r.joints.begin(), r.joints.end(), [](const Joint& joint) {
-               const JointExtension& e = joint.extension;
-               return joint.reinforcement.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 ||
+               const JointMechanisms& e = joint.mechanisms;
+               return joint.strengthening.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 ||
                       e.chip_right_m != 0 || e.wedge_rad != 0;
            });
 }
@@ -325,7 +325,7 @@ TendonAnchors tendon_anchors(const Realization& r, int block, const Pose& pose)
 
 TendonPull tendon_pull(const Realization& r, int block, const Pose& pose)
 {
-    const double T = block_of(r, block).reinforcement.tendon_prestress_n;
+    const double T = block_of(r, block).strengthening.tendon_prestress_n;
     if (!(T > 0))
         return {0, 0, 0};
     const TendonAnchors a = tendon_anchors(r, block, pose);

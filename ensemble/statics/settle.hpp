@@ -3,7 +3,7 @@
 
 #include "ensemble/model/realization.hpp"
 #include "ensemble/statics/bed.hpp"
-#include "kernels/overlap.hpp"
+#include "kernels/planar/overlap.hpp"
 
 #include <cmath>
 #include <vector>

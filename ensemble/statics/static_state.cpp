@@ -18,8 +18,8 @@ bool is_one_column(const Realization& r)
 }
 
 /// Lowers some blocks, by bisection, until the beds between them and the others carry a weight.
-void sink(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<Pose>& poses,
-          const std::vector<bool>& moved, double weight, double reach)
+void press_in(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<Pose>& poses,
+              const std::vector<bool>& moved, double weight, double reach)
 {
     const bool mechanisms = rests_otherwise(r);
     double high = reach, low = -reach; // shift: in the air, and far too deep
@@ -83,7 +83,7 @@ void lean(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<
             poses[i].theta += r.initial_tilt_rad;
         }
         if (r.form != ContactForm::rigid)
-            sink(r, beds, poses, moved, bed.force_n, foot.half_height_m);
+            press_in(r, beds, poses, moved, bed.force_n, foot.half_height_m);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
         if (r.blocks[i].role != BlockRole::epistyle)
@@ -105,8 +105,8 @@ void lean(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<
         std::vector<bool> moved(poses.size(), false);
         moved[i] = true;
         if (r.form != ContactForm::rigid)
-            sink(r, beds, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
-                 r.blocks[i].half_height_m);
+            press_in(r, beds, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
+                     r.blocks[i].half_height_m);
     }
 }
 
@@ -141,7 +141,7 @@ void stack_up(const Realization& r, std::vector<Pose>& poses, std::vector<double
         poses[static_cast<std::size_t>(joint.upper)] = {l.x + cx * std::cos(l.theta) - cy * std::sin(l.theta),
                                                         l.y + cx * std::sin(l.theta) + cy * std::cos(l.theta),
                                                         l.theta + bed.rotation_rad};
-        const double limit = joint.friction * weight + joint.extension.adhesion_n_m * length;
+        const double limit = joint.friction * weight + joint.mechanisms.adhesion_n_m * length;
         spring_n.push_back(std::clamp(weight * slope, -limit, limit));
     }
 }
@@ -165,13 +165,13 @@ void stack_up_with_mechanisms(const Realization& r, const std::vector<BedAtRest>
             double mass = 0, x = 0, y = 0; // of what stands on the bed, at its centres of mass
             for (auto above = at; above != beds.end(); ++above) {
                 const Pose& pose = poses[static_cast<std::size_t>(above->joint.upper)];
-                const double m = above->upper.mass_kg, e = above->upper.extension.eccentricity_m;
+                const double m = above->upper.mass_kg, e = above->upper.mechanisms.eccentricity_m;
                 mass += m;
                 x += m * (pose.x + e * std::cos(pose.theta));
                 y += m * (pose.y + e * std::sin(pose.theta));
             }
             // the lower face with its wedge: middle, tangent, normal
-            const double turn = l.theta + joint.extension.wedge_rad;
+            const double turn = l.theta + joint.mechanisms.wedge_rad;
             const double tx = std::cos(turn), ty = std::sin(turn), nx = -ty, ny = tx;
             const double fx = l.x - lower.half_height_m * std::sin(l.theta);
             const double fy = l.y + lower.half_height_m * std::cos(l.theta);
@@ -210,8 +210,8 @@ void stack_up_with_mechanisms(const Realization& r, const std::vector<BedAtRest>
             moved = std::max(
                 {moved, std::fabs(put.x - pose.x), std::fabs(put.y - pose.y), std::fabs(put.theta - pose.theta)});
             pose = put;
-            const double bond = joint.reinforcement.bonded() ? joint.reinforcement.bond_cohesion_n_m : 0;
-            const double limit = joint.friction * N + (joint.extension.adhesion_n_m + bond) * length;
+            const double bond = joint.strengthening.bonded() ? joint.strengthening.bond_cohesion_n_m : 0;
+            const double limit = joint.friction * N + (joint.mechanisms.adhesion_n_m + bond) * length;
             spring_n.push_back(std::clamp(T, -limit, limit));
         }
     }

@@ -25,7 +25,7 @@ constexpr double points_load = 100;
 
 FullContact stiffest_contact(const BedAtRest& bed)
 {
-    if (bed.joint.extension.force_exponent < 1) // it is stiffest where it is least pressed
+    if (bed.joint.mechanisms.force_exponent < 1) // it is stiffest where it is least pressed
         return full_contact(bed, least_load);
     return full_contact(bed, bed.law.form == ContactForm::points ? points_load : bound_load);
 }
@@ -61,7 +61,7 @@ double edge_rate(const Realization& r, const Joint& joint, double x, double C_n,
         const Block& block = block_of(r, upper ? joint.upper : joint.lower);
         if (block.fixed)
             continue;
-        const FaceMotion face = face_motion(block, upper, x - block.x_m - block.extension.eccentricity_m);
+        const FaceMotion face = face_motion(block, upper, x - block.x_m - block.mechanisms.eccentricity_m);
         Eigen::Matrix<double, 2, 3> motion;
         motion << face.opening.transpose(), face.sliding.transpose();
         const Eigen::Vector3d mobility(1 / block.mass_kg, 1 / block.mass_kg, 1 / block.inertia_kg_m2);
@@ -81,11 +81,11 @@ Eigen::Matrix3d held_stiffness(const Realization& r, int block)
         const Eigen::Vector3d along(1, 0, -arm_y), up(0, 1, arm_x);
         stiffness += k * (along * along.transpose() + up * up.transpose());
     };
-    const double e = b.extension.eccentricity_m;
-    add(b.reinforcement.tendon_n_m, -e, b.half_height_m);
+    const double e = b.mechanisms.eccentricity_m;
+    add(b.strengthening.tendon_n_m, -e, b.half_height_m);
     for (std::size_t i = 0; i < r.blocks.size(); ++i) {
         const Block& left = r.blocks[i];
-        const BlockReinforcement& clamp = left.reinforcement;
+        const BlockStrengthening& clamp = left.strengthening;
         if (clamp.clamp_to < 0 || (static_cast<int>(i) != block && clamp.clamp_to != block))
             continue;
         const double side = static_cast<int>(i) == block ? 1 : -1;
@@ -218,7 +218,7 @@ const char* to_string(StepLimit limit)
 
 StepBound step_bound(const Realization& r)
 {
-    if (!model_of(r).extended())
+    if (!model_of(r).has_mechanism_rows())
         return bound_of_paper(r);
     std::vector<Eigen::Matrix3d> stiffness(r.blocks.size(), Eigen::Matrix3d::Zero()), damping = stiffness;
     double rate = 0;
@@ -228,7 +228,7 @@ StepBound step_bound(const Realization& r)
         for (const bool upper : {false, true}) {
             const auto b = static_cast<std::size_t>(upper ? joint.upper : joint.lower);
             const Block& block = r.blocks[b];
-            const FaceMotion face = face_motion(block, upper, contact.x - block.x_m - block.extension.eccentricity_m);
+            const FaceMotion face = face_motion(block, upper, contact.x - block.x_m - block.mechanisms.eccentricity_m);
             const Eigen::Matrix3d open = face.opening * face.opening.transpose();
             const Eigen::Matrix3d slide = face.sliding * face.sliding.transpose();
             stiffness[b] += contact.k_n * open + contact.k_t * slide;
@@ -238,19 +238,19 @@ StepBound step_bound(const Realization& r)
         }
         // a dashpot that stays when only an edge is left
         const bool stays = joint.damping_chord_m == 0 || r.form != ContactForm::area;
-        const double at_edge = r.form == ContactForm::area ? 1 - joint.extension.face_damping : 0.5;
+        const double at_edge = r.form == ContactForm::area ? 1 - joint.mechanisms.face_damping : 0.5;
         const double C_n =
-            (stays ? at_edge * joint.normal_damping_n_s_m : 0) + joint.extension.rate_s_m * bound_load * bed.force_n;
+            (stays ? at_edge * joint.normal_damping_n_s_m : 0) + joint.mechanisms.rate_s_m * bound_load * bed.force_n;
         const double C_t =
-            (joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0) + joint.reinforcement.bearing_n_s_m;
+            (joint.damping_chord_m == 0 ? joint.tangential_damping_n_s_m : 0) + joint.strengthening.bearing_n_s_m;
         for (const double side : {-0.5, 0.5})
             rate = std::max(rate, edge_rate(r, joint, contact.x + side * contact.chord, C_n, C_t));
     }
 
     for (std::size_t b = 0; b < r.blocks.size(); ++b) { // a tie that drives away shortens no step
-        stiffness[b](0, 0) += std::max(r.blocks[b].extension.tie_n_m, 0.0);
-        damping[b](0, 0) += r.blocks[b].extension.tie_n_s_m;
-        damping[b](2, 2) += r.blocks[b].extension.tie_n_m_s;
+        stiffness[b](0, 0) += std::max(r.blocks[b].mechanisms.tie_n_m, 0.0);
+        damping[b](0, 0) += r.blocks[b].mechanisms.tie_n_s_m;
+        damping[b](2, 2) += r.blocks[b].mechanisms.tie_n_m_s;
         stiffness[b] += held_stiffness(r, static_cast<int>(b));
     }
 
@@ -333,7 +333,7 @@ Vibration assemble(const Realization& r, const std::vector<FullContact>& contact
             if (blocks[b].fixed)
                 continue;
             const FaceMotion face =
-                face_motion(blocks[b], upper, contact.x - blocks[b].x_m - blocks[b].extension.eccentricity_m);
+                face_motion(blocks[b], upper, contact.x - blocks[b].x_m - blocks[b].mechanisms.eccentricity_m);
             sides.push_back({v.first[b], face.opening, face.sliding, {0, 0, upper ? 1.0 : -1.0}});
             v.opening.col(static_cast<Eigen::Index>(j)).segment<3>(v.first[b]) = face.opening;
         }
@@ -352,7 +352,7 @@ Vibration assemble(const Realization& r, const std::vector<FullContact>& contact
         if (!blocks[b].fixed) {
             const double root = std::sqrt(blocks[b].mass_kg);
             v.root_mass.segment<3>(v.first[b]) = Eigen::Vector3d(root, root, std::sqrt(blocks[b].inertia_kg_m2));
-            const BlockExtension& e = blocks[b].extension;
+            const BlockMechanisms& e = blocks[b].mechanisms;
             v.K(v.first[b], v.first[b]) += e.tie_n_m;
             v.C(v.first[b], v.first[b]) += e.tie_n_s_m;
             v.C(v.first[b] + 2, v.first[b] + 2) += e.tie_n_m_s;
@@ -364,11 +364,11 @@ Vibration assemble(const Realization& r, const std::vector<FullContact>& contact
 void add_held(const std::vector<Block>& blocks, Vibration& v)
 {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const BlockReinforcement& held = blocks[b].reinforcement;
+        const BlockStrengthening& held = blocks[b].strengthening;
         const auto add = [&](double k, const Eigen::VectorXd& stretch) { v.K += k * stretch * stretch.transpose(); };
         Eigen::VectorXd stretch = Eigen::VectorXd::Zero(v.K.rows());
         if (v.first[b] >= 0 && held.tendon_n_m > 0) {
-            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(0, 1, -blocks[b].extension.eccentricity_m);
+            stretch.segment<3>(v.first[b]) = Eigen::Vector3d(0, 1, -blocks[b].mechanisms.eccentricity_m);
             add(held.tendon_n_m, stretch);
         }
         if (held.clamp_to < 0)
@@ -488,7 +488,7 @@ std::vector<FullContact> contacts_of_paper(const Realization& r)
 template <class Contact>
 std::vector<FullContact> contacts_of(const Realization& r, const Contact& contact)
 {
-    if (!model_of(r).extended())
+    if (!model_of(r).has_mechanism_rows())
         return contacts_of_paper(r);
     std::vector<FullContact> contacts;
     for (const BedAtRest& bed : beds_at_rest(r))
@@ -506,7 +506,7 @@ bool damped_at_ends(const Realization& r)
 {
     return r.form == ContactForm::area &&
            std::all_of(r.joints.begin(), r.joints.begin() + r.beds(), [](const Joint& joint) {
-               const JointExtension& e = joint.extension;
+               const JointMechanisms& e = joint.mechanisms;
                return (joint.normal_damping_n_s_m == 0 || e.face_damping == 1) && e.rate_s_m == 0;
            });
 }

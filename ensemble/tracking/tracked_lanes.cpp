@@ -27,7 +27,7 @@ void TrackedLanes::load(int lane, Realization realization, int phase, const std:
     const Realization& r = set_.occupy(lane, std::move(realization)).realization;
     for (std::size_t i = 0; i < state.size(); ++i)
         set_.model().memory()[i * stride() + static_cast<std::size_t>(lane)] = state[i];
-    if (topology().model.extended())
+    if (topology().model.has_mechanism_rows())
         for (int i = 0; i < static_cast<int>(r.blocks.size()); ++i)
             nudge(lane, i, 0, 0, 0);
     begin(lane, phase, step);
@@ -41,8 +41,8 @@ void TrackedLanes::begin(int lane, int phase, std::uint64_t step)
     const LaneSet::Place& place = set_.place(lane);
     set_.bases().first_step(lane) = static_cast<double>(step) - phase;
     place.motion.fill(set_.bases().first_step(lane), set_.model().bundle().rows<OfBase::Field>() + lane, lanes());
-    if (topology().model.extended())
-        set_.model().fill_extension(lane, set_.bases(), place);
+    if (topology().model.has_mechanism_rows())
+        set_.model().fill_mechanisms(lane, set_.bases(), place);
 }
 
 void TrackedLanes::nudge(int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
@@ -52,7 +52,7 @@ void TrackedLanes::nudge(int lane, int block, double x_m_s2, double y_m_s2, doub
 
 void TrackedLanes::step(int first, int last)
 {
-    assert(topology().model.mechanisms && "the extended step leaves a trace");
+    assert(topology().model.mechanisms && "the step with mechanisms leaves a trace");
     if (!trace_)
         trace_ = aligned_array<double>(static_cast<std::size_t>(chunk_steps * topology().blocks * OfBlock::traced) *
                                        stride());
@@ -119,7 +119,7 @@ BlockMotion TrackedLanes::increment(int lane, int block, int phase) const
     const double* at = traced(k, lane, phase);
     BlockMotion d = {at[OfBlock::dx * stride()], at[OfBlock::dy * stride()], at[OfBlock::dtheta * stride()]};
     const double e =
-        topology().model.extended() ? set_.model().bundle().at(OfBlockExtension::eccentricity, k, lane) : 0;
+        topology().model.has_mechanism_rows() ? set_.model().bundle().at(OfBlockMechanisms::eccentricity, k, lane) : 0;
     if (e != 0) { // the centre of mass goes round the geometric one
         const double theta = at[OfBlock::theta * stride()];
         d.x_m += e * std::sin(theta) * d.theta_rad;

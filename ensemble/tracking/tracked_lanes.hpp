@@ -9,7 +9,7 @@ namespace stylobate {
 
 class TrackedLanes {
 public:
-    /// Arguments as those of `LaneSet`; the pattern is one of an extended model, whose steps leave a trace.
+    /// Arguments as those of `LaneSet`; the pattern is one of a model with mechanisms, whose steps leave a trace.
     TrackedLanes(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern)
         : set_(study, record, kernels, pattern)
     {

@@ -75,10 +75,10 @@ struct Work {
     int nudge_steps = 0;         ///< 0: no nudging
 };
 
-/// Only the extended step can be nudged.
+/// Only the step with mechanisms can be nudged.
 Realization tracked(Realization realization)
 {
-    realization.extended = true;
+    realization.with_mechanisms = true;
     return realization;
 }
 

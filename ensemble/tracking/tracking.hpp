@@ -51,7 +51,7 @@ inline constexpr int tracking_beat = 8;
 
 /// One parameter set and one run.
 struct TrackingJob {
-    Realization realization; ///< with its own base motion; run by the extended step, even where nothing is extended
+    Realization realization; ///< with its own base motion; run by the step with mechanisms, even where none acts
     std::shared_ptr<const Targets> targets;                 ///< null: no nudging
     double nudge_rad_s = 0;                                 ///< w
     std::shared_ptr<const std::vector<FreeWindow>> windows; ///< ascending; null: none

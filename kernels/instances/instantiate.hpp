@@ -3,8 +3,8 @@
 /// compiled for one instruction set must not leak into functions that others share.
 
 #include "kernels/isa.hpp"
-#include "kernels/rigid/rigid_step.hpp"
-#include "kernels/step.hpp"
+#include "kernels/planar/rigid/rigid_step.hpp"
+#include "kernels/planar/step.hpp"
 
 #include <type_traits>
 
@@ -47,7 +47,7 @@ template <class Real, class Here, ContactForm form>
 void run_form(const Topology& topology, const Bundle& bundle, int first, int last)
 {
     if (topology.model.mechanisms)
-        run_steps<Real, OfFile<Here, Extended<form>>>(topology, bundle, first, last);
+        run_steps<Real, OfFile<Here, Mechanisms<form>>>(topology, bundle, first, last);
     else
         run_steps<Real, OfFile<Here, Plain<form>>>(topology, bundle, first, last);
 }

@@ -118,7 +118,7 @@ const std::map<std::string, std::set<std::string>> rooms = {
       "studies/kinds/survival", "studies/measured/calibration", "studies/measured/diagnosis",
       "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings", "studies/report",
       "studies/results"}},
-    {"studies/app",
+    {"studies/cli",
      {"studies", "studies/cluster", "studies/decisions/compare", "studies/decisions/risk", "studies/experiment",
       "studies/measured/calibration", "studies/measured/diagnosis/evidence", "studies/measured/diagnosis/findings",
       "studies/reference", "studies/report", "studies/results", "studies/usage", "studies/verify",
@@ -227,7 +227,7 @@ std::string breach(const std::string& file, const std::string& include)
         if (room == rooms.end() || !room->second.contains(room_of(include)))
             return says + ": the graph of the rooms at the top of this test does not have it";
     }
-    if (room_of(include) == "studies/app" && room_of(file) != "studies/app")
+    if (room_of(include) == "studies/cli" && room_of(file) != "studies/cli")
         return says + ": nothing includes the command line; what others need is in studies/workflow";
     if (include.starts_with("CLI/") && room_of(file) == "studies/workflow")
         return says + ": a workflow knows no command line";
@@ -432,30 +432,30 @@ TEST(House, LinksBetweenTextsLeadSomewhere)
 
 TEST(Rules, FindBreaches)
 {
-    EXPECT_NE(breach("kernels/step.hpp", "ensemble/model/study.hpp"), "");
-    EXPECT_NE(breach("kernels/step.hpp", "io/records/record.hpp"), "");
-    EXPECT_NE(breach("kernels/step.hpp", "Eigen/Dense"), "");
-    EXPECT_NE(breach("kernels/step.hpp", "fstream"), "");
+    EXPECT_NE(breach("kernels/planar/step.hpp", "ensemble/model/study.hpp"), "");
+    EXPECT_NE(breach("kernels/planar/step.hpp", "io/records/record.hpp"), "");
+    EXPECT_NE(breach("kernels/planar/step.hpp", "Eigen/Dense"), "");
+    EXPECT_NE(breach("kernels/planar/step.hpp", "fstream"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study/study_file.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "ensemble/run/executor.hpp"), "");
     EXPECT_NE(breach("ensemble/unheard_of/noun.cpp", "ensemble/model/study.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "ensemble/run/executor.hpp"), "");
-    EXPECT_NE(breach("io/records/record.cpp", "kernels/step.hpp"), "");
+    EXPECT_NE(breach("io/records/record.cpp", "kernels/planar/step.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "io/store/result_store.hpp"), "");
     EXPECT_NE(breach("io/records/record.cpp", "../ensemble/run/executor.hpp"), "");
-    EXPECT_NE(breach("studies/app/run.cpp", "tests/model.hpp"), "");
-    EXPECT_NE(breach("studies/app/run.cpp", "hdf5.h"), "");
-    EXPECT_NE(breach("studies/app/run.cpp", "library/inside.hpp"), "");
-    EXPECT_NE(breach("library/run.cpp", "studies/app/command.hpp"), "");
-    EXPECT_NE(breach("studies/evidence/claims/main.cpp", "studies/app/command.hpp"), "");
+    EXPECT_NE(breach("studies/cli/run.cpp", "tests/model.hpp"), "");
+    EXPECT_NE(breach("studies/cli/run.cpp", "hdf5.h"), "");
+    EXPECT_NE(breach("studies/cli/run.cpp", "library/inside.hpp"), "");
+    EXPECT_NE(breach("library/run.cpp", "studies/cli/command.hpp"), "");
+    EXPECT_NE(breach("studies/evidence/claims/main.cpp", "studies/cli/command.hpp"), "");
     EXPECT_NE(breach("studies/workflow/run.cpp", "CLI/CLI.hpp"), "");
     EXPECT_NE(breach("include/stylobate/study.hpp", "ensemble/model/study.hpp"), "");
     EXPECT_NE(breach("include/stylobate/study.hpp", "fmt/format.h"), "");
 
-    EXPECT_EQ(breach("kernels/step.hpp", "kernels/mechanisms/stribeck.hpp"), "");
-    EXPECT_EQ(breach("kernels/step.hpp", "cmath"), "");
+    EXPECT_EQ(breach("kernels/planar/step.hpp", "kernels/planar/mechanisms/stribeck.hpp"), "");
+    EXPECT_EQ(breach("kernels/planar/step.hpp", "cmath"), "");
     EXPECT_EQ(breach("ensemble/sampling/sampler.cpp", "kernels/isa.hpp"), "");
     EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
     EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
@@ -463,13 +463,13 @@ TEST(Rules, FindBreaches)
     EXPECT_EQ(breach("ensemble/model/outcome.hpp", "include/stylobate/outcome_fields.inc"), "");
     EXPECT_NE(breach("ensemble/model/outcome.hpp", "include/stylobate/result.hpp"), "");
     EXPECT_EQ(breach("io/records/record.cpp", "ensemble/model/study.hpp"), "");
-    EXPECT_EQ(breach("studies/app/run.cpp", "kernels/step.hpp"), "");
-    EXPECT_EQ(breach("studies/app/run.cpp", "studies/workflow/run.hpp"), "");
+    EXPECT_EQ(breach("studies/cli/run.cpp", "kernels/planar/step.hpp"), "");
+    EXPECT_EQ(breach("studies/cli/run.cpp", "studies/workflow/run.hpp"), "");
     EXPECT_EQ(breach("library/run.cpp", "studies/workflow/run.hpp"), "");
     EXPECT_EQ(breach("library/study.cpp", "io/study/study_file.hpp"), "");
     EXPECT_EQ(breach("include/stylobate/study.hpp", "stylobate/record.hpp"), "");
     EXPECT_EQ(breach("include/stylobate/study.hpp", "vector"), "");
-    EXPECT_EQ(breach("tests/kernels/test_wide.cpp", "kernels/step.hpp"), "");
+    EXPECT_EQ(breach("tests/kernels/test_wide.cpp", "kernels/planar/step.hpp"), "");
     EXPECT_EQ(breach("tests/io/store/test_result_store.cpp", "hdf5.h"), "");
 }
 

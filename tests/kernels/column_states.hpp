@@ -2,7 +2,7 @@
 /// Columns in random states, in the kernels' own memory: for the tests that compare instruction sets.
 
 #include "kernels/isa.hpp"
-#include "kernels/overlap.hpp"
+#include "kernels/planar/overlap.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The contact law: Eqs. 1 to 3 with their limits, by hand and over random sweeps.
 
-#include "kernels/contact.hpp"
+#include "kernels/planar/contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Extensions of the model as a whole: neutral ones give the baseline's bits; others the same ones on every instruction
+/// Mechanisms as a whole: neutral ones give the baseline's bits; others the same ones on every instruction
 /// set and beside any neighbour.
 
 #include "tests/kernels/mechanism_runs.hpp"
@@ -29,82 +29,82 @@ struct Case {
     std::function<void(Realization&)> set;
 };
 
-void each_joint(Realization& r, const std::function<void(JointExtension&)>& set)
+void each_joint(Realization& r, const std::function<void(JointMechanisms&)>& set)
 {
     for (int j = 0; j < r.beds(); ++j)
-        set(r.joints[static_cast<std::size_t>(j)].extension);
+        set(r.joints[static_cast<std::size_t>(j)].mechanisms);
 }
 
 std::vector<Case> cases()
 {
     std::vector<Case> all;
-    const auto joint = [&](const char* name, void (*set)(JointExtension&)) {
+    const auto joint = [&](const char* name, void (*set)(JointMechanisms&)) {
         all.push_back({name, [set](Realization& r) { each_joint(r, set); }});
     };
-    joint("stribeck", [](JointExtension& e) {
+    joint("stribeck", [](JointMechanisms& e) {
         e.dynamic_ratio = 0.6;
         e.stribeck_velocity_m_s = 0.02;
     });
-    joint("friction_wear", [](JointExtension& e) { e.wear_per_m = 5; });
-    joint("adhesion", [](JointExtension& e) { e.adhesion_n_m = 20; });
-    joint("dowel", [](JointExtension& e) {
+    joint("friction_wear", [](JointMechanisms& e) { e.wear_per_m = 5; });
+    joint("adhesion", [](JointMechanisms& e) { e.adhesion_n_m = 20; });
+    joint("dowel", [](JointMechanisms& e) {
         e.dowel_stiffness_n_m = 1e5;
         e.dowel_yield_n = 2;
         e.dowel_gap_m = 1e-4;
     });
-    joint("hertz", [](JointExtension& e) {
+    joint("hertz", [](JointMechanisms& e) {
         e.force_exponent = 1.4;
         e.reference_overlap_m2 = 5e-8;
     });
-    joint("rate_damping", [](JointExtension& e) { e.rate_s_m = 0.5; });
-    joint("face_damping", [](JointExtension& e) { e.face_damping = 0.7; });
-    joint("corner_loss", [](JointExtension& e) {
+    joint("rate_damping", [](JointMechanisms& e) { e.rate_s_m = 0.5; });
+    joint("face_damping", [](JointMechanisms& e) { e.face_damping = 0.7; });
+    joint("corner_loss", [](JointMechanisms& e) {
         e.chip_left_m = 0.002;
         e.chip_right_m = 0.001;
     });
-    joint("corner_wear", [](JointExtension& e) { e.corner_wear_m_rad = 0.003; });
-    joint("wedge", [](JointExtension& e) { e.wedge_rad = 0.002; });
+    joint("corner_wear", [](JointMechanisms& e) { e.corner_wear_m_rad = 0.003; });
+    joint("wedge", [](JointMechanisms& e) { e.wedge_rad = 0.002; });
     all.push_back({"drag", [](Realization& r) {
                        for (Block& block : r.blocks)
-                           block.extension.drag_n_s2_m2 = 0.5;
+                           block.mechanisms.drag_n_s2_m2 = 0.5;
                    }});
     all.push_back({"tie", [](Realization& r) {
                        for (Block& block : r.blocks) {
-                           block.extension.tie_n_m = 40;
-                           block.extension.tie_n_s_m = 0.5;
-                           block.extension.tie_n = 0.05;
-                           block.extension.tie_n_m_s = 1e-4;
+                           block.mechanisms.tie_n_m = 40;
+                           block.mechanisms.tie_n_s_m = 0.5;
+                           block.mechanisms.tie_n = 0.05;
+                           block.mechanisms.tie_n_m_s = 1e-4;
                        }
                    }});
     all.push_back({"eccentricity", [](Realization& r) {
                        for (Block& block : r.blocks)
-                           block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
+                           block.mechanisms.eccentricity_m = block.fixed ? 0 : 0.001;
                    }});
-    const auto held = [&](const char* name, void (*set)(JointReinforcement&)) {
+    const auto held = [&](const char* name, void (*set)(JointStrengthening&)) {
         all.push_back({name, [set](Realization& r) {
                            for (int j = 0; j < r.beds(); ++j)
-                               set(r.joints[static_cast<std::size_t>(j)].reinforcement);
+                               set(r.joints[static_cast<std::size_t>(j)].strengthening);
                        }});
     };
-    held("bearing", [](JointReinforcement& e) {
+    held("bearing", [](JointStrengthening& e) {
         e.bearing_n_m = 50;
         e.bearing_n_s_m = 2;
         e.bearing_per_m = 3;
     });
-    held("mortar", [](JointReinforcement& e) {
+    held("mortar", [](JointStrengthening& e) {
         e.bond_tension_n_m = 30;
         e.bond_cohesion_n_m = 20;
     });
-    held("pull_out", [](JointReinforcement& e) {
+    held("pull_out", [](JointStrengthening& e) {
         e.hold_n = 0.2;
         e.hold_stiffness_n_m = 1e5;
         e.hold_length_m = 1e-3;
         e.hold_spread_m = 0.01;
     });
     all.push_back({"tendon", [](Realization& r) {
-                       r.blocks.back().reinforcement.tendon_n_m = 5e3;
-                       r.blocks.back().reinforcement.tendon_prestress_n = 3;
-                       r.blocks.back().reinforcement.tendon_yield_n = 5;
+                       r.blocks.back().strengthening.tendon_n_m = 5e3;
+                       r.blocks.back().strengthening.tendon_prestress_n = 3;
+                       r.blocks.back().strengthening.tendon_yield_n = 5;
                    }});
     all.push_back({"table_pitch", [](Realization& r) { r.base.pitch_rad_s2_m = 1e-3; }});
     all.push_back({"vertical_motion", [](Realization& r) { r.base.vertical_ratio = 0.3; }});
@@ -128,10 +128,10 @@ TEST(Mechanism, NeutralOnesGiveTheBitsOfTheFormWithoutThem)
         }
         std::vector<Realization> neutral = plain;
         for (Realization& r : neutral)
-            r.extended = true;
+            r.with_mechanisms = true;
         std::vector<Realization> held = neutral;
         for (Realization& r : held)
-            r.reinforced = true;
+            r.strengthened = true;
         const std::vector<Bits> want = run_bits(Isa::scalar, study, plain, 300);
         EXPECT_NE(want[0], want[7]);
         for (const Isa isa : usable_isas()) {
@@ -152,12 +152,12 @@ TEST(Mechanism, NeutralOnesGiveTheBaselinesBitsInAColonnadeThatFalls)
     r.frequency_hz = 2;
     r.pga_m_s2 = 12;
     Realization neutral = r;
-    neutral.extended = true;
+    neutral.with_mechanisms = true;
     const std::vector<Bits> want = run_bits(best_isa(), study, {r}, 1500);
     EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
     EXPECT_EQ(run_bits(Isa::scalar, study, {neutral}, 1500), want);
-    neutral.reinforced = true;
-    neutral.blocks[1].reinforcement.clamp_to = 4; // a clamp of no stiffness
+    neutral.strengthened = true;
+    neutral.blocks[1].strengthening.clamp_to = 4; // a clamp of no stiffness
     EXPECT_EQ(run_bits(best_isa(), study, {neutral}, 1500), want);
 }
 
@@ -169,17 +169,17 @@ TEST(Mechanism, ClampsHaveTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
     Realization plain = colonnade(paper_colonnade(2), bed, 3e-5);
     plain.frequency_hz = 2;
     plain.pga_m_s2 = 9;
-    plain.reinforced = true;
+    plain.strengthened = true;
     // a drum of the left column and the one beside it
     std::vector<int> drums;
     for (std::size_t i = 0; i < plain.blocks.size(); ++i)
         if (!plain.blocks[i].fixed && plain.blocks[i].role == BlockRole::drum)
             drums.push_back(static_cast<int>(i));
     ASSERT_EQ(drums.size(), 4u);
-    plain.blocks[static_cast<std::size_t>(drums[1])].reinforcement.clamp_to = drums[3];
+    plain.blocks[static_cast<std::size_t>(drums[1])].strengthening.clamp_to = drums[3];
     std::vector<Realization> all(4, plain);
     for (std::size_t i = 1; i < all.size(); ++i) {
-        BlockReinforcement& clamp = all[i].blocks[static_cast<std::size_t>(drums[1])].reinforcement;
+        BlockStrengthening& clamp = all[i].blocks[static_cast<std::size_t>(drums[1])].strengthening;
         clamp.clamp_n_m = 2e4;
         clamp.clamp_strength_n = i == 1 ? 2 : 50;
         clamp.clamp_gap_m = i == 2 ? 1e-4 : 0;
@@ -206,8 +206,8 @@ TEST(Mechanism, EachHasTheSameBitsOnEveryInstructionSetBesideAnyNeighbour)
         std::vector<Realization> all;
         std::vector<std::string> names;
         Realization plain = shaken_drums(7, 3);
-        plain.extended = true;
-        plain.reinforced = true;
+        plain.with_mechanisms = true;
+        plain.strengthened = true;
         plain.form = form;
         plain.step_s = 3e-5; // safe for all
         for (const Case& c : cases()) {

@@ -55,7 +55,7 @@ TEST(Drag, SlowsAsOneOverTime)
     // v = v0 / (1 + c v0 t / m), so x = m / c ln(1 + c v0 t / m)
     const double c = 2, dt = 1e-4;
     Realization r = floating(dt);
-    r.blocks[1].extension.drag_n_s2_m2 = c;
+    r.blocks[1].mechanisms.drag_n_s2_m2 = c;
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
@@ -83,7 +83,7 @@ TEST(Drag, IsThatOfTheLaboratory)
     Realization r = floating(1e-4);
     r.frequency_hz = 3;
     r.pga_m_s2 = 5;
-    r.blocks[1].extension.drag_n_s2_m2 = 50;
+    r.blocks[1].mechanisms.drag_n_s2_m2 = 50;
     const Study study = harmonic(20, 1);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
@@ -100,9 +100,9 @@ TEST(Tie, SwingsAsADampedOscillatorAboutWhereItsForceHoldsIt)
     // m x'' + c x' + k x = f from rest at 0: x = f / k (1 - e^(-d t) (cos w t + d / w sin w t)), d = c / (2 m)
     const double k = 900, c = 8, f = 0.9, dt = 1e-4;
     Realization r = floating(dt);
-    r.blocks[1].extension.tie_n_m = k;
-    r.blocks[1].extension.tie_n_s_m = c;
-    r.blocks[1].extension.tie_n = f;
+    r.blocks[1].mechanisms.tie_n_m = k;
+    r.blocks[1].mechanisms.tie_n_s_m = c;
+    r.blocks[1].mechanisms.tie_n = f;
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
@@ -121,8 +121,8 @@ TEST(Tie, DrivesAwayFromThePlaceWithANegativeStiffness)
     // m x'' = f + |k| x: x = f / |k| (cosh(w t) - 1)
     const double k = 16, f = 0.01, dt = 1e-4;
     Realization r = floating(dt);
-    r.blocks[1].extension.tie_n_m = -k;
-    r.blocks[1].extension.tie_n = f;
+    r.blocks[1].mechanisms.tie_n_m = -k;
+    r.blocks[1].mechanisms.tie_n = f;
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
@@ -139,7 +139,7 @@ TEST(Tie, SlowsRotation)
     // I theta'' = -c_r theta': what turns freely turns by w0 I / c_r at last
     const double c = 0.2, dt = 1e-4;
     Realization r = floating(dt);
-    r.blocks[1].extension.tie_n_m_s = c;
+    r.blocks[1].mechanisms.tie_n_m_s = c;
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);

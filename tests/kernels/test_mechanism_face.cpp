@@ -2,7 +2,7 @@
 
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/statics/step_bound.hpp"
-#include "kernels/mechanisms/corner_wear.hpp"
+#include "kernels/planar/mechanisms/corner_wear.hpp"
 #include "studies/evidence/verification/trials.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ enum class Along { x, y };
 std::vector<double> vibration(Realization r, Along along, double pull_m_s2, int chunks)
 {
     const Study study = still(10);
-    r.extended = true; // to be pulled
+    r.with_mechanisms = true; // to be pulled
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
     const int top = static_cast<int>(r.blocks.size()) - 1;
@@ -128,8 +128,8 @@ TEST(Hertz, RestsAndVibratesAsItsExponentSays)
 {
     const double q = 1.5, reference = 2e-8;
     Realization r = mono(1e8);
-    r.joints[0].extension.force_exponent = q;
-    r.joints[0].extension.reference_overlap_m2 = reference;
+    r.joints[0].mechanisms.force_exponent = q;
+    r.joints[0].mechanisms.reference_overlap_m2 = reference;
     const double W = mono_stone.mass * gravity, B = mono_stone.width;
     const double area = reference * std::pow(W / (1e8 * reference), 1 / q);
     EXPECT_NEAR(static_state(r).y_m[1], -area / B, 1e-12 * B);
@@ -147,7 +147,7 @@ TEST(RateDamping, AnImpactLosesWhatTheEquationSays)
     const double lambda = 2.0, K_n = 1e7;
     const Stone cube{0.1, 0.1, 2};
     Realization r = single(cube, {K_n, 0, 0.5}, 2e-6);
-    r.joints[0].extension.rate_s_m = lambda;
+    r.joints[0].mechanisms.rate_s_m = lambda;
     const Study study = still(10);
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
@@ -269,7 +269,7 @@ TEST(FaceDamping, RestitutionOfTheRockingMonolith)
         const auto energy = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
         const double e = std::sqrt(energy(-lowest) / energy(0.5 * alpha));
         Realization r = verification::leaned_block(mono_stone, 1e8, 0.5, 0.05, z);
-        r.joints[0].extension.face_damping = 1;
+        r.joints[0].mechanisms.face_damping = 1;
         EXPECT_NEAR(verification::impact_restitution(r), e, 5e-4) << z;
     }
 }
@@ -278,7 +278,7 @@ TEST(CornerLoss, TopplesWhenTheLoadIsBeyondWhatIsLeft)
 {
     const double chip = 0.004, b = mono_stone.width / 2, K = 1e9;
     Realization r = mono(K, 0.3);
-    r.joints[0].extension.chip_right_m = chip;
+    r.joints[0].mechanisms.chip_right_m = chip;
     const double chipped = static_capacity(b - chip, K), whole = static_capacity(b, K);
     EXPECT_NEAR(toppling_slope(r, 1, 0.8 * chipped, 1.2 * chipped), chipped, 4e-3 * chipped);
     EXPECT_NEAR(toppling_slope(r, -1, 0.8 * whole, 1.2 * whole), whole, 4e-3 * whole);
@@ -288,7 +288,7 @@ TEST(CornerLoss, IsTakenFromTheBlockThatEndsTheFace)
 {
     // a narrow lower block under a wide one: the lower face is the one that is chipped
     Realization r = stack({{0.048, 0.029, 0.1355}, {0.1, 0.029, 0.3}}, {1e9, 0.3, 5}, 2e-5, 0.2);
-    r.joints[1].extension.chip_left_m = 0.006;
+    r.joints[1].mechanisms.chip_left_m = 0.006;
     const BedLaw law = beds_at_rest(r)[1].law;
     EXPECT_EQ(law.faces.loss.lower_left, 0.006);
     EXPECT_EQ(law.faces.loss.upper_left, 0);
@@ -313,7 +313,7 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
     b.at(OfJoint::height, 0, 0) = 0.04;
     b.at(OfJoint::depth_limit, 0, 0) = 0.002;
     b.at(OfJoint::K_n, 0, 0) = K;
-    b.at(OfJointExtension::corner_wear, 0, 0) = wear;
+    b.at(OfJointMechanisms::corner_wear, 0, 0) = wear;
     for (int chunk = 0; chunk < 100; ++chunk) {
         b.at(OfBlock::dtheta, 1, 0) = chunk % 2 == 0 ? turn : -turn;
         kernels(Isa::scalar).run(topology, b, 0, chunk_steps);
@@ -323,7 +323,7 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
     EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * face, 1e-4 * K * depth * face);
     EXPECT_LT(face, 0.046);
     // it stops before the face is gone
-    b.at(OfJointExtension::turned, 0, 0) = 1e6;
+    b.at(OfJointMechanisms::turned, 0, 0) = 1e6;
     kernels(Isa::scalar).run(topology, b, 0, 1);
     EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * 0.1 * 0.048, 1e-3 * K * depth * 0.0048);
 }
@@ -342,8 +342,8 @@ TEST(CornerWear, EnergyOfTheLostEndsByHand)
 TEST(Wedge, TheStackRestsAtTheSumOfItsWedges)
 {
     Realization r = spec({1e9, 0.1}, 2e-5);
-    r.joints[1].extension.wedge_rad = 0.01;
-    r.joints[4].extension.wedge_rad = -0.004;
+    r.joints[1].mechanisms.wedge_rad = 0.01;
+    r.joints[4].mechanisms.wedge_rad = -0.004;
     const StaticState rest = static_state(r);
     // the load of a bed leaves its middle by height x tilt: 12 N e / (K B3), 4 drums over the wedge
     const double N = 5 * 0.1355 * gravity, lean = 12 * N * 0.0725 * 0.01 / (1e9 * std::pow(0.048, 3));
@@ -357,7 +357,7 @@ TEST(Eccentricity, TopplesEarlierToItsSide)
 {
     const double e = 0.003, b = mono_stone.width / 2, K = 1e9;
     Realization r = mono(K, 0.3);
-    r.blocks[1].extension.eccentricity_m = e;
+    r.blocks[1].mechanisms.eccentricity_m = e;
     const double near = static_capacity(b - e, K), far = static_capacity(b + e, K);
     EXPECT_NEAR(toppling_slope(r, 1, 0.8 * near, 1.2 * near), near, 4e-3 * near);
     EXPECT_NEAR(toppling_slope(r, -1, 0.8 * far, 1.2 * far), far, 4e-3 * far);
@@ -368,7 +368,7 @@ TEST(TwoCorner, RocksOnThriceTheStiffness)
     for (const double K : {1e7, 1e8}) {
         const double step = 0.1 / std::sqrt(K * mono_stone.width / mono_stone.mass);
         Realization r = single(mono_stone, {K, 0, 5}, step, 0.2); // flush sides take .3 % from the area form's
-        r.extended = true;
+        r.with_mechanisms = true;
         const double B = mono_stone.width, k_theta = K * B * B * B / 12;
         const double by_area = first_frequency(mono_stone, K * B, k_theta);
         EXPECT_NEAR(frequency_near(r, vibration(r, Along::x, 1e-4, 200), by_area), by_area, 2e-3 * by_area);

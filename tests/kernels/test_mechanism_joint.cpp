@@ -56,8 +56,8 @@ TEST(Stribeck, ASlidingSlabFollowsTheEquationOfItsFriction)
     // v' = g (sin - mu(v) cos) by Runge and Kutta
     const double slope = 0.5, mu = 0.45, ratio = 0.4, v_s = 0.2;
     Realization r = on_slope(slope, mu);
-    r.joints[0].extension.dynamic_ratio = ratio;
-    r.joints[0].extension.stribeck_velocity_m_s = v_s;
+    r.joints[0].mechanisms.dynamic_ratio = ratio;
+    r.joints[0].mechanisms.stribeck_velocity_m_s = v_s;
     const double c = std::cos(std::atan(slope)), s = c * slope;
     const auto rate = [&](double v) {
         return gravity * (s - c * mu * (ratio + (1 - ratio) * std::exp(-std::fabs(v) / v_s)));
@@ -83,7 +83,7 @@ TEST(FrictionWear, TheSlopeOfItsOwnSlipDecides)
     // S'' = A + B S with A = g (sin - mu cos), B = g mu k cos: S = A / B (cosh(sqrt(B) t) - 1)
     const double slope = 0.5, mu = 0.4, k = 0.5, time = 0.7;
     Realization r = on_slope(slope, mu);
-    r.joints[0].extension.wear_per_m = k;
+    r.joints[0].mechanisms.wear_per_m = k;
     const double c = std::cos(std::atan(slope)), A = gravity * c * (slope - mu), B = gravity * mu * k * c;
     double got = 0, at = 0;
     slide(r, time, [&](double t, double x) {
@@ -101,9 +101,9 @@ TEST(Adhesion, TheFirstSlipBeginsAtFrictionAndBond)
     Realization r = on_slope(slope, mu);
     const double c = std::cos(std::atan(slope)), W = slab.mass * gravity;
     const double needed = W * c * (slope - mu) / slab.width;
-    r.joints[0].extension.adhesion_n_m = 1.02 * needed;
+    r.joints[0].mechanisms.adhesion_n_m = 1.02 * needed;
     EXPECT_LT(std::fabs(end_of_slide(r, 0.5)), 1e-6);
-    r.joints[0].extension.adhesion_n_m = 0.98 * needed;
+    r.joints[0].mechanisms.adhesion_n_m = 0.98 * needed;
     // once it is broken, friction is all there is
     const double fallen = 0.5 * gravity * c * (slope - mu) * 0.25;
     EXPECT_NEAR(end_of_slide(r, 0.5), fallen, 5e-3 * fallen);
@@ -114,9 +114,9 @@ TEST(Dowel, StopsTheSlideWhereItsEnergySays)
     // no friction: W sin s = k (s - gap)^2 / 2 at the farthest point
     const double slope = 0.3, k = 2e4, gap = 0.003;
     Realization r = on_slope(slope, 0);
-    r.joints[0].extension.dowel_stiffness_n_m = k;
-    r.joints[0].extension.dowel_yield_n = 1e9;
-    r.joints[0].extension.dowel_gap_m = gap;
+    r.joints[0].mechanisms.dowel_stiffness_n_m = k;
+    r.joints[0].mechanisms.dowel_yield_n = 1e9;
+    r.joints[0].mechanisms.dowel_gap_m = gap;
     const double pull = slab.mass * gravity * std::sin(std::atan(slope));
     const double want = gap + pull / k + std::sqrt(pull * pull / (k * k) + 2 * pull * gap / k);
     double most = 0;
@@ -128,16 +128,16 @@ TEST(Dowel, RestsAtGapAndForceOverStiffness)
 {
     const double slope = 0.5, mu = 0.4, k = 2e4, gap = 0.002;
     Realization r = on_slope(slope, mu);
-    r.joints[0].extension.dowel_stiffness_n_m = k;
-    r.joints[0].extension.dowel_yield_n = 1e9;
-    r.joints[0].extension.dowel_gap_m = gap;
+    r.joints[0].mechanisms.dowel_stiffness_n_m = k;
+    r.joints[0].mechanisms.dowel_yield_n = 1e9;
+    r.joints[0].mechanisms.dowel_gap_m = gap;
     // it comes to rest with friction holding on either side of gap + (W sin -+ mu W cos) / k
     const double c = std::cos(std::atan(slope)), W = slab.mass * gravity;
     const double end = end_of_slide(r, 1);
     EXPECT_GE(end, gap + W * c * (slope - mu) / k - 1e-6);
     EXPECT_LE(end, gap + W * c * (slope + mu) / k + 1e-6);
     // and does so with the dowel's force at the yield where it gives way: then it runs on
-    r.joints[0].extension.dowel_yield_n = 0.5 * W * c * (slope - mu);
+    r.joints[0].mechanisms.dowel_yield_n = 0.5 * W * c * (slope - mu);
     double last = 0, before = 0, steady = 0;
     slide(r, 0.5, [&](double, double x) {
         steady = x - last - (last - before);

@@ -17,38 +17,38 @@ using namespace stylobate::model;
 
 namespace {
 
-void each_joint(Realization& r, const std::function<void(JointExtension&)>& set)
+void each_joint(Realization& r, const std::function<void(JointMechanisms&)>& set)
 {
     for (int j = 0; j < r.beds(); ++j)
-        set(r.joints[static_cast<std::size_t>(j)].extension);
+        set(r.joints[static_cast<std::size_t>(j)].mechanisms);
 }
 
 /// Ways to lie otherwise than the baseline.
 std::vector<std::pair<const char*, std::function<void(Realization&)>>> ways_to_rest()
 {
-    return {{"area", [](Realization& r) { r.extended = true; }},
+    return {{"area", [](Realization& r) { r.with_mechanisms = true; }},
             {"two_corner", [](Realization& r) { r.form = ContactForm::two_corner; }},
             {"points", [](Realization& r) { r.form = ContactForm::points; }},
-            {"wedge", [](Realization& r) { r.joints[1].extension.wedge_rad = 0.004; }},
-            {"eccentricity", [](Realization& r) { r.blocks[r.blocks.size() - 2].extension.eccentricity_m = 0.002; }},
+            {"wedge", [](Realization& r) { r.joints[1].mechanisms.wedge_rad = 0.004; }},
+            {"eccentricity", [](Realization& r) { r.blocks[r.blocks.size() - 2].mechanisms.eccentricity_m = 0.002; }},
             {"tendon",
              [](Realization& r) {
                  for (const std::size_t block : {std::size_t{1}, r.blocks.size() - 1})
                      if (r.blocks[block].role == BlockRole::drum && !r.blocks[block].fixed) {
-                         r.blocks[block].reinforcement.tendon_n_m = 1e5;
-                         r.blocks[block].reinforcement.tendon_prestress_n = 8;
+                         r.blocks[block].strengthening.tendon_n_m = 1e5;
+                         r.blocks[block].strengthening.tendon_prestress_n = 8;
                      }
              }},
             {"mortar",
              [](Realization& r) {
                  for (int j = 0; j < r.beds(); ++j) {
-                     r.joints[static_cast<std::size_t>(j)].reinforcement.bond_tension_n_m = 1e5;
-                     r.joints[static_cast<std::size_t>(j)].reinforcement.bond_cohesion_n_m = 1e5;
+                     r.joints[static_cast<std::size_t>(j)].strengthening.bond_tension_n_m = 1e5;
+                     r.joints[static_cast<std::size_t>(j)].strengthening.bond_cohesion_n_m = 1e5;
                  }
              }},
-            {"chips", [](Realization& r) { each_joint(r, [](JointExtension& e) { e.chip_left_m = 0.002; }); }},
+            {"chips", [](Realization& r) { each_joint(r, [](JointMechanisms& e) { e.chip_left_m = 0.002; }); }},
             {"hertz", [](Realization& r) {
-                 each_joint(r, [](JointExtension& e) {
+                 each_joint(r, [](JointMechanisms& e) {
                      e.force_exponent = 1.5;
                      e.reference_overlap_m2 = 4e-8;
                  });
@@ -97,8 +97,8 @@ TEST(ExtendedRest, AColonnadeStaysWhereItIsPut)
     for (const auto& [name, set] : ways_to_rest()) {
         Realization r = colonnade(paper_colonnade(2), bed, 1);
         set(r);
-        if (r.joints[1].extension.wedge_rad != 0) // one that a redundant frame can close
-            r.joints[1].extension.wedge_rad = 2e-5;
+        if (r.joints[1].mechanisms.wedge_rad != 0) // one that a redundant frame can close
+            r.joints[1].mechanisms.wedge_rad = 2e-5;
         r.step_s = 0.9 * step_bound(r).dt_s;
         std::vector<Pose> poses;
         for (const Block& block : r.blocks)
@@ -124,7 +124,7 @@ TEST(ExtendedStepBound, HoldsForRandomStacks)
         Realization r = stack(stones, bed, 1);
         r.form = static_cast<ContactForm>(trial % 3);
         const bool all = draw(random) < 0.5;
-        each_joint(r, [&](JointExtension& e) {
+        each_joint(r, [&](JointMechanisms& e) {
             if (!all)
                 return;
             e.face_damping = draw(random);
@@ -136,7 +136,7 @@ TEST(ExtendedStepBound, HoldsForRandomStacks)
         });
         for (Joint& joint : r.joints)
             if (all)
-                joint.reinforcement = {.bearing_n_m = 1e6 * draw(random),
+                joint.strengthening = {.bearing_n_m = 1e6 * draw(random),
                                        .bearing_n_s_m = 100 * draw(random),
                                        .bearing_per_m = 2 * draw(random),
                                        .hold_n = 1e3,
@@ -144,8 +144,8 @@ TEST(ExtendedStepBound, HoldsForRandomStacks)
                                        .hold_length_m = 0.01,
                                        .hold_spread_m = 0.02 * draw(random)};
         if (all)
-            r.blocks.back().reinforcement.tendon_n_m = 1e7 * draw(random);
-        r.extended = true;
+            r.blocks.back().strengthening.tendon_n_m = 1e7 * draw(random);
+        r.with_mechanisms = true;
         r.step_s = 0.999 * step_bound(r).dt_s;
         const Study study = still(20000 * r.step_s);
         LaneSet set(study, nullptr, kernels(best_isa()), r);
@@ -220,34 +220,34 @@ TEST(ExtendedEnergy, Balances)
     Realization plain = stack(uneven_drums(7), {1e8, 0.1, 0.3}, 2e-5);
     plain.frequency_hz = 4;
     plain.pga_m_s2 = 3;
-    plain.extended = true;
+    plain.with_mechanisms = true;
     std::vector<Realization> all;
-    const auto add = [&](const std::function<void(JointExtension&)>& set) {
+    const auto add = [&](const std::function<void(JointMechanisms&)>& set) {
         all.push_back(plain);
         each_joint(all.back(), set);
     };
-    add([](JointExtension&) {});
-    add([](JointExtension& e) { e.dynamic_ratio = 0.5, e.stribeck_velocity_m_s = 0.02; });
-    add([](JointExtension& e) { e.adhesion_n_m = 30, e.wear_per_m = 3; });
-    add([](JointExtension& e) { e.dowel_stiffness_n_m = 1e5, e.dowel_yield_n = 2, e.dowel_gap_m = 1e-4; });
-    add([](JointExtension& e) { e.force_exponent = 1.4, e.reference_overlap_m2 = 5e-8; });
-    add([](JointExtension& e) { e.rate_s_m = 1, e.face_damping = 0.7; });
-    add([](JointExtension& e) { e.chip_left_m = 0.002, e.corner_wear_m_rad = 0.001; });
-    add([](JointExtension& e) { e.wedge_rad = 0.002; });
+    add([](JointMechanisms&) {});
+    add([](JointMechanisms& e) { e.dynamic_ratio = 0.5, e.stribeck_velocity_m_s = 0.02; });
+    add([](JointMechanisms& e) { e.adhesion_n_m = 30, e.wear_per_m = 3; });
+    add([](JointMechanisms& e) { e.dowel_stiffness_n_m = 1e5, e.dowel_yield_n = 2, e.dowel_gap_m = 1e-4; });
+    add([](JointMechanisms& e) { e.force_exponent = 1.4, e.reference_overlap_m2 = 5e-8; });
+    add([](JointMechanisms& e) { e.rate_s_m = 1, e.face_damping = 0.7; });
+    add([](JointMechanisms& e) { e.chip_left_m = 0.002, e.corner_wear_m_rad = 0.001; });
+    add([](JointMechanisms& e) { e.wedge_rad = 0.002; });
     for (const ContactForm form : {ContactForm::two_corner, ContactForm::points}) {
         all.push_back(plain);
         all.back().form = form;
     }
     all.push_back(plain);
     for (Block& block : all.back().blocks) {
-        block.extension.drag_n_s2_m2 = 2;
-        block.extension.eccentricity_m = block.fixed ? 0 : 0.001;
+        block.mechanisms.drag_n_s2_m2 = 2;
+        block.mechanisms.eccentricity_m = block.fixed ? 0 : 0.001;
     }
     all.push_back(plain);
     for (Block& block : all.back().blocks) {
-        block.extension.tie_n_m = 60;
-        block.extension.tie_n_s_m = 1;
-        block.extension.tie_n_m_s = 1e-4;
+        block.mechanisms.tie_n_m = 60;
+        block.mechanisms.tie_n_s_m = 1;
+        block.mechanisms.tie_n_m_s = 1e-4;
     }
     all.push_back(plain);
     all.back().base = {2e-3, 0.5};

@@ -1,6 +1,6 @@
 // The overlap of two blocks against exact polygon clipping, written here on its own in extended precision.
 
-#include "kernels/overlap.hpp"
+#include "kernels/planar/overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -196,7 +196,7 @@ TEST(Precision, AStackAtRestStaysAtRest)
     }
 }
 
-TEST(Precision, ExtensionsOfTheModelAreRefused)
+TEST(Precision, MechanismsAreRefused)
 {
     Study study = cell(1, 1, 1);
     study.run.precision = Precision::single;

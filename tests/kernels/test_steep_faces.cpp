@@ -1,9 +1,9 @@
 /// Faces that stand steeply on each other, as those of a block that falls: which way the contact forms press there, and
 /// what their energies are.
 
-#include "kernels/mechanisms/points.hpp"
-#include "kernels/mechanisms/two_corner.hpp"
-#include "kernels/overlap.hpp"
+#include "kernels/planar/mechanisms/points.hpp"
+#include "kernels/planar/mechanisms/two_corner.hpp"
+#include "kernels/planar/overlap.hpp"
 
 #include <gtest/gtest.h>
 

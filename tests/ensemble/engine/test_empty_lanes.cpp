@@ -4,12 +4,12 @@
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "kernels/mechanisms/points.hpp"
-#include "kernels/mechanisms/two_corner.hpp"
-#include "kernels/overlap.hpp"
-#include "kernels/rigid/rigid_step.hpp"
-#include "kernels/scratch.hpp"
-#include "kernels/step.hpp"
+#include "kernels/planar/mechanisms/points.hpp"
+#include "kernels/planar/mechanisms/two_corner.hpp"
+#include "kernels/planar/overlap.hpp"
+#include "kernels/planar/rigid/rigid_step.hpp"
+#include "kernels/planar/scratch.hpp"
+#include "kernels/planar/step.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,13 +28,13 @@ void run_form(const Topology& topology, const Bundle& bundle)
     if constexpr (form == ContactForm::rigid)
         run_rigid<Counted, Here>(topology, bundle, 0, chunk_steps);
     else if (topology.model.mechanisms)
-        run_steps<Counted, Extended<form>>(topology, bundle, 0, chunk_steps);
+        run_steps<Counted, Mechanisms<form>>(topology, bundle, 0, chunk_steps);
     else
         run_steps<Counted, Plain<form>>(topology, bundle, 0, chunk_steps);
 }
 
 /// An empty lane of a study is stepped for two chunks. @param used whether there was a realization in it before
-void expect_nothing_asked(const Study& study, bool extended, bool used)
+void expect_nothing_asked(const Study& study, bool mechanisms, bool used)
 {
     static Topology topology;
     static Bundle bundle;
@@ -46,7 +46,7 @@ void expect_nothing_asked(const Study& study, bool extended, bool used)
     };
     const Sampler sampler(study, nullptr);
     Realization r = sampler.realization(0);
-    r.extended = extended;
+    r.with_mechanisms = mechanisms;
     LaneSet lanes(study, nullptr, table, r);
     if (used)
         lanes.load(0, r);
@@ -85,14 +85,14 @@ TEST(EmptyLanes, AskForNothingInAnyModelAndStructure)
             if (form == ContactForm::rigid) { // has neither
                 study.contact.normal_stiffness_n_m2 = study.contact.tangential_stiffness_n_m = 0;
             }
-            for (const bool extended : {false, true})
+            for (const bool mechanisms : {false, true})
                 for (const bool used : {false, true}) {
-                    if (extended && form == ContactForm::rigid)
+                    if (mechanisms && form == ContactForm::rigid)
                         continue;
                     SCOPED_TRACE(static_cast<int>(form));
                     SCOPED_TRACE(study.structure.columns.size());
-                    SCOPED_TRACE(extended ? "extended" : "plain");
-                    expect_nothing_asked(study, extended, used);
+                    SCOPED_TRACE(mechanisms ? "mechanisms" : "plain");
+                    expect_nothing_asked(study, mechanisms, used);
                 }
         }
     }

@@ -60,16 +60,16 @@ std::vector<Poison> poisons(const Study& study)
     return all;
 }
 
-/// A study, and whether its realizations are stepped by the extended model.
+/// A study, and whether its realizations are stepped by the model with mechanisms.
 struct Setting {
     std::string name;
     Study study;
-    bool extended = false;
+    bool mechanisms = false;
 
     Realization realization(const Sampler& sampler, int index) const
     {
         Realization r = sampler.realization(static_cast<std::uint64_t>(index));
-        r.extended = extended;
+        r.with_mechanisms = mechanisms;
         return r;
     }
 };
@@ -84,16 +84,16 @@ Study briefly(Study study)
     return study;
 }
 
-Setting column(ContactForm form, bool extended, Precision precision)
+Setting column(ContactForm form, bool mechanisms, Precision precision)
 {
     Study study = briefly(rocking_column(3));
     if (form == ContactForm::rigid)
         study = rigid_of(study);
     study.contact.form = form;
     study.run.precision = precision;
-    return {"form " + std::to_string(static_cast<int>(form)) + (extended ? ", extended" : "") +
+    return {"form " + std::to_string(static_cast<int>(form)) + (mechanisms ? ", with mechanisms" : "") +
                 (precision == Precision::single ? ", single precision" : ""),
-            study, extended};
+            study, mechanisms};
 }
 
 std::vector<Setting> settings()

@@ -287,7 +287,7 @@ TEST(Slots, TheExtendedModelOfAColonnadeHasTheBitsOfTheLanes)
 }
 
 /// What strengthens a structure has rows and a list of blocks of its own.
-TEST(Slots, ReinforcementsHaveTheBitsOfTheLanes)
+TEST(Slots, StrengtheningHasTheBitsOfTheLanes)
 {
     const std::string dowels = "mechanisms.pull_out={ joint = 4, hold_n = 0.5, stiffness_n_m = 1e5, length_m = 0.001, "
                                "spread_m = 0.01 }";

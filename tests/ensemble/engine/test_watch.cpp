@@ -109,7 +109,7 @@ TEST(LaneSet, NothingIsAtRestWhileTheBaseMovesUpAndDown)
                                  "[contact]\nnormal_stiffness_n_m2 = 1e7\nfriction = 0.7\n");
     const Experiment experiment(study);
     Realization r = experiment.sampler().realization(0);
-    r.extended = true;
+    r.with_mechanisms = true;
     const auto end_s = [&](const Realization& moved) {
         LaneSet set(study, nullptr, kernels(Isa::scalar), moved);
         set.load(0, moved);

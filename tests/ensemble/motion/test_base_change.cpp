@@ -327,7 +327,7 @@ TEST(BaseChange, AVerticalRecordGoesWithTheHorizontalOne)
     study.mechanisms = {neutral_spec(Mechanism::vertical_motion, 0.68)};
     const Realization r = Sampler(study, &record, &up).realization(0);
     ASSERT_NE(r.vertical, nullptr);
-    EXPECT_TRUE(r.extended);
+    EXPECT_TRUE(r.with_mechanisms);
     EXPECT_EQ(r.vertical->dt_s, 0.01);
     EXPECT_NEAR(r.vertical->pga_m_s2, 3 * up.pga_m_s2, 1e-12);
     EXPECT_NEAR(r.vertical->acceleration_m_s2[700], 3 * up.acceleration_m_s2[700], 1e-12);

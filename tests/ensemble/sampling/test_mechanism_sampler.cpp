@@ -1,4 +1,4 @@
-/// What the mechanisms of a study make of its realizations: extensions, draws, and what cannot be built.
+/// What the mechanisms of a study make of its realizations: mechanisms, draws, and what cannot be built.
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/mechanism_sampler.hpp"
@@ -73,14 +73,14 @@ TEST(MechanismSampler, EveryParameterReachesItsMember)
     add(study, Mechanism::drum_offset, {0.0005}, {2});
     const Realization r = made(study), plain = made(specimen());
     ASSERT_EQ(r.joints.size(), 6u);
-    const auto joint = [&](std::size_t j) { return r.joints[j].extension; };
+    const auto joint = [&](std::size_t j) { return r.joints[j].mechanisms; };
     EXPECT_DOUBLE_EQ(joint(3).dynamic_ratio, 0.75);
     EXPECT_EQ(joint(3).stribeck_velocity_m_s, 0.05);
     EXPECT_EQ(joint(2).dynamic_ratio, 1);
     EXPECT_EQ(r.joints[0].friction, 0.57 * 0.68);
     EXPECT_EQ(r.joints[1].friction, 0.68);
-    EXPECT_EQ(r.blocks[6].extension.drag_n_s2_m2, 0.1);
-    EXPECT_EQ(r.blocks[5].extension.drag_n_s2_m2, 0);
+    EXPECT_EQ(r.blocks[6].mechanisms.drag_n_s2_m2, 0.1);
+    EXPECT_EQ(r.blocks[5].mechanisms.drag_n_s2_m2, 0);
     EXPECT_EQ(joint(1).chip_left_m, 0.002);
     EXPECT_EQ(joint(1).chip_right_m, 0.003);
     EXPECT_EQ(joint(2).force_exponent, 1.2);
@@ -92,18 +92,18 @@ TEST(MechanismSampler, EveryParameterReachesItsMember)
         EXPECT_EQ(joint(j).corner_wear_m_rad, 0.001);
         EXPECT_EQ(joint(j).adhesion_n_m, 3);
     }
-    EXPECT_EQ(r.base, (BaseExtension{1e-4, 0.25}));
+    EXPECT_EQ(r.base, (BaseMechanisms{1e-4, 0.25}));
     EXPECT_EQ(r.change, (BaseChange{0.88, -0.0127, 0.01, 0.02, 0.03, 0.04}));
     EXPECT_EQ(joint(5).dowel_stiffness_n_m, 1e5);
     EXPECT_EQ(joint(5).dowel_yield_n, 20);
     EXPECT_EQ(joint(5).dowel_gap_m, 1e-3);
-    EXPECT_EQ(r.blocks[4].extension.eccentricity_m, -0.001);
-    EXPECT_EQ(r.blocks[3].extension.eccentricity_m, 0);
+    EXPECT_EQ(r.blocks[4].mechanisms.eccentricity_m, -0.001);
+    EXPECT_EQ(r.blocks[3].mechanisms.eccentricity_m, 0);
     EXPECT_EQ(joint(0).wedge_rad, 0.0041);
     EXPECT_EQ(r.blocks[2].x_m, plain.blocks[2].x_m + 0.0005);
     EXPECT_EQ(r.blocks[3].x_m, plain.blocks[3].x_m);
-    EXPECT_TRUE(r.extended);
-    EXPECT_FALSE(plain.extended);
+    EXPECT_TRUE(r.with_mechanisms);
+    EXPECT_FALSE(plain.with_mechanisms);
     EXPECT_TRUE(r.inputs.empty());
 }
 
@@ -114,16 +114,16 @@ TEST(MechanismSampler, NeutralValuesLeaveTheBaseline)
         Study study = specimen();
         study.mechanisms.push_back(neutral_spec(rule.mechanism, study.contact.friction));
         const Realization r = made(study);
-        EXPECT_FALSE(r.extended) << rule.name;
-        EXPECT_EQ(r.base, BaseExtension{}) << rule.name;
+        EXPECT_FALSE(r.with_mechanisms) << rule.name;
+        EXPECT_EQ(r.base, BaseMechanisms{}) << rule.name;
         EXPECT_EQ(r.change, BaseChange{}) << rule.name;
         EXPECT_EQ(r.step_s, plain.step_s) << rule.name;
         for (std::size_t j = 0; j < r.joints.size(); ++j) {
-            EXPECT_EQ(r.joints[j].extension, JointExtension{}) << rule.name;
+            EXPECT_EQ(r.joints[j].mechanisms, JointMechanisms{}) << rule.name;
             EXPECT_EQ(r.joints[j].friction, plain.joints[j].friction) << rule.name;
         }
         for (std::size_t i = 0; i < r.blocks.size(); ++i) {
-            EXPECT_EQ(r.blocks[i].extension, BlockExtension{}) << rule.name;
+            EXPECT_EQ(r.blocks[i].mechanisms, BlockMechanisms{}) << rule.name;
             EXPECT_EQ(r.blocks[i].x_m, plain.blocks[i].x_m) << rule.name;
         }
     }
@@ -135,14 +135,14 @@ TEST(MechanismSampler, WhatIsOfTheBaseAloneNeedsNoExtendedStep)
                                       Mechanism::sensor_gain, Mechanism::harmonic_distortion}) {
         Study study = specimen();
         add(study, mechanism, {0.001});
-        EXPECT_FALSE(made(study).extended) << to_string(mechanism);
+        EXPECT_FALSE(made(study).with_mechanisms) << to_string(mechanism);
     }
     for (const Mechanism mechanism : {Mechanism::stribeck, Mechanism::hertz, Mechanism::table_pitch, Mechanism::drag}) {
         Study study = specimen();
         study.mechanisms.push_back(neutral_spec(mechanism, 0.68));
         study.mechanisms.back().values[0] *= 1.1;
         study.mechanisms.back().values[0] += 1e-4;
-        EXPECT_TRUE(made(study).extended) << to_string(mechanism);
+        EXPECT_TRUE(made(study).with_mechanisms) << to_string(mechanism);
     }
 }
 
@@ -151,15 +151,15 @@ TEST(MechanismSampler, ContactFormsAndDampingAtTheEnds)
     Study study = specimen();
     study.contact.form = ContactForm::two_corner;
     EXPECT_EQ(made(study).form, ContactForm::two_corner);
-    EXPECT_FALSE(made(study).extended); // a form by itself has a step of its own
+    EXPECT_FALSE(made(study).with_mechanisms); // a form by itself has a step of its own
     study.contact.damping = DampingAt::ends;
-    EXPECT_FALSE(made(study).extended); // where its dashpots are at its points anyway
+    EXPECT_FALSE(made(study).with_mechanisms); // where its dashpots are at its points anyway
     study.contact.form = ContactForm::area;
     study.contact.damping = DampingAt::ends;
     const Realization r = made(study);
-    EXPECT_TRUE(r.extended);
+    EXPECT_TRUE(r.with_mechanisms);
     for (const Joint& joint : r.joints)
-        EXPECT_EQ(joint.extension.face_damping, 1);
+        EXPECT_EQ(joint.mechanisms.face_damping, 1);
 }
 
 TEST(MechanismSampler, TheReferenceOfHertzIsTheWeightOnTheBed)
@@ -168,8 +168,8 @@ TEST(MechanismSampler, TheReferenceOfHertzIsTheWeightOnTheBed)
     add(study, Mechanism::hertz, {1.5, 0});
     const Realization r = made(study);
     for (int j = 0; j < 6; ++j) // six free drums, so many of which stand on the bed
-        EXPECT_NEAR(r.joints[static_cast<std::size_t>(j)].extension.reference_overlap_m2, (6 - j) * 0.1355 * 9.81 / 1e8,
-                    1e-20);
+        EXPECT_NEAR(r.joints[static_cast<std::size_t>(j)].mechanisms.reference_overlap_m2,
+                    (6 - j) * 0.1355 * 9.81 / 1e8, 1e-20);
 }
 
 TEST(MechanismSampler, StribeckOnBedsWithTheirOwnFriction)
@@ -179,7 +179,7 @@ TEST(MechanismSampler, StribeckOnBedsWithTheirOwnFriction)
     add(study, Mechanism::stribeck, {0.51, 0.05});
     const Realization r = made(study);
     EXPECT_EQ(r.joints[1].friction, 0.4);
-    EXPECT_DOUBLE_EQ(r.joints[1].extension.dynamic_ratio, 0.75); // of its own, 0.3
+    EXPECT_DOUBLE_EQ(r.joints[1].mechanisms.dynamic_ratio, 0.75); // of its own, 0.3
 }
 
 TEST(MechanismSampler, DrawsForEachPlaceWhereItActs)
@@ -205,9 +205,9 @@ TEST(MechanismSampler, DrawsForEachPlaceWhereItActs)
     EXPECT_EQ(r.joints[4].friction, 0.68 * r.inputs[4]);
     EXPECT_EQ(r.joints[0].friction, 0.68);
     for (std::size_t i = 1; i < 7; ++i)
-        EXPECT_EQ(r.blocks[i].extension.drag_n_s2_m2, r.inputs[6]);
-    EXPECT_EQ(r.blocks[0].extension.drag_n_s2_m2, 0); // fixed
-    EXPECT_EQ(r.joints[3].extension.wedge_rad, r.inputs[7]);
+        EXPECT_EQ(r.blocks[i].mechanisms.drag_n_s2_m2, r.inputs[6]);
+    EXPECT_EQ(r.blocks[0].mechanisms.drag_n_s2_m2, 0); // fixed
+    EXPECT_EQ(r.joints[3].mechanisms.wedge_rad, r.inputs[7]);
 
     // another place, another mechanism: the draws stay
     study.mechanisms[0].places = {1, 2, 4};
@@ -229,8 +229,8 @@ TEST(MechanismSampler, DrawsHaveTheirDistribution)
     constexpr int count = 1000;
     for (std::uint64_t i = 0; i < count; ++i) {
         const Realization r = sampler.realization(i);
-        const double a = (r.joints[0].extension.wedge_rad - 0.002) / 0.001;
-        const double b = (r.joints[2].extension.wedge_rad - 0.002) / 0.001;
+        const double a = (r.joints[0].mechanisms.wedge_rad - 0.002) / 0.001;
+        const double b = (r.joints[2].mechanisms.wedge_rad - 0.002) / 0.001;
         sum += a;
         squares += a * a;
         product += a * b;
@@ -251,7 +251,7 @@ TEST(MechanismSampler, StreamsStayAndAreDistinct)
     EXPECT_LE(most_parameters, 8u);
 }
 
-TEST(MechanismSampler, ReinforcementsReachTheirMembers)
+TEST(MechanismSampler, StrengtheningReachesTheirMembers)
 {
     Study study = specimen();
     add(study, Mechanism::tendon, {1e4, 30, 200});
@@ -259,29 +259,29 @@ TEST(MechanismSampler, ReinforcementsReachTheirMembers)
     add(study, Mechanism::mortar, {2e5, 3e5}, {2});
     add(study, Mechanism::pull_out, {50, 1e6, 0.01, 0.012}, {1, 3});
     const Realization r = made(study);
-    EXPECT_TRUE(r.extended);
-    EXPECT_TRUE(r.reinforced);
+    EXPECT_TRUE(r.with_mechanisms);
+    EXPECT_TRUE(r.strengthened);
     for (std::size_t i = 0; i < 7; ++i) {
-        EXPECT_EQ(r.blocks[i].reinforcement.tendon_n_m, i == 6 ? 1e4 : 0) << i;
-        EXPECT_EQ(r.blocks[i].reinforcement.tendon_prestress_n, i == 6 ? 30 : 0) << i;
+        EXPECT_EQ(r.blocks[i].strengthening.tendon_n_m, i == 6 ? 1e4 : 0) << i;
+        EXPECT_EQ(r.blocks[i].strengthening.tendon_prestress_n, i == 6 ? 30 : 0) << i;
     }
-    EXPECT_EQ(r.blocks[6].reinforcement.tendon_yield_n, 200);
-    EXPECT_EQ(r.joints[0].reinforcement.bearing_n_m, 2e4);
-    EXPECT_EQ(r.joints[0].reinforcement.bearing_n_s_m, 30);
-    EXPECT_EQ(r.joints[0].reinforcement.bearing_per_m, 0.5);
-    EXPECT_EQ(r.joints[1].reinforcement.bearing_n_m, 0);
-    EXPECT_EQ(r.joints[2].reinforcement.bond_tension_n_m, 2e5 * 0.048);
-    EXPECT_EQ(r.joints[2].reinforcement.bond_cohesion_n_m, 3e5 * 0.048);
-    EXPECT_FALSE(r.joints[1].reinforcement.bonded());
-    EXPECT_EQ(r.joints[3].reinforcement.hold_n, 50);
-    EXPECT_EQ(r.joints[3].reinforcement.hold_stiffness_n_m, 1e6);
-    EXPECT_EQ(r.joints[3].reinforcement.hold_length_m, 0.01);
-    EXPECT_EQ(r.joints[3].reinforcement.hold_spread_m, 0.012);
+    EXPECT_EQ(r.blocks[6].strengthening.tendon_yield_n, 200);
+    EXPECT_EQ(r.joints[0].strengthening.bearing_n_m, 2e4);
+    EXPECT_EQ(r.joints[0].strengthening.bearing_n_s_m, 30);
+    EXPECT_EQ(r.joints[0].strengthening.bearing_per_m, 0.5);
+    EXPECT_EQ(r.joints[1].strengthening.bearing_n_m, 0);
+    EXPECT_EQ(r.joints[2].strengthening.bond_tension_n_m, 2e5 * 0.048);
+    EXPECT_EQ(r.joints[2].strengthening.bond_cohesion_n_m, 3e5 * 0.048);
+    EXPECT_FALSE(r.joints[1].strengthening.bonded());
+    EXPECT_EQ(r.joints[3].strengthening.hold_n, 50);
+    EXPECT_EQ(r.joints[3].strengthening.hold_stiffness_n_m, 1e6);
+    EXPECT_EQ(r.joints[3].strengthening.hold_length_m, 0.01);
+    EXPECT_EQ(r.joints[3].strengthening.hold_spread_m, 0.012);
     // neutral ones need no rows
     Study neutral = specimen();
     add(neutral, Mechanism::tendon, {0, 0, 1e12});
-    EXPECT_FALSE(made(neutral).extended);
-    EXPECT_FALSE(made(neutral).reinforced);
+    EXPECT_FALSE(made(neutral).with_mechanisms);
+    EXPECT_FALSE(made(neutral).strengthened);
     EXPECT_EQ(made(neutral).step_s, made(specimen()).step_s);
 }
 

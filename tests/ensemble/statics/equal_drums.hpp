@@ -41,7 +41,7 @@ inline Realization make(const Column& column)
         joint.normal_damping_n_s_m = 2 * column.xi * std::sqrt(k_n * column.mass);
         joint.tangential_damping_n_s_m = 2 * column.xi * std::sqrt(column.ratio * k_n * column.mass);
         joint.damping_chord_m = column.chord ? column.width : 0;
-        joint.extension.face_damping = column.ends ? 1 : 0;
+        joint.mechanisms.face_damping = column.ends ? 1 : 0;
         r.joints.push_back(joint);
     }
     r.drums = column.free_blocks + 1;

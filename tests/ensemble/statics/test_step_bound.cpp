@@ -84,7 +84,7 @@ Matrices springs(const Realization& r, const std::vector<Part>& parts)
         const double share = joint.damping_chord_m > 0 ? 2 * half / joint.damping_chord_m : 1;
         m.K += joint.tangential_stiffness_n_m * slide * slide.transpose();
         m.C += share * joint.tangential_damping_n_s_m * slide * slide.transpose();
-        if (joint.extension.face_damping == 0)
+        if (joint.mechanisms.face_damping == 0)
             m.C += share * joint.normal_damping_n_s_m * open * open.transpose();
         else
             for (const double side : {-half, half}) {
@@ -426,15 +426,15 @@ TEST(StepBound, StiffTiesShortenIt)
     Realization r = make(with(spec, 1e8, 0));
     Block& top = r.blocks.back();
     const double k = 1e12; // much stiffer than the contacts: 2 / w of the block on its tie, halved in w2 as all bounds
-    top.extension.tie_n_m = k;
+    top.mechanisms.tie_n_m = k;
     EXPECT_NEAR(step_bound(r).dt_s, 2 / std::sqrt(2 * k / top.mass_kg), 1e-3 * step_bound(r).dt_s);
     EXPECT_EQ(step_bound(r).block, static_cast<int>(r.blocks.size()) - 1);
-    top.extension.tie_n_m = -100;
+    top.mechanisms.tie_n_m = -100;
     const double held = step_bound(r).dt_s;
-    top.extension.tie_n_m = 0;
-    r.extended = true;
+    top.mechanisms.tie_n_m = 0;
+    r.with_mechanisms = true;
     EXPECT_EQ(held, step_bound(r).dt_s) << "what drives away shortens no step";
-    top.extension.tie_n_s_m = 1e7;
+    top.mechanisms.tie_n_s_m = 1e7;
     EXPECT_LT(step_bound(r).dt_s, 0.1 * held);
     EXPECT_EQ(step_bound(r).governed_by, StepLimit::dashpot);
 }
@@ -488,7 +488,7 @@ TEST(StructureStepBound, LeavesDashpotsElsewhereAlone)
     EXPECT_EQ(structure_step_bound(r, step_bound(r)).dt_s, step_bound(r).dt_s);
     r.form = ContactForm::area;
     for (Joint& joint : r.joints)
-        joint.extension.face_damping = 1; // at the ends, in proportion to the contact's length
+        joint.mechanisms.face_damping = 1; // at the ends, in proportion to the contact's length
     EXPECT_GT(structure_step_bound(r, step_bound(r)).dt_s, 1.1 * step_bound(r).dt_s);
 }
 

@@ -18,7 +18,7 @@ TEST(StepBound, DashpotThatGrowsWithTheLoad)
     const Block& block = r.blocks[1];
     const double edge = 1 / 0.813 + 0.024 * 0.024 / block.inertia_kg_m2;
     for (const double lambda : {1.0, 1e4}) {
-        r.joints[0].extension.rate_s_m = lambda;
+        r.joints[0].mechanisms.rate_s_m = lambda;
         const double C = 10 * lambda * 0.813 * 9.81;
         const StepBound got = step_bound(r);
         EXPECT_NEAR(got.edge_s * C * edge, 1, 1e-9) << lambda;
@@ -45,11 +45,11 @@ TEST(StepBound, ClampsCountAtTheirHeight)
     right.x_m = 0.03;
     right.half_height_m = 0.04;
     right.y_m = left.y_m - left.half_height_m + 0.04;
-    left.reinforcement.clamp_to = 2;
-    left.reinforcement.clamp_n_m = 1e13;
-    left.reinforcement.clamp_strength_n = 1;
+    left.strengthening.clamp_to = 2;
+    left.strengthening.clamp_n_m = 1e13;
+    left.strengthening.clamp_strength_n = 1;
     for (const double height : {-0.01, 0.0, 0.012}) {
-        left.reinforcement.clamp_height_m = height;
+        left.strengthening.clamp_height_m = height;
         const double at_right = left.y_m + height - right.y_m;
         const auto rate = [](const Block& block, double y) {
             return 1e13 * (1 / block.mass_kg + (block.half_width_m * block.half_width_m + y * y) / block.inertia_kg_m2);
@@ -60,7 +60,7 @@ TEST(StepBound, ClampsCountAtTheirHeight)
         EXPECT_EQ(got.block, rate(left, height) > rate(right, at_right) ? 1 : 2) << height;
     }
     right.fixed = true; // then the left end alone
-    left.reinforcement.clamp_height_m = 0.02;
+    left.strengthening.clamp_height_m = 0.02;
     const double alone = 1e13 * (1 / left.mass_kg + (0.024 * 0.024 + 0.02 * 0.02) / left.inertia_kg_m2);
     EXPECT_NEAR(step_bound(r).stiffness_s / (2 / std::sqrt(2 * alone)), 1, 1e-5);
 }

@@ -207,9 +207,9 @@ TEST(Tracking, EveryStepOfARunCanBeReadAfterwards)
 {
     const Study study = noise_study();
     Realization r = Sampler(study, nullptr).realization(1);
-    r.extended = true;
+    r.with_mechanisms = true;
     r.base.pitch_rad_s2_m = 1e-3;
-    r.blocks[2].extension.eccentricity_m = 2e-3;
+    r.blocks[2].mechanisms.eccentricity_m = 2e-3;
     TrackedLanes together(study, nullptr, kernels(best_isa()), r), one_by_one(study, nullptr, kernels(best_isa()), r);
     for (TrackedLanes* lanes : {&together, &one_by_one})
         lanes->load(1, r, 0);

@@ -286,7 +286,7 @@ TEST(StudyMechanisms, ADowelsTextHasTheStoneOnlyWhereItIsGiven)
         << text;
 }
 
-TEST(StudyMechanisms, ReinforcementsActAtTheirUsualPlaces)
+TEST(StudyMechanisms, StrengtheningActsAtTheirUsualPlaces)
 {
     const std::string structure =
         "[study]\nkind = \"single\"\n[structure]\nkind = \"colonnade\"\ndepth_m = 1\ndensity_kg_m3 = 2700\ncolumns = "

@@ -56,12 +56,12 @@ void expect_same(const Realization& a, const Realization& b)
     ASSERT_EQ(a.blocks.size(), b.blocks.size());
     for (std::size_t i = 0; i < a.blocks.size(); ++i) {
         EXPECT_EQ(block_numbers(a.blocks[i]), block_numbers(b.blocks[i])) << i;
-        EXPECT_EQ(a.blocks[i].extension, b.blocks[i].extension);
+        EXPECT_EQ(a.blocks[i].mechanisms, b.blocks[i].mechanisms);
     }
     ASSERT_EQ(a.joints.size(), b.joints.size());
     for (std::size_t i = 0; i < a.joints.size(); ++i) {
         EXPECT_EQ(joint_numbers(a.joints[i]), joint_numbers(b.joints[i])) << i;
-        EXPECT_EQ(a.joints[i].extension, b.joints[i].extension);
+        EXPECT_EQ(a.joints[i].mechanisms, b.joints[i].mechanisms);
     }
     EXPECT_EQ(a.base_tilt_rad, b.base_tilt_rad);
     EXPECT_EQ(a.frequency_hz, b.frequency_hz);

@@ -1,6 +1,6 @@
 #include "studies/evidence/measured/planar_impact/planar_impact_law.hpp"
 
-#include "kernels/contact.hpp"
+#include "kernels/planar/contact.hpp"
 
 #include <algorithm>
 #include <cmath>

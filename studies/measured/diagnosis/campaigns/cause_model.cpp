@@ -33,7 +33,7 @@ bool yields(const Cause& cause)
 }
 
 /// The force of a tie that a cause is.
-double& tie_member(const Cause& cause, BlockExtension& block)
+double& tie_member(const Cause& cause, BlockMechanisms& block)
 {
     return cause.parameter == "stiffness_n_m"   ? block.tie_n_m
            : cause.parameter == "dashpot_n_s_m" ? block.tie_n_s_m
@@ -65,7 +65,7 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
         if (!here)
             continue;
         Joint& joint = r.joints[static_cast<std::size_t>(bed)];
-        JointExtension& e = joint.extension;
+        JointMechanisms& e = joint.mechanisms;
         if (m == "joint_friction")
             joint.friction *= size;
         else if (m == "stribeck") {
@@ -105,13 +105,13 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             continue;
         Block& block = r.blocks[static_cast<std::size_t>(built.block[b])];
         if (m == "drag")
-            block.extension.drag_n_s2_m2 = size;
+            block.mechanisms.drag_n_s2_m2 = size;
         else if (m == "eccentricity")
-            block.extension.eccentricity_m = size;
+            block.mechanisms.eccentricity_m = size;
         else if (m == "tie")
-            tie_member(cause, block.extension) = size;
+            tie_member(cause, block.mechanisms) = size;
     }
-    r.extended = true;
+    r.with_mechanisms = true;
 }
 
 void carry_wear(const SizedCause& sized, const SpecimenStructure& built, const JointPath& before, Realization& r)
@@ -120,7 +120,7 @@ void carry_wear(const SizedCause& sized, const SpecimenStructure& built, const J
         return;
     const auto j = static_cast<std::size_t>(sized.cause.joint);
     Joint& joint = r.joints[static_cast<std::size_t>(built.bed[j])];
-    JointExtension& e = joint.extension;
+    JointMechanisms& e = joint.mechanisms;
     if (sized.cause.mechanism == "friction_wear") { // mu (1 - k (S0 + S)) = mu (1 - k S0) (1 - k S / (1 - k S0))
         const double left = std::max(1 - sized.size * before.slip_m[j], 0.0);
         joint.friction *= left;

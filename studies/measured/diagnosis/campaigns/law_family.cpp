@@ -73,8 +73,8 @@ double safe_step(const Realization& realization)
     Realization linear = realization;
     bool softens = false;
     for (Joint& joint : linear.joints) {
-        softens = softens || joint.extension.force_exponent < 1;
-        joint.extension.force_exponent = 1;
+        softens = softens || joint.mechanisms.force_exponent < 1;
+        joint.mechanisms.force_exponent = 1;
     }
     const double step = step_bound(realization).dt_s;
     return softens ? std::min(step, step_bound(linear).dt_s) : step;
@@ -157,9 +157,9 @@ void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenSt
     for (const double y : specimen.rest_y_m)
         height = std::max(height, y);
     const double impact = impact_part * std::sqrt(specimen.gravity_m_s2 * height);
-    r.extended = true;
+    r.with_mechanisms = true;
     for (Joint& joint : r.joints) {
-        JointExtension& e = joint.extension;
+        JointMechanisms& e = joint.mechanisms;
         e.face_damping += (1 - e.face_damping) * law.face_share;
         e.rate_s_m += law.rate / impact;
     }
@@ -169,12 +169,12 @@ void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenSt
         const Block& lower = r.blocks[static_cast<std::size_t>(joint.lower)];
         const Block& upper = r.blocks[static_cast<std::size_t>(joint.upper)];
         const double inset = law.inset * std::min(lower.half_width_m, upper.half_width_m);
-        joint.extension.chip_left_m += inset;
-        joint.extension.chip_right_m += inset;
+        joint.mechanisms.chip_left_m += inset;
+        joint.mechanisms.chip_right_m += inset;
         if (law.exponent != 1) {
-            joint.extension.force_exponent = law.exponent;
+            joint.mechanisms.force_exponent = law.exponent;
             // the beds rest alike, whatever the exponent
-            joint.extension.reference_overlap_m2 = weights[j] / joint.normal_stiffness_n_m2;
+            joint.mechanisms.reference_overlap_m2 = weights[j] / joint.normal_stiffness_n_m2;
         }
     }
     r.step_s = step_fraction * safe_step(r);

@@ -79,7 +79,7 @@ Realization draw_specimen(const Specimen& specimen, const Study& about, const Sp
         block.mass_kg *= heavier;
         block.inertia_kg_m2 *= heavier * wider * wider;
     }
-    r.extended = true;
+    r.with_mechanisms = true;
     for (const SizedCause& cause : causes)
         apply_cause(cause, built, r);
     if (law)

@@ -119,20 +119,20 @@ TEST(CandidateCauses, WearGoesOnWhereEarlierRunsHaveLeftIt)
     const JointPath before{{0.5, 0.02}, {9, 0.4}};
     const double friction = joint(healthy, 1).friction;
     EXPECT_EQ(joint(worn(wear, 20, before), 1).friction, friction) << "of each run by itself";
-    EXPECT_EQ(joint(worn(corners, 1e-3, before), 1).extension.chip_left_m, 0);
+    EXPECT_EQ(joint(worn(corners, 1e-3, before), 1).mechanisms.chip_left_m, 0);
 
     wear.persists = corners.persists = true;
     const Joint late = joint(worn(wear, 20, before), 1);
     for (const double slip : {0.0, 0.01, 0.025}) // the law itself, over the whole path
-        EXPECT_NEAR(late.friction * (1 - late.extension.wear_per_m * slip), friction * (1 - 20 * (0.02 + slip)), 1e-12);
+        EXPECT_NEAR(late.friction * (1 - late.mechanisms.wear_per_m * slip), friction * (1 - 20 * (0.02 + slip)), 1e-12);
     EXPECT_EQ(joint(worn(wear, 20, before), 0).friction, joint(healthy, 0).friction);
     const Joint worn_out = joint(worn(wear, 60, before), 1);
     EXPECT_EQ(worn_out.friction, 0);
-    EXPECT_EQ(worn_out.extension.wear_per_m, 0);
+    EXPECT_EQ(worn_out.mechanisms.wear_per_m, 0);
     const Joint round = joint(worn(corners, 1e-3, before), 1);
-    EXPECT_DOUBLE_EQ(round.extension.chip_left_m, 0.4e-3);
-    EXPECT_DOUBLE_EQ(round.extension.chip_right_m, 0.4e-3);
-    EXPECT_DOUBLE_EQ(round.extension.corner_wear_m_rad, 1e-3);
+    EXPECT_DOUBLE_EQ(round.mechanisms.chip_left_m, 0.4e-3);
+    EXPECT_DOUBLE_EQ(round.mechanisms.chip_right_m, 0.4e-3);
+    EXPECT_DOUBLE_EQ(round.mechanisms.corner_wear_m_rad, 1e-3);
 }
 
 /// The same motion again and again: each run adds its path, and wear that goes on makes a joint slide farther.
@@ -200,11 +200,11 @@ TEST(CandidateCauses, DampingOfOneJointStaysThereBesideAnyLaw)
     };
     EXPECT_DOUBLE_EQ(joint(damped, 1).normal_damping_n_s_m, 4 * own);
     // at the ends: all that was added, and a quarter of the joint's own
-    EXPECT_NEAR(joint(damped, 1).extension.face_damping * 4 * own, 3 * own + 0.25 * own, 1e-9 * own);
-    EXPECT_DOUBLE_EQ(joint(damped, 0).extension.rate_s_m, joint(healthy, 0).extension.rate_s_m + 7);
+    EXPECT_NEAR(joint(damped, 1).mechanisms.face_damping * 4 * own, 3 * own + 0.25 * own, 1e-9 * own);
+    EXPECT_DOUBLE_EQ(joint(damped, 0).mechanisms.rate_s_m, joint(healthy, 0).mechanisms.rate_s_m + 7);
     EXPECT_DOUBLE_EQ(joint(damped, 0).normal_damping_n_s_m, own);
-    EXPECT_DOUBLE_EQ(joint(damped, 1).extension.rate_s_m, joint(healthy, 1).extension.rate_s_m);
-    EXPECT_DOUBLE_EQ(joint(healthy, 1).extension.face_damping, 0.25);
+    EXPECT_DOUBLE_EQ(joint(damped, 1).mechanisms.rate_s_m, joint(healthy, 1).mechanisms.rate_s_m);
+    EXPECT_DOUBLE_EQ(joint(healthy, 1).mechanisms.face_damping, 0.25);
     EXPECT_LT(damped.step_s, healthy.step_s) << "a stiffer dashpot needs a shorter step";
 }
 

@@ -105,7 +105,7 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
         bool changed = applied.base != plain.base;
         ASSERT_EQ(sampled.joints.size(), applied.joints.size());
         for (std::size_t j = 0; j < applied.joints.size(); ++j) {
-            const JointExtension &a = applied.joints[j].extension, &b = sampled.joints[j].extension;
+            const JointMechanisms &a = applied.joints[j].mechanisms, &b = sampled.joints[j].mechanisms;
             EXPECT_DOUBLE_EQ(applied.joints[j].friction, sampled.joints[j].friction) << j;
             EXPECT_DOUBLE_EQ(a.dynamic_ratio, b.dynamic_ratio) << j;
             EXPECT_EQ(a.stribeck_velocity_m_s, b.stribeck_velocity_m_s) << j;
@@ -119,19 +119,19 @@ TEST_P(CauseModel, TheStudyRunsWhatWasFitted)
             EXPECT_EQ(a.corner_wear_m_rad, b.corner_wear_m_rad) << j;
             EXPECT_EQ(a.rate_s_m, b.rate_s_m) << j;
             changed =
-                changed || !(a == plain.joints[j].extension) || applied.joints[j].friction != plain.joints[j].friction;
+                changed || !(a == plain.joints[j].mechanisms) || applied.joints[j].friction != plain.joints[j].friction;
         }
         ASSERT_EQ(sampled.blocks.size(), applied.blocks.size());
         for (std::size_t b = 0; b < applied.blocks.size(); ++b) {
             if (applied.blocks[b].mass_kg > 0) {
-                EXPECT_EQ(applied.blocks[b].extension, sampled.blocks[b].extension) << b;
+                EXPECT_EQ(applied.blocks[b].mechanisms, sampled.blocks[b].mechanisms) << b;
             }
-            changed = changed || !(applied.blocks[b].extension == plain.blocks[b].extension);
+            changed = changed || !(applied.blocks[b].mechanisms == plain.blocks[b].mechanisms);
         }
         EXPECT_EQ(applied.base, sampled.base);
         EXPECT_TRUE(changed);
         if (cause.parameter == "yield_n") { // the force at the end of the elastic slip is the yield force
-            const JointExtension& dowel = applied.joints[static_cast<std::size_t>(built.bed[1])].extension;
+            const JointMechanisms& dowel = applied.joints[static_cast<std::size_t>(built.bed[1])].mechanisms;
             EXPECT_DOUBLE_EQ(dowel.dowel_stiffness_n_m * 2e-4, dowel.dowel_yield_n);
             EXPECT_EQ(dowel.dowel_yield_n, sized.size);
         }
@@ -247,11 +247,11 @@ TEST_P(CauseModel, ADashpotOfOneJointIsAtTheEndsOfItsFaceInAStudy)
     const Realization sampled = Sampler(extended, nullptr).realization(0);
     const auto here = static_cast<std::size_t>(built.bed[1]);
     for (std::size_t j = 0; j < plain.joints.size(); ++j) {
-        EXPECT_EQ(sampled.joints[j].extension.face_damping, j == here ? 1 : 0) << j;
+        EXPECT_EQ(sampled.joints[j].mechanisms.face_damping, j == here ? 1 : 0) << j;
         EXPECT_EQ(applied.joints[j].normal_damping_n_s_m, plain.joints[j].normal_damping_n_s_m + (j == here ? 40 : 0))
             << j;
     }
-    EXPECT_DOUBLE_EQ(applied.joints[here].extension.face_damping, 40 / applied.joints[here].normal_damping_n_s_m);
+    EXPECT_DOUBLE_EQ(applied.joints[here].mechanisms.face_damping, 40 / applied.joints[here].normal_damping_n_s_m);
 }
 
 TEST(ExtendedStudy, HasWhatTheBaseDoesAndRuns)

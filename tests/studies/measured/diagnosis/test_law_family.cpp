@@ -152,12 +152,12 @@ TEST(LawFamily, PutsItsNumbersIntoTheJoints)
     EXPECT_DOUBLE_EQ(joint.friction, 0.9 * study.contact.friction);
     EXPECT_EQ(r.form, ContactForm::two_corner);
     // a corner that a cause took stays lost
-    r.joints[static_cast<std::size_t>(built.bed[0])].extension.chip_left_m = 0.001;
+    r.joints[static_cast<std::size_t>(built.bed[0])].mechanisms.chip_left_m = 0.001;
     apply_law(law, campaign.specimen, built, 0.9, r);
     const double inset = 0.02 * campaign.specimen.half_width_m[0];
-    EXPECT_NEAR(joint.extension.chip_left_m, 0.001 + inset, 1e-12);
-    EXPECT_NEAR(joint.extension.chip_right_m, inset, 1e-12);
-    EXPECT_EQ(joint.extension.force_exponent, 1.5);
+    EXPECT_NEAR(joint.mechanisms.chip_left_m, 0.001 + inset, 1e-12);
+    EXPECT_NEAR(joint.mechanisms.chip_right_m, inset, 1e-12);
+    EXPECT_EQ(joint.mechanisms.force_exponent, 1.5);
     EXPECT_DOUBLE_EQ(r.step_s, 0.9 * step_bound(r).dt_s);
     // a softening law is no stiffer than the linear one under large loads, and stiffer under small ones
     Realization soft = nominal_realization(contacts, built.structure);
@@ -165,7 +165,7 @@ TEST(LawFamily, PutsItsNumbersIntoTheJoints)
     apply_law(law, campaign.specimen, built, 0.9, soft);
     Realization linear = soft;
     for (Joint& j : linear.joints)
-        j.extension.force_exponent = 1;
+        j.mechanisms.force_exponent = 1;
     EXPECT_LE(soft.step_s, 0.9 * step_bound(soft).dt_s);
     EXPECT_LE(soft.step_s, 0.9 * step_bound(linear).dt_s);
 }

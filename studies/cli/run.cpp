@@ -1,0 +1,45 @@
+/// `stylobate run` and `stylobate merge`: from a study file, or from the results of its parts, to a results file.
+
+#include "studies/workflow/run.hpp"
+#include "ensemble/run/executor.hpp"
+#include "studies/cli/command.hpp"
+
+namespace stylobate {
+
+namespace {
+
+/// Prints what a run has come to. @returns the exit status
+int print_run(const CommonOptions& options, const RunReport& report)
+{
+    if (report.was_complete && !options.json && !options.quiet)
+        fmt::print("{}: already complete. (Remove the file to run the study again.)\n", report.results);
+    print(
+        options, [&] { return run_text(report); }, [&] { return run_json(report); });
+    return report.interrupted() ? exit_interrupted : report_invalid(report.too_many_invalid());
+}
+
+} // namespace
+
+int run_command(const CommonOptions& options, const std::string& study, const std::string& results,
+                const std::string& shard, bool laws)
+{
+    Console console(options.quiet || !options.leads());
+    const RunReport report = run_study_file({study, options.set, given(results), given(shard), laws}, options, console);
+    if (!options.leads())
+        return report.complete ? exit_done : exit_interrupted;
+    return print_run(options, report);
+}
+
+int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
+                  bool partial)
+{
+    Console console(options.quiet);
+    const auto report = merge_shards({files, output, partial, options.force, options.set}, options, console);
+    if (!report) {
+        say("Interrupted; nothing was written.\n");
+        return exit_interrupted;
+    }
+    return print_run(options, *report);
+}
+
+} // namespace stylobate
