@@ -91,8 +91,8 @@ struct OfRealization {
     };
 };
 
-/// Fields of a block's mechanisms (`planar/mechanisms/`); present only with a model with mechanisms. In it the displacements
-/// of `OfBlock` are those of the centre of mass. All zero is neutral.
+/// Fields of a block's mechanisms (`planar/mechanisms/`); present only with a model with mechanisms. In it the
+/// displacements of `OfBlock` are those of the centre of mass. All zero is neutral.
 struct OfBlockMechanisms {
     enum Field : int {
         reference_x,   ///< centre of mass in the reference stack, from the point about which the base turns [m]
@@ -155,8 +155,8 @@ struct OfRealizationMechanisms {
     };
 };
 
-/// Fields of what strengthens a block (`planar/mechanisms/strengthened.hpp`); present only with a strengthened model. All zero
-/// is neutral. The fields from `tendon_set` on are the memory of the path, which the step writes.
+/// Fields of what strengthens a block (`planar/mechanisms/strengthening.hpp`); present only with a strengthened model.
+/// All zero is neutral. The fields from `tendon_set` on are the memory of the path, which the step writes.
 struct OfBlockStrengthening {
     enum Field : int {
         tendon_stiffness, ///< tendon: k [N/m]

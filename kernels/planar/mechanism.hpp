@@ -21,8 +21,8 @@ struct Plain {
 };
 using Baseline = Plain<ContactForm::area>;
 
-/// The paper's model with all mechanisms of `planar/mechanisms/`, each of which may be neutral, realization by realization:
-/// where all are, it gives the bits of `Plain`.
+/// The paper's model with all mechanisms of `planar/mechanisms/`, each of which may be neutral, realization by
+/// realization: where all are, it gives the bits of `Plain`.
 template <ContactForm form_>
 struct Mechanisms {
     static constexpr bool mechanisms = true;
