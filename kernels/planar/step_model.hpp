@@ -22,7 +22,8 @@ enum class RestitutionLaw : std::uint8_t {
 struct StepModel {
     bool mechanisms = false; ///< a mechanism of a joint, a block or the base may be other than neutral
     ContactForm form = ContactForm::area;
-    bool strengthened = false; ///< with mechanisms: so may be one of what strengthens a structure (`strengthened.hpp`)
+    bool strengthened =
+        false; ///< with mechanisms: so may be one of what strengthens a structure (`mechanisms/strengthening.hpp`)
     constexpr bool rigid() const { return form == ContactForm::rigid; }
     /// Whether the bundle has the rows of the mechanisms: some belong to the forms.
     constexpr bool has_mechanism_rows() const
