@@ -11,7 +11,7 @@
 #include "io/records/record.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/compare/law_runs.hpp"
 #include "studies/experiment/conventions.hpp"

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"
 #include "studies/decisions/compare/law_runs.hpp"
 #include "studies/measured/calibration/calibration_page.hpp"

@@ -3,7 +3,6 @@
 
 #include "io/tables/table.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/decisions/risk/risk_change.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 #include "studies/workflow/workflow.hpp"

@@ -5,10 +5,10 @@
 
 #include "io/files/file_handle.hpp"
 #include "io/store/result_seal.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/table_edits.hpp"

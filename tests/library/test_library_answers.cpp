@@ -4,7 +4,7 @@
 #include "tests/library/inputs.hpp"
 #include "tests/program/program.hpp"
 
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "ensemble/model/observer.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/decisions/risk/risk_file.hpp"
+#include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/risk/sequences.hpp"
 
 #include <cmath>

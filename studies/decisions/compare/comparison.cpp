@@ -1,5 +1,6 @@
 #include "studies/decisions/compare/comparison.hpp"
 
+#include "io/sealed/sealed_file.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace stylobate {
 
@@ -88,6 +90,132 @@ std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const Limit
 std::string capacity_measure(const Comparison& comparison)
 {
     return comparison.measure.empty() ? "PGA" : short_measure(comparison.measure);
+}
+
+namespace {
+
+constexpr SealedFormat format{"stylobate-comparison", "comparison", 2, 1, "compare again"};
+constexpr char variant_table[] = "variant_";   ///< and its number
+constexpr char motion[] = "motion";            ///< before the names of the pairs of each motion
+constexpr char motion_shape[] = "motion_both"; ///< files of version 1 are without it
+constexpr char depends_prefix[] = "depends", depends_difference[] = "depends_difference";
+
+/// The limit state over all cells, as a list of one.
+constexpr auto overall = [](auto& limit) { return std::span(&limit.overall, 1); };
+constexpr auto thirds = [](auto& input) -> auto&
+{
+    return input.found.thirds;
+};
+
+Table general_table(const Comparison& c)
+{
+    Table table("comparison");
+    add_record(table, c);
+    std::vector<std::string> names;
+    for (const VariantComparison& variant : c.variants)
+        names.push_back(variant.name);
+    table.add("variants", names);
+    return table;
+}
+
+/// Places are (limit states x cells), those over all cells (limit states), and the pairs of motions, from which the
+/// change of a frequency is computed, (limit states x stripes x motions).
+Table table_of(const VariantComparison& v, std::size_t number, std::size_t cells)
+{
+    Table table(variant_table + std::to_string(number));
+    const std::size_t limits = v.limits.size();
+    add_record(table, v);
+    add_rows(table, v.limits);
+    add_rows(table, pointers_to(v.limits, &LimitComparison::cells), "", Table::Shape{limits, cells});
+    add_rows(table, pointers_to(v.limits, overall), "overall");
+    if (limits > 0 && !v.limits.front().by_motion.empty())
+        add_rows(table, pointers_to(v.limits, &LimitComparison::by_motion), motion,
+                 Table::Shape{limits, cells, v.limits.front().by_motion.size() / cells});
+    add_rows(table, v.inputs);
+    add_rows(table, v.depends, depends_prefix);
+    std::vector<double> between;
+    for (const InputDependence& input : v.depends)
+        between.insert(between.end(), input.found.between.begin(), input.found.between.end());
+    table.add("depends_between", std::move(between), {v.depends.size(), 2});
+    add_rows(table, pointers_to(v.depends, thirds), depends_difference, Table::Shape{v.depends.size(), 3});
+    return table;
+}
+
+void read_places(const Table& table, const std::vector<PlaceComparison*>& places, const std::string& before,
+                 const Table::Shape& shape)
+{
+    read_rows(table, places, before, shape);
+    for (PlaceComparison* place : places) {
+        place->base.trials = place->variant.trials = place->counts.pairs();
+        place->base.count = place->counts.base();
+        place->variant.count = place->counts.variant();
+    }
+}
+
+VariantComparison variant_of(const Table& table, std::size_t cells)
+{
+    VariantComparison v;
+    read_record(table, v);
+    v.limits = rows_of<LimitComparison>(table, "limit_states");
+    const std::size_t limits = v.limits.size();
+    if (limits == 0)
+        table.refuse("it has no limit state");
+    table.counts("both", {limits, cells}); // as many places as there are numbers
+    for (LimitComparison& limit : v.limits)
+        limit.cells.resize(cells);
+    read_places(table, pointers_to(v.limits, &LimitComparison::cells), "", {limits, cells});
+    read_places(table, pointers_to(v.limits, overall), "overall", {limits});
+    if (table.has(motion_shape)) {
+        const Table::Shape shape = table.shape(motion_shape);
+        if (shape.size() != 3 || shape[0] != limits || shape[1] != cells || shape[2] == 0)
+            table.refuse("its pairs of motions have another shape");
+        for (LimitComparison& limit : v.limits)
+            limit.by_motion.resize(cells * shape[2]);
+        read_rows(table, pointers_to(v.limits, &LimitComparison::by_motion), motion, shape);
+    }
+    v.inputs = rows_of<CommonInput>(table, "inputs");
+    v.depends = rows_of<InputDependence>(table, "depends_on", depends_prefix);
+    const std::size_t inputs = v.depends.size();
+    const std::vector<double>& between = table.numbers("depends_between", {inputs, 2});
+    for (std::size_t i = 0; i < inputs; ++i)
+        v.depends[i].found.between = {between[2 * i], between[2 * i + 1]};
+    read_rows(table, pointers_to(v.depends, thirds), depends_difference, Table::Shape{inputs, 3});
+    return v;
+}
+
+} // namespace
+
+std::vector<Table> tables_of(const Comparison& comparison)
+{
+    std::vector<Table> tables = {general_table(comparison)};
+    for (std::size_t i = 0; i < comparison.variants.size(); ++i)
+        tables.push_back(table_of(comparison.variants[i], i, comparison.cells()));
+    return tables;
+}
+
+Comparison comparison_from(const std::vector<Table>& tables, const std::string& file)
+{
+    const Table& general = table_named(tables, "comparison", file);
+    Comparison c;
+    read_record(general, c);
+    if (c.frequency_hz.empty() != c.pga_m_s2.empty())
+        general.refuse("one axis of its surface is missing");
+    const std::size_t variants = general.texts("variants").size();
+    if (variants == 0)
+        general.refuse("it has no variant");
+    for (std::size_t i = 0; i < variants; ++i)
+        c.variants.push_back(variant_of(table_named(tables, variant_table + std::to_string(i), file), c.cells()));
+    return c;
+}
+
+void write_comparison(const Comparison& comparison, const std::filesystem::path& file)
+{
+    write_sealed_file(file, format, comparison.code_version, Table(format.kind, tables_of(comparison)));
+}
+
+Comparison read_comparison(const std::filesystem::path& file)
+{
+    return comparison_from(read_sealed_file(file, format).content.tables(), file.string());
 }
 
 } // namespace stylobate

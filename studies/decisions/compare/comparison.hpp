@@ -1,14 +1,16 @@
 #pragma once
-/// What an intervention changes, by limit state and place, as plain data.
+/// What an intervention changes, by limit state and place, as plain data, and as an HDF5 file (`io/FORMAT.md`).
 
 #include "ensemble/estimators/paired/capacity_ratio.hpp"
 #include "ensemble/estimators/paired/dependence.hpp"
 #include "ensemble/estimators/paired/paired_counts.hpp"
 #include "io/tables/rows.hpp"
+#include "io/tables/table.hpp"
 #include "studies/experiment/limit_state.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -243,5 +245,18 @@ void visit_fields(std::type_identity<Comparison>, F&& f)
     f("pga_m_s2", &Comparison::pga_m_s2, {.none = "no surface"});
     f("intensity", &Comparison::intensity, {.none = "no stripes"});
 }
+
+/// Writes it whole or not at all; the same comparison gives the same bytes.
+/// @throws InputError if it cannot be written
+void write_comparison(const Comparison& comparison, const std::filesystem::path& file);
+
+/// @throws InputError if the file is none, of another format version, or damaged
+Comparison read_comparison(const std::filesystem::path& file);
+
+/// What the file has between its seal and its end.
+std::vector<Table> tables_of(const Comparison& comparison);
+/// @param file  for messages
+/// @throws InputError "FILE: is damaged" where the tables are not those of a comparison
+Comparison comparison_from(const std::vector<Table>& tables, const std::string& file);
 
 } // namespace stylobate

@@ -2,9 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "studies/decisions/compare/comparable.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,70 @@
 #pragma once
-/// From the realizations of two studies to what the intervention changes.
+/// Studies paired realization by realization: which limit states each reached, and what the intervention changes.
 
 #include "ensemble/estimators/paired/repeated_looks.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/decisions/compare/comparison.hpp"
-#include "studies/decisions/compare/study_side.hpp"
+#include "studies/experiment/limit_state.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace stylobate {
+
+struct LimitDefinition {
+    std::string name, describe;
+    bool damage = true;                                           ///< whether more of it is worse
+    std::function<std::optional<bool>(const ResultRow&)> reached; ///< of a valid realization; nothing: not known
+};
+
+/// The limit states of a study: those of surfaces (limit_state.hpp), or the damage states of a fragility study.
+/// @param study, header must outlive what is returned
+std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultHeader& header);
+
+/// What became of the realizations of a study, by index.
+class StudySide {
+public:
+    /// Without rows as yet. @param study, header must outlive it
+    StudySide(const Study& study, const ResultHeader& header);
+
+    void add(const ResultRow& row);
+
+    bool has(std::uint64_t index) const { return (state_[index] & present) != 0; }
+    bool valid(std::uint64_t index) const { return (state_[index] & invalid) == 0; }
+    /// Whether it is a valid realization of which is known whether it reached the limit state. @pre has(index)
+    bool known(std::uint64_t index, std::size_t limit) const
+    {
+        return valid(index) && (state_[index] >> (most_limits + limit) & 1) == 0;
+    }
+    /// @pre has(index) && known(index, limit)
+    bool reached(std::uint64_t index, std::size_t limit) const { return (state_[index] >> limit & 1) != 0; }
+    std::uint64_t size() const { return state_.size(); }
+    const std::vector<LimitDefinition>& limits() const { return limits_; }
+
+    /// Draws of the first realizations of each cell, for the question which numbers two studies have in common: an
+    /// adaptive comparison has the first ones, too.
+    struct Draws {
+        std::uint64_t index;
+        std::vector<double> inputs;
+    };
+    /// In the order of their indices.
+    std::vector<Draws> draws() const;
+
+private:
+    // a bit for each limit state that was reached, one for each of which it is not known, and these
+    static constexpr std::size_t most_limits = 30;
+    static constexpr std::uint64_t present = 1ull << 63, invalid = 1ull << 62;
+    static constexpr std::uint64_t most_draws = 512; ///< or one of each cell
+
+    std::vector<LimitDefinition> limits_;
+    std::vector<std::uint64_t> state_;
+    std::vector<Draws> draws_;
+    std::uint64_t per_cell_, drawn_per_cell_; ///< realizations of a cell, and those of them that keep their draws
+};
 
 /// How the pairs of a study are divided.
 struct PairLayout {
@@ -40,5 +99,23 @@ PlaceComparison compare_overall(std::span<const PairedCounts> counts, const Pair
 VariantComparison compare_sides(const StudySide& base, const std::vector<std::string>& base_inputs,
                                 const StudySide& variant, const std::vector<std::string>& variant_inputs,
                                 const PairLayout& layout);
+
+/// What two studies have in common, by quantity, and of a quantity by relation. A number is the same if all pairs have
+/// the same bits; it is the same quantile if the order of the realizations is the same.
+/// @param names of the inputs: "friction[3]"
+std::vector<CommonInput> common_inputs(const std::vector<StudySide::Draws>& base,
+                                       const std::vector<std::string>& base_names,
+                                       const std::vector<StudySide::Draws>& variant,
+                                       const std::vector<std::string>& variant_names);
+
+/// Pairs that are looked at, at most: the first ones of each cell.
+inline constexpr std::uint64_t most_dependence_pairs = 4'000'000;
+
+/// The quantities of the base that vary, the one with the smallest p-value first. None where pairs share motions (a
+/// fragility study): the test wants independent pairs.
+/// @param rows of the base   @param base_limit, variant_limit the limit state among those of each side
+std::vector<InputDependence> input_dependences(const ResultReader& rows, const StudySide& base,
+                                               const StudySide& variant, std::size_t base_limit,
+                                               std::size_t variant_limit, const PairLayout& layout);
 
 } // namespace stylobate

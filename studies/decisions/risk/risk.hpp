@@ -1,17 +1,92 @@
 #pragma once
 /// How often a monument reaches each limit state, and how likely that is over years: a fragility study over a hazard.
 
+#include "ensemble/estimators/fragility/limits.hpp"
+#include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
 #include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/model/fields.hpp"
 #include "io/tables/rows.hpp"
-#include "studies/decisions/risk/sequence_risk.hpp"
+#include "io/tables/table.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
+
+/// A share or a difference with its interval.
+struct SequenceNumber {
+    double value = 0;
+    Limits limits;
+};
+
+struct SequenceRisk {
+    double years = 0;
+    double level = 0.9;
+    std::uint64_t histories = 0;
+    double threshold = 0; ///< weaker earthquakes are left out
+    std::string threshold_says;
+    double events_a_year = 0;                  ///< of the hazard above the threshold
+    std::uint64_t events = 0, most_events = 0; ///< in all histories; in one
+    std::uint64_t with_two = 0;                ///< histories with two earthquakes or more: the others cannot differ
+    std::uint64_t carried = 0, fresh = 0, both = 0; ///< histories with a fall
+    std::uint64_t invalid = 0;                      ///< histories that are left out of the counts
+    std::uint64_t runs = 0, steps = 0;              ///< what it took
+    SequenceNumber carried_share, fresh_share;
+    SequenceNumber difference;  ///< of the shares, paired
+    SequenceNumber ratio;       ///< carried over fresh, paired
+    SequenceNumber closed_form; ///< 1 - exp(-lambda years) of the fragility, which meets each earthquake as new
+    /// The threshold's check: so many histories once more with weaker earthquakes too, and how many of them fell then
+    /// and had not before, or the reverse: a history that differs early may end otherwise by chance.
+    std::uint64_t checked = 0, then_fell = 0, then_stood = 0;
+    double checked_threshold = 0;
+    SequenceNumber check_difference; ///< of the share that has fallen, with weaker earthquakes minus without, paired
+};
+
+template <class F>
+void visit_fields(std::type_identity<SequenceNumber>, F&& f)
+{
+    f("value", &SequenceNumber::value);
+    f(
+        "lower", [](auto& n) -> auto& { return n.limits.lower; });
+    f(
+        "upper", [](auto& n) -> auto& { return n.limits.upper; });
+}
+
+template <class F>
+void visit_fields(std::type_identity<SequenceRisk>, F&& f)
+{
+    f("years", &SequenceRisk::years);
+    f("level", &SequenceRisk::level);
+    f("histories", &SequenceRisk::histories);
+    f("threshold", &SequenceRisk::threshold);
+    f("threshold_says", &SequenceRisk::threshold_says);
+    f("events_1_year", &SequenceRisk::events_a_year);
+    f("events", &SequenceRisk::events);
+    f("most_events", &SequenceRisk::most_events);
+    f("histories_with_two_events", &SequenceRisk::with_two);
+    f("fallen_carried", &SequenceRisk::carried);
+    f("fallen_fresh", &SequenceRisk::fresh);
+    f("fallen_both", &SequenceRisk::both);
+    f("invalid", &SequenceRisk::invalid);
+    f("runs", &SequenceRisk::runs);
+    f("steps", &SequenceRisk::steps);
+    f("carried_share", &SequenceRisk::carried_share);
+    f("fresh_share", &SequenceRisk::fresh_share);
+    f("difference", &SequenceRisk::difference);
+    f("ratio", &SequenceRisk::ratio);
+    f("closed_form", &SequenceRisk::closed_form);
+    f("checked", &SequenceRisk::checked);
+    f("checked_threshold", &SequenceRisk::checked_threshold);
+    f("then_fell", &SequenceRisk::then_fell);
+    f("then_stood", &SequenceRisk::then_stood);
+    f("check_difference", &SequenceRisk::check_difference);
+}
 
 struct RiskOptions {
     std::vector<double> years = {50, 100};
@@ -148,5 +223,114 @@ void visit_fields(std::type_identity<Risk>, F&& f)
     f("study_toml", &Risk::study_text);
     f("fragility_level", &Risk::fragility_level);
 }
+
+struct Comparison;
+
+/// One limit state of one variant. Frequencies are by the shares of the stripes, in both structures.
+struct StateChange {
+    std::string state, meaning;
+    bool damage = true;     ///< whether more of it is worse
+    bool determined = true; ///< otherwise too much comes from outside of the intensities of the study or the hazard
+    std::string note;       ///< why it is not determined, and what else must be known
+    FrequencyChange change; ///< of a file that was read: without the parts of base and variant
+    std::vector<double> base_share, variant_share; ///< (stripes)
+
+    /// "lower", "higher", "undecided" or "not determined", by the limits of the change of the frequency.
+    const char* verdict() const;
+};
+
+struct VariantChange {
+    std::string name, results;
+    std::vector<StateChange> states;
+
+    /// The collapse where it is there, else the last limit state.
+    const StateChange& principal() const;
+};
+
+struct RiskChange : RiskFacts {
+    std::string comparison_file, base_name;
+    std::vector<double> intensity; ///< of the stripes
+    std::uint64_t motions = 0;
+    std::vector<VariantChange> variants;
+};
+
+/// @throws InputError if the comparison is not of fragility studies with two stripes or more, has no pairs of motions
+///         (files of earlier versions), lacks the limit state that is asked for, or determines no change at all
+RiskChange risk_change_of(const Comparison& comparison, const std::string& file, const HazardModel& hazard,
+                          const RiskOptions& options);
+
+/// Refuses what has no risk, before a hazard is read. @throws InputError
+void check_has_risk(const Comparison& comparison, const std::string& file);
+
+// ---- fields, in the file, in JSON and in tables ---------------------------------------------------------------------
+
+template <class F>
+void visit_fields(std::type_identity<StateChange>, F&& f)
+{
+    f("state", &StateChange::state);
+    f("meaning", &StateChange::meaning);
+    f("damage", &StateChange::damage);
+    f("determined", &StateChange::determined);
+    f("verdict", [](const StateChange& s) { return s.verdict(); });
+    f(
+        "base_annual_frequency", [](auto& s) -> auto& { return s.change.base.frequency; }, per_year);
+    f(
+        "variant_annual_frequency", [](auto& s) -> auto& { return s.change.variant.frequency; }, per_year);
+    f(
+        "change", [](auto& s) -> auto& { return s.change.frequency; }, per_year);
+    f(
+        "ratio", [](auto& s) -> auto& { return s.change.ratio; });
+    f(
+        "base_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.base.unseen; }, per_year);
+    f(
+        "variant_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.variant.unseen; }, per_year);
+    f("note", &StateChange::note);
+}
+
+template <class F>
+void visit_fields(std::type_identity<VariantChange>, F&& f)
+{
+    f("variants", &VariantChange::name);
+    f("variant_results", &VariantChange::results);
+}
+
+template <class F>
+void visit_fields(std::type_identity<RiskChange>, F&& f)
+{
+    visit_fields(std::type_identity<RiskFacts>(), f);
+    f("comparison_file", &RiskChange::comparison_file);
+    f("base", &RiskChange::base_name);
+    f("motions", &RiskChange::motions);
+    f("intensity", &RiskChange::intensity);
+}
+
+/// Writes a file whole or not at all; equal estimates give equal bytes. @throws InputError if it cannot be written
+/// @{
+void write_risk(const Risk& risk, const std::filesystem::path& file);
+void write_risk_change(const RiskChange& change, const std::filesystem::path& file);
+/// @}
+
+/// @throws InputError if the file is none, of another format version, truncated or damaged
+/// @{
+Risk read_risk(const std::filesystem::path& file);
+RiskChange read_risk_change(const std::filesystem::path& file);
+/// @}
+
+/// What a file has between its seal and its end.
+/// @{
+std::vector<Table> tables_of(const Risk& risk);
+std::vector<Table> tables_of(const RiskChange& change);
+/// @}
+/// @param file for messages   @throws InputError "FILE: is damaged" where the tables are not those of such an estimate
+/// @{
+Risk risk_from(const std::vector<Table>& tables, const std::string& file);
+RiskChange risk_change_from(const std::vector<Table>& tables, const std::string& file);
+/// @}
+
+/// The tables as comma-separated values: names of files and their texts.
+/// @{
+std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk);
+std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change);
+/// @}
 
 } // namespace stylobate

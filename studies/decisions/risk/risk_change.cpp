@@ -1,4 +1,4 @@
-#include "studies/decisions/risk/risk_change.hpp"
+#include "studies/decisions/risk/risk.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/in_parallel.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// A risk estimate of a comparison in words, as JSON, as a page and as a picture.
 
-#include "studies/decisions/risk/risk_change.hpp"
+#include "studies/decisions/risk/risk.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 

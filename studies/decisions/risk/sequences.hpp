@@ -11,7 +11,7 @@
 
 #include "ensemble/estimators/risk/hazard.hpp"
 #include "ensemble/run/executor.hpp"
-#include "studies/decisions/risk/sequence_risk.hpp"
+#include "studies/decisions/risk/risk.hpp"
 #include "studies/results/results.hpp"
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/comparable.hpp"
+#include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/search/search_objective.hpp"

@@ -3,7 +3,6 @@
 
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/decisions/risk/risk_change.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 /// What a comparison comes to in sentences, and that its file keeps what they are made of.
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 
 #include <gtest/gtest.h>

@@ -3,10 +3,10 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/temporary_folder.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
+#include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_file.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"

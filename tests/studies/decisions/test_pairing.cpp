@@ -2,10 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/comparable.hpp"
-#include "studies/decisions/compare/comparison_file.hpp"
+#include "studies/decisions/compare/compare_studies.hpp"
+#include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
-#include "studies/decisions/compare/drawn_quantities.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 #include "studies/decisions/search/search_objective.hpp"
 #include "tests/studies/decisions/interval_equations.hpp"
