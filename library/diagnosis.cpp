@@ -1,8 +1,7 @@
 #include "stylobate/diagnosis.hpp"
 
 #include "library/inside.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/workflow/diagnose.hpp"
 

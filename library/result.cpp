@@ -4,7 +4,7 @@
 #include "io/study/study_file.hpp"
 #include "library/outcomes.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
-#include "studies/workflow/run_report.hpp"
+#include "studies/workflow/run.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,14 @@
 #pragma once
-/// A check of a study, from what it refuses to what it finds.
+/// A check of a study, from what it refuses to what it finds, and its report.
 
 #include "ensemble/model/observer.hpp"
-#include "studies/check/check_report.hpp"
+#include "studies/check/law_share.hpp"
+#include "studies/check/run_cost.hpp"
+#include "studies/check/weak_spots.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/experiment/numerics.hpp"
 #include "studies/kinds/kind.hpp"
+#include "studies/report/json.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,8 +16,36 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace stylobate {
+
+struct CheckReport {
+    std::string file; ///< of the study
+    Study study;
+    RunOptions run;
+    std::vector<std::string> warnings{};
+    std::string notice{}; ///< of the kind; empty: none
+    std::string picture{};
+    RunSize size{};
+    std::optional<Trial> trial{};
+    std::optional<RunTime> time{};
+    double memory_bytes = 0;
+    std::optional<std::uint64_t> counted{}; ///< `counted_trials`
+    FreeMotion free{};
+    std::vector<WeakSpot> weak{};
+    std::vector<std::string> not_looked_for{}; ///< sentences
+    std::string why_no_pilot{};
+    std::optional<NumericsCheck> pilot{};
+    LawShare laws{};
+
+    /// The error of the numerics is shown to be larger than `run.accuracy`.
+    bool missed() const;
+};
+
+/// Lines, as the program prints them.
+std::string check_text(const CheckReport& report);
+Json check_json(const CheckReport& report);
 
 /// What a check is asked to spend.
 struct CheckPlan {

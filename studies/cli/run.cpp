@@ -1,8 +1,11 @@
-/// `stylobate run` and `stylobate merge`: from a study file, or from the results of its parts, to a results file.
+/// `stylobate run` and `stylobate merge`, from a study file or the results of its parts to a results file; `stylobate
+/// report`, from any file to a page.
 
 #include "studies/workflow/run.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/cli/command.hpp"
+#include "studies/workflow/output_path.hpp"
+#include "studies/workflow/report.hpp"
 
 namespace stylobate {
 
@@ -40,6 +43,20 @@ int merge_command(const CommonOptions& options, const std::vector<std::string>& 
         return exit_interrupted;
     }
     return print_run(options, *report);
+}
+
+int report_command(const CommonOptions& options, PageRequest request, const std::string& output)
+{
+    request.output = given(output).value_or(beside(request.file, ".html").string());
+    request.settings = options.set;
+    request.force = options.force;
+    Console console(options.quiet);
+    if (!make_page(request, options, console)) {
+        console.warn("interrupted: no page was written");
+        return exit_interrupted;
+    }
+    print_written(options, *request.output);
+    return exit_done;
 }
 
 } // namespace stylobate

@@ -1,11 +1,21 @@
 #include "studies/verify/verification.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
+#include "io/keys/words.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/experiment/loaded_study.hpp"
+#include "studies/results/kinds.hpp"
+#include "studies/results/results.hpp"
+#include "studies/verify/recorded_rounds.hpp"
+#include "studies/verify/value_checks.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 namespace stylobate {
@@ -104,6 +114,251 @@ Json json_of(const FileVerification& v)
         .member("study_crc32", v.study_crc32)
         .member("well", v.well())
         .member("checks", checks);
+}
+
+namespace {
+
+/// The header that a replay of one realization has, of the study's.
+ResultHeader replay_header(ResultHeader study, std::uint64_t index)
+{
+    study.kind = "replay";
+    study.first = index;
+    study.total = 1;
+    study.selected = false;
+    study.limit_states.clear();
+    study.frequency_hz.clear();
+    study.pga_m_s2.clear();
+    return study;
+}
+
+class Verifier {
+public:
+    Verifier(const std::string& file, const VerifyOptions& options, Observer& observer)
+        : options_(options), observer_(observer), results_(file, options.settings), reader_(results_.reader()),
+          header_(results_.header()), study_(results_.study())
+    {
+        v_.file = file;
+        v_.kind = header_.kind;
+        v_.realizations = header_.total;
+        v_.done = reader_.done();
+        v_.complete = reader_.complete();
+        v_.code_version = header_.code_version;
+        v_.build = header_.build;
+        v_.study_crc32 = fmt::format("{:08x}", study_crc32_of(header_));
+        v_.same_version = header_.code_version == code_version();
+    }
+
+    FileVerification verify()
+    {
+        check_checksums();
+        load();
+        check_study();
+        check_values();
+        check_made();
+        return std::move(v_);
+    }
+
+private:
+    /// Whoever has opened the file has verified them, all but what an unfinished file has behind its last record.
+    void check_checksums()
+    {
+        FileCheck check{.name = "checksums", .text = "every byte, by the checksums of the rows and of the rest"};
+        if (const ResultReader::Unread unread = reader_.unread(); unread.damaged)
+            check.add({"the records of the rows", std::nullopt,
+                       fmt::format("{} bytes that are no record", unread.bytes),
+                       "nothing: what was there is lost, and the run computes it again"});
+        else if (unread.bytes > 0)
+            check.text += fmt::format("; the last {} bytes are the beginning of a record, as a run leaves that is "
+                                      "killed",
+                                      unread.bytes);
+        v_.checks.push_back(std::move(check));
+    }
+
+    /// The study with its motions; without them, why not.
+    void load()
+    {
+        try {
+            loaded_.emplace(LoadedStudy::from_results(study_, header_, results_.file(), options_.settings));
+        } catch (const InputError& error) {
+            if (!options_.settings.empty())
+                throw;
+            unloaded_ = error.what();
+        }
+    }
+
+    /// The study's text against its checksum, against what this version reads from it, and against the header.
+    void check_study()
+    {
+        FileCheck check{.name = "study"};
+        const std::uint32_t crc = study_crc32_of(header_);
+        if (header_.study_crc32 && *header_.study_crc32 != crc)
+            check.add({"study_crc32", std::nullopt, fmt::format("{:08x}", *header_.study_crc32),
+                       fmt::format("{:08x}, of study_toml", crc)});
+        if (study_.seed != header_.seed)
+            check.add(
+                {"seed", std::nullopt, fmt::format("{}", header_.seed), fmt::format("{}, of study_toml", study_.seed)});
+        if (header_.kind != "replay" && header_.kind != word_for(study_kind_names, study_.kind))
+            check.add({"kind", std::nullopt, header_.kind, std::string(word_for(study_kind_names, study_.kind))});
+        check.text = "the text of the study against its checksum and the seed";
+        if (!loaded_) {
+            check.text += "; not against the motions: " + unloaded_;
+        } else {
+            ResultHeader made = loaded_->result_header();
+            if (header_.kind == "replay")
+                made = replay_header(std::move(made), header_.first);
+            // another version may write defaults that came later; a record may lie elsewhere, and is known by its
+            // samples
+            if (!v_.same_version || !options_.settings.empty())
+                made.study_toml = header_.study_toml;
+            const std::string other = study_difference(header_, reader_.complete(), made);
+            sound_ = other.empty();
+            if (!sound_)
+                check.add({"header", std::nullopt, other, ""});
+            check.text += v_.same_version ? "; inputs, blocks, axes and motions against what it makes"
+                                          : "; inputs, blocks, axes and motions against what this version makes of it";
+        }
+        v_.checks.push_back(std::move(check));
+    }
+
+    void check_values()
+    {
+        if (!header_.has_rows()) {
+            v_.checks.push_back(check_counts(study_, reader_));
+            return;
+        }
+        RowChecks rows = check_rows(study_, reader_);
+        sound_ = sound_ && !rows.wrong_cell;
+        v_.checks.push_back(std::move(rows.check));
+    }
+
+    /// What is made of the realizations, and realizations made again.
+    void check_made()
+    {
+        FileCheck tables{.name = "tables"}, replay{.name = "replay"};
+        const std::string why = !sound_ ? "the study does not fit what is stored" : !loaded_ ? unloaded_ : "";
+        const std::unique_ptr<Kind> kind = make_kind(study_, header_);
+        if (sound_) {
+            if (const Tally* tally = reader_.tally())
+                kind->add(*tally);
+            reader_.for_each_row([&](const ResultRow& row) { kind->add(row); });
+        }
+        bool planned = !header_.selected; // others are computed from all rows, whatever made them
+        if (why.empty())
+            planned = plan(*kind, tables, replay);
+        else
+            replay = {"replay", CheckVerdict::not_done, why, {}, 0};
+        if (!reader_.complete())
+            tables = {"tables", CheckVerdict::not_done, "the run is not complete: they are written at its end", {}, 0};
+        else if (!sound_ || (!planned && tables.verdict == CheckVerdict::passed))
+            tables = {"tables", CheckVerdict::not_done, v_.stopped ? "stopped" : why, {}, 0};
+        else if (planned)
+            check_tables(*kind, tables);
+        v_.checks.push_back(std::move(tables));
+        v_.checks.push_back(std::move(replay));
+    }
+
+    /// The run once more, its realizations taken from the file.
+    /// @returns whether it came to its end
+    bool plan(Kind& kind, FileCheck& tables, FileCheck& replay)
+    {
+        const bool rows = header_.has_rows();
+        std::optional<CountReplay> counts;
+        Recorded recorded;
+        if (rows) {
+            recorded.sample = replay_sample(reader_, options_.replay, options_.seed);
+            recorded.there = [this](std::uint64_t index) { return reader_.has(index); };
+            recorded.take = [&](const ResultRow& again) {
+                compare_rows(header_, reader_.row(again.index), again, replay);
+            };
+        } else {
+            counts.emplace(study_, reader_, options_.replay, options_.seed);
+            recorded.sample = counts->indices();
+            recorded.there = [this, order = RunOrder(header_.total)](std::uint64_t index) {
+                return reader_.counted()->has(order.place(index));
+            };
+            recorded.take = [&](const ResultRow& again) { counts->take(again); };
+        }
+        const std::vector<std::uint64_t> moving = reader_.trajectory_indices();
+        recorded.take_movement = [&](const Trajectory& again) {
+            if (std::ranges::binary_search(moving, again.index))
+                compare_trajectories(reader_.trajectory(again.index), again, replay);
+        };
+        if (study_.kind == StudyKind::single || header_.kind == "replay") {
+            recorded.followed.resize(header_.total);
+            std::iota(recorded.followed.begin(), recorded.followed.end(), header_.first);
+        }
+        recorded.ends_at_missing = header_.selected;
+        const std::uint64_t sampled = recorded.sample.size();
+        RecordedRounds rounds(loaded_->experiment(), options_.run, observer_, std::move(recorded));
+        const bool ended = kind.plan(rounds);
+        v_.stopped = rounds.stopped();
+        if (reader_.complete() && !v_.stopped) {
+            if (rounds.missing())
+                tables.add({"realizations", *rounds.missing(), "no such realization", "one that the study asks for"});
+            else if (rounds.asked() != header_.total)
+                tables.add({"realizations", std::nullopt, fmt::format("{}", header_.total),
+                            fmt::format("{}, as many as the study asks for", rounds.asked())});
+        }
+        tell_replay(counts, rounds, sampled, replay);
+        return ended;
+    }
+
+    void tell_replay(const std::optional<CountReplay>& counts, const RecordedRounds& rounds, std::uint64_t sampled,
+                     FileCheck& replay) const
+    {
+        if (v_.stopped) {
+            replay.verdict = replay.found() > 0 ? CheckVerdict::differs : CheckVerdict::not_done;
+            replay.text = fmt::format("stopped after {} of {} realizations", rounds.again(), sampled);
+        } else if (sampled == 0 && !counts) {
+            replay.verdict = CheckVerdict::not_done;
+            replay.text = options_.replay == 0 ? "--replay 0" : "there is no realization yet";
+        } else if (counts) {
+            counts->conclude(replay);
+        } else {
+            if (rounds.again() < sampled)
+                replay.add({"realizations", std::nullopt, fmt::format("{} of the sample", sampled),
+                            fmt::format("{}, as many as the study asks for", rounds.again())});
+            replay.text = fmt::format("{} run again with {}: all values, bit by bit{}",
+                                      counted(rounds.again(), "realization"), to_string(options_.run.isa),
+                                      reader_.trajectory_indices().empty() ? "" : ", and the trajectories of these");
+        }
+    }
+
+    void check_tables(Kind& kind, FileCheck& tables)
+    {
+        kind.conclude();
+        std::string names;
+        if (const std::optional<SurfaceTable> surface = kind.surface(); surface && !header_.frequency_hz.empty()) {
+            compare_surfaces(reader_.surface(), *surface, tables);
+            names = "surface";
+        }
+        for (const Table& table : kind.tables()) {
+            compare_tables(reader_.table(table.name()), table, tables);
+            names += (names.empty() ? "" : ", ") + table.name();
+        }
+        tables.text = names.empty() ? "the study has none beside its realizations"
+                                    : names + ", computed again from what is stored of the realizations";
+        if (study_.replicas)
+            tables.text += "; not the pairs that were followed (/twins)";
+    }
+
+    const VerifyOptions& options_;
+    Observer& observer_;
+    const Results results_;
+    const ResultReader& reader_;
+    const ResultHeader& header_;
+    const Study& study_;
+    std::optional<LoadedStudy> loaded_;
+    std::string unloaded_; ///< why it is not loaded
+    bool sound_ = true;    ///< whether realizations can be taken for those of the study
+    FileVerification v_;
+};
+
+} // namespace
+
+FileVerification verify_file(const std::string& file, const VerifyOptions& options, Observer& observer)
+{
+    return Verifier(file, options, observer).verify();
 }
 
 } // namespace stylobate

@@ -7,7 +7,7 @@
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "studies/workflow/output_path.hpp"
-#include "studies/workflow/run_report.hpp"
+#include "studies/workflow/run.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,12 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/file_handle.hpp"
+#include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/cluster/shard_files.hpp"
 #include "studies/cluster/together.hpp"
 #include "studies/decisions/compare/law_runs.hpp"
+#include "studies/experiment/conventions.hpp"
+#include "studies/report/words.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/file_kind.hpp"
@@ -13,10 +15,215 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace stylobate {
+
+void check_is_part(const ResultReader& reader, const std::string& file)
+{
+    const ResultHeader& header = reader.header();
+    if (header.kind == "replay")
+        throw InputError(file, 0, "is one realization that was run again, and no shard of a study.");
+    if (header.selected)
+        throw InputError(file, 0, "is of a study whose realizations are chosen by what others did. It has no shards.");
+    if (reader.complete())
+        throw InputError(file, 0, "is already complete: nothing is to be merged with it.");
+}
+
+ShardFile read_shard_file(const std::string& file, const ResultHeader& header)
+{
+    const ResultReader reader(file);
+    check_is_part(reader, file);
+    const ResultHeader& found = reader.header();
+    if (const std::string other = study_difference(found, false, header); !other.empty())
+        throw InputError(file, 0, "is of another study than the first file: " + other + ".");
+    if (found.code_version != header.code_version)
+        throw InputError(file, 0,
+                         fmt::format("was begun by version {} and this is version {}. Merge shards with the version "
+                                     "that has made all of them.",
+                                     found.code_version, header.code_version));
+    if (reader.counted())
+        return {file, found.shard, *reader.counted()};
+    const RunOrder order(header.total);
+    ShardFile part{file, found.shard, DoneSet(order)};
+    reader.for_each_row([&](const ResultRow& row) {
+        const State state = row.outcome.state;
+        part.done.add(order.place(row.index), state == State::collapsed, state == State::invalid);
+    });
+    return part;
+}
+
+DoneSet joined(const std::vector<ShardFile>& files, const RunOrder& order)
+{
+    DoneSet all(order);
+    for (const ShardFile& part : files) {
+        if (const std::optional<std::uint64_t> place = all.common(part.done)) {
+            const auto owner =
+                std::find_if(files.begin(), files.end(), [&](const ShardFile& p) { return p.done.has(*place); });
+            throw InputError(fmt::format("{} and {} both have realization {}. Leave one of them out.", owner->file,
+                                         part.file, order.index(*place)));
+        }
+        all.add(part.done);
+    }
+    return all;
+}
+
+std::string missing_text(const std::vector<ShardFile>& files, const Kind& kind, std::uint64_t done, std::uint64_t total)
+{
+    constexpr std::size_t most = 10; // lines
+    std::vector<std::string> lines;
+    std::set<std::uint64_t> numbers, of;
+    for (const ShardFile& part : files) {
+        of.insert(part.shard.of);
+        numbers.insert(part.shard.number);
+        const std::uint64_t size = kind.size_of(part.shard);
+        const std::uint64_t has = part.done.all().end;
+        if (!part.shard.whole() && has < size)
+            lines.push_back(fmt::format("{0} lacks {1} of the {2} realizations of shard {3}: stylobate run STUDY.toml "
+                                        "--shard {3} -o {0}",
+                                        part.file, size - has, size, part.shard.text()));
+    }
+    if (of.size() == 1 && *of.begin() > 1)
+        for (Shard shard{1, *of.begin()}; shard.number <= shard.of && lines.size() <= most; ++shard.number)
+            if (!numbers.contains(shard.number) && kind.size_of(shard) > 0)
+                lines.push_back(
+                    fmt::format("shard {0} has no file: stylobate run STUDY.toml --shard {0}", shard.text()));
+    if (lines.size() > most) {
+        lines.resize(most);
+        lines.emplace_back("and others");
+    }
+    std::string text = fmt::format("{} of {} realizations are missing.\n", total - done, total);
+    for (const std::string& line : lines)
+        text += "  " + line + "\n";
+    return text + "  Give --partial to join what there is; `run` then computes the rest.";
+}
+
+Json run_json(const RunReport& r)
+{
+    const Progress& p = r.progress;
+    const Study& study = r.run->study();
+    Json json = Json::object();
+    json.member("kind", word_for(study_kind_names, study.kind))
+        .member("results", r.results)
+        .member("complete", r.whole())
+        .member("realizations", p.done)
+        .member("total", p.total)
+        .member("collapsed", p.collapsed)
+        .member("invalid", p.invalid)
+        .member("collapse_probability", p.share) // of the whole study, from a fair sample of it
+        .member("collapse_lower", p.share_lower)
+        .member("collapse_upper", p.share_upper)
+        .member("seconds", p.seconds)
+        .member("realizations_per_second", p.rate)
+        .member("block_steps_per_second", p.seconds == 0 ? 0.0 : static_cast<double>(p.block_steps) / p.seconds)
+        .member("occupancy", p.occupancy)
+        .member("backend", r.backend)
+        .member("simd", to_string(r.options.isa))
+        .member("threads", r.options.threads);
+    if (r.options.ranks)
+        json.member("ranks", static_cast<std::uint64_t>(r.options.ranks->size()));
+    if (!r.shard().whole())
+        json.member("shard", r.shard().text()).member("shard_complete", r.complete);
+    json.member("conventions", conventions_text(study));
+    if (r.run->kind().draws_plainly())
+        json.member("limit_states", r.run->kind().limits_json());
+    if (r.whole())
+        r.run->kind().add_to(json);
+    if (r.laws)
+        json.member("contact_laws", law_band_json(*r.laws));
+    else if (r.laws_interrupted)
+        json.member("contact_laws", Json::object().member("complete", false));
+    return json;
+}
+
+std::string run_text(const RunReport& r)
+{
+    const Progress& p = r.progress;
+    const Study& study = r.run->study();
+    std::string text = fmt::format("{}: {}{} realizations{}, {} collapsed, {} invalid", r.results, p.done,
+                                   p.open_end ? "" : fmt::format(" of {}", p.total),
+                                   r.shard().whole() ? "" : " of shard " + r.shard().text(), p.collapsed, p.invalid);
+    if (p.seconds > 0)
+        text += fmt::format(
+            "; {} with {}{} threads of {}, {} realizations/s", duration_text(p.seconds),
+            r.options.ranks ? fmt::format("{} ranks of ", r.options.ranks->size()) : "", r.options.threads,
+            r.options.devices.empty() ? to_string(r.options.isa) : "the host and " + r.options.devices.front()->name(),
+            rate_text(p.rate));
+    text += "\n";
+    if (r.whole()) {
+        text += fmt::format("{}conventions: {}\n", r.run->kind().text(), conventions_text(study));
+        if (r.laws_interrupted)
+            return text + "Interrupted; the study is complete, its runs under other contact laws are not. The same "
+                          "command continues them.\n";
+        return text + (r.laws ? law_band_text(*r.laws) : law_advice(study) + "\n");
+    }
+    if (!std::isnan(p.share)) // without those that have not ended because they take long
+        text += fmt::format("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
+                            100 * p.share_lower, 100 * p.share_upper);
+    text += fmt::format("conventions: {}\n", conventions_text(study));
+    if (r.merged)
+        return text +
+               fmt::format("Partial: `stylobate run STUDY.toml -o {}` computes the missing realizations.\n", r.results);
+    if (r.complete)
+        return text + "The shard is complete. `stylobate merge` joins it with the others.\n";
+    return text + fmt::format("Interrupted; {} realizations are kept. The same command continues the run.\n", p.done);
+}
+
+std::optional<std::string> RunReport::too_many_invalid() const
+{
+    if (!complete || laws_interrupted)
+        return std::nullopt;
+    const auto own = stylobate::too_many_invalid(run->study(), progress.invalid, progress.total, results);
+    return own ? own : law_invalid;
+}
+
+std::optional<std::string> too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
+                                            const std::string& results)
+{
+    if (invalid == 0 || static_cast<double>(invalid) / static_cast<double>(total) <= study.run.max_invalid_fraction)
+        return std::nullopt;
+    return fmt::format("{} of {} realizations are invalid, more than run.max_invalid_fraction = {} allows. `stylobate "
+                       "replay {} --realization I` repeats one of them; a smaller run.step_fraction may help.",
+                       invalid, total, study.run.max_invalid_fraction, results);
+}
+
+std::optional<std::string> too_many_invalid(const StudyRuns& studies)
+{
+    for (const auto& study : studies)
+        if (auto message = too_many_invalid(study->study(), study->invalid(), study->done(), study->results()))
+            return message;
+    return std::nullopt;
+}
+
+void check_can_run(const StudyRuns& studies, const std::string& backend)
+{
+    for (const auto& study : studies)
+        if (const std::string why = study->kind().needs_processor(); backend == "cuda" && !why.empty())
+            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), why));
+    for (const auto& study : studies)
+        try {
+            study->check_drawn();
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", study->name(), error.what()));
+        }
+}
+
+bool run_all(const StudyRuns& studies, const RunOptions& options, WorkObserver& observer)
+{
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        StudyRun& study = *studies[i];
+        if (!study.finished())
+            observer.note(fmt::format("{} ({} of {})", study.name(), i + 1, studies.size()));
+        if (observer.stop_requested() || !study.run(options, observer).complete)
+            return false;
+    }
+    return true;
+}
 
 namespace {
 

@@ -1,13 +1,79 @@
 #pragma once
-/// Runs of study files, and results joined from shards.
+/// Runs of study files, and results joined from shards: what they have come to, as data, lines and JSON.
 
-#include "studies/workflow/run_report.hpp"
+#include "ensemble/numerics/run_order.hpp"
+#include "io/store/result_store.hpp"
+#include "studies/kinds/kind.hpp"
+#include "studies/kinds/law_band.hpp"
+#include "studies/report/json.hpp"
+#include "studies/results/study_run.hpp"
+#include "studies/workflow/workflow.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// A file, and what it has.
+struct ShardFile {
+    std::string file;
+    Shard shard;  ///< that it is meant for; all: it is itself joined, or a run that was interrupted
+    DoneSet done; ///< by places in the order of the run
+};
+
+/// @throws InputError if it is no unfinished results file of a study with shards
+void check_is_part(const ResultReader& reader, const std::string& file);
+
+/// @param header of the study
+/// @throws InputError if it is no part of this study, or of another version
+ShardFile read_shard_file(const std::string& file, const ResultHeader& header);
+
+/// All that the files have together.
+/// @throws InputError if two of them have the same realization
+DoneSet joined(const std::vector<ShardFile>& files, const RunOrder& order);
+
+/// A message of what is missing, with the commands that compute it.
+/// @param done, total realizations that there are, and of the study
+std::string missing_text(const std::vector<ShardFile>& files, const Kind& kind, std::uint64_t done,
+                         std::uint64_t total);
+
+struct RunReport {
+    std::string results;                 ///< the file
+    std::unique_ptr<const StudyRun> run; ///< of a complete run of all its kind is concluded
+    RunOptions options{};
+    std::string backend{};
+    Progress progress{};
+    bool complete = false; ///< of a shard: it is
+    bool was_complete = false;
+    bool merged = false;                      ///< from shards, and not run here
+    std::optional<LawBand> laws{};            ///< over contact laws; none: not measured
+    bool laws_interrupted = false;            ///< the study is complete, and its runs under other laws are not
+    std::optional<std::string> law_invalid{}; ///< `too_many_invalid` of its runs under other laws
+
+    const Shard& shard() const { return run->header().shard; }
+    bool whole() const { return complete && shard().whole(); }
+    /// Whether the same command has something to continue. A merge with missing realizations was asked for so.
+    bool interrupted() const { return !merged && (!complete || laws_interrupted); }
+    /// A message where more realizations are invalid than the study allows.
+    std::optional<std::string> too_many_invalid() const;
+};
+
+std::string run_text(const RunReport& report);
+Json run_json(const RunReport& report);
+
+/// A message where more realizations are invalid than the study allows. @param results the file
+std::optional<std::string> too_many_invalid(const Study& study, std::uint64_t invalid, std::uint64_t total,
+                                            const std::string& results);
+/// That of the first of several studies that has too many.
+std::optional<std::string> too_many_invalid(const StudyRuns& studies);
+
+/// Before anything is run. @throws InputError if one of the studies cannot be run so
+void check_can_run(const StudyRuns& studies, const std::string& backend);
+/// Runs what the studies lack, one after the other. @returns false if the observer has asked to stop
+bool run_all(const StudyRuns& studies, const RunOptions& options, WorkObserver& observer);
 
 struct RunRequest {
     std::string study; ///< its file

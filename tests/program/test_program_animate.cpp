@@ -1,6 +1,6 @@
 /// The realizations in motion of `stylobate report`: which are kept, within which limits, and what is refused.
 
-#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "tests/program/program.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "io/measured/measured_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/studies/measured/calibration/calibration_sample.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"

@@ -1,6 +1,6 @@
 /// `stylobate report`, as its user runs it.
 
-#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "tests/program/program.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 

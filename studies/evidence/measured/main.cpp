@@ -8,7 +8,7 @@
 /// Exit status: 0 done (data that are absent are skipped, with a message), 2 bad input, 1 anything else.
 
 #include "io/files/atomic_file.hpp"
-#include "studies/evidence/measured/boulders/boulder_data.hpp"
+#include "studies/evidence/measured/boulders/boulder_model.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
 #include "studies/evidence/picture/page_program.hpp"

@@ -9,7 +9,6 @@
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_evidence.hpp"
 #include "studies/measured/calibration/calibration_search.hpp"
-#include "studies/measured/calibration/evidence_portions.hpp"
 #include "studies/measured/diagnosis/direct/friction_judgement.hpp"
 #include "studies/measured/windows/window_motions.hpp"
 #include "studies/version.hpp"

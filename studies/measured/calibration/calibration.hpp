@@ -44,7 +44,7 @@ struct CalibrationOptions {
     bool held_out = true;           ///< cross-validation over motions
     std::uint64_t ensemble = 24;    ///< outcomes: realizations of each run
     double window_s = 0;            ///< histories: 0: by the size of the drums
-    /// File that keeps what was predicted until the calibration is complete (`evidence_portions.hpp`); empty: none.
+    /// File that keeps what was predicted until the calibration is complete (`calibration_evidence.hpp`); empty: none.
     std::filesystem::path kept;
     std::string kept_key;                          ///< what the measured data are known by
     std::function<void(const std::string&)> stage; ///< called with a description of each stage; may be empty

@@ -2,11 +2,16 @@
 
 #include "io/keys/words.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
+#include "studies/measured/windows/motion_page.hpp"
+#include "studies/report/html_figure.hpp"
 #include "studies/report/words.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace stylobate {
@@ -122,6 +127,300 @@ std::string calibrated_text(const Calibration& calibration, const std::string& m
         text += fmt::format("# {} = {:.5g}, {}{}{}\n", p.key, p.value, interval_words(p), p.note.empty() ? "" : ": ",
                             p.note);
     return text + "\n" + best.study.text;
+}
+
+namespace {
+
+constexpr std::size_t most_runs = 40;      ///< of the table of runs; the file has all
+constexpr double strong_correlation = 0.5; ///< is named
+
+std::string parameter_text(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–";
+}
+
+std::string signed_number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:+.1f}", value) : "–";
+}
+
+/// Of a file or a folder, without the way to it.
+std::string name_of(const std::string& measured)
+{
+    const std::string name = std::filesystem::path(measured).filename().string();
+    return name.empty() ? measured : name;
+}
+
+std::string interval(const FittedParameter& p)
+{
+    return p.determined || p.effective ? fmt::format("{:.4g} to {:.4g}", p.low, p.high) : "–";
+}
+
+/// "better", "worse", or undecided.
+std::string held_out_words(const PairedGain& gain)
+{
+    return gain.low > 0    ? "it predicts them better than the start study"
+           : gain.high < 0 ? "it predicts them worse than the start study"
+                           : "these data show no difference from the start study";
+}
+
+std::string gain_text(const PairedGain& gain)
+{
+    if (gain.groups == 0)
+        return "not asked for";
+    const std::string range = std::isfinite(gain.low) && std::isfinite(gain.high)
+                                  ? fmt::format(" ({:+.1f} to {:+.1f})", gain.low, gain.high)
+                                  : ", without an interval: too few motions";
+    return fmt::format("{:+.1f}{}", gain.total, range);
+}
+
+class CalibrationPage {
+public:
+    CalibrationPage(const StoredCalibration& calibration, const std::string& file, const std::string& title)
+        : c_(calibration), best_(calibration.best()), unit_(c_.evidence == "outcomes" ? "runs" : "windows"),
+          file_(file),
+          page_(title.empty() ? "Calibration: " + name_of(c_.measured) : title,
+                fmt::format("With the {} of {}. Made by stylobate {}.", c_.evidence, c_.measured, c_.code_version))
+    {
+    }
+
+    HtmlPage page()
+    {
+        result();
+        parameters();
+        undetermined();
+        profiles();
+        forms();
+        runs();
+        motion();
+        notes();
+        method();
+        again();
+        return page_;
+    }
+
+private:
+    std::size_t determined() const
+    {
+        return static_cast<std::size_t>(std::count_if(best_.parameters.begin(), best_.parameters.end(),
+                                                      [](const FittedParameter& p) { return p.determined; }));
+    }
+
+    void result()
+    {
+        page_.section("Result");
+        const std::size_t known = determined(), all = best_.parameters.size();
+        const PairedGain& gain = best_.held_out;
+        const bool helps = gain.groups > 0 && gain.low > 0, hurts = gain.groups > 0 && gain.high < 0;
+        const char* tone = hurts ? "bad" : helps && known == all ? "good" : "warn";
+        const std::string heading =
+            known == all ? fmt::format("These data determine {}.",
+                                       all == 1 ? "the fitted parameter" : fmt::format("all {} fitted parameters", all))
+            : known == 0 ? std::string("These data determine none of the fitted parameters.")
+                         : fmt::format("These data determine {} of {} fitted parameters.", known, all);
+        page_.box(tone, heading,
+                  gain.groups == 0 ? Html("The calibrated study was not tested on held-out motions.")
+                                   : fmt::format("On held-out motions, {}.", held_out_words(gain)));
+        std::vector<std::pair<std::string, Html>> facts;
+        for (const FittedParameter& p : best_.parameters)
+            if (p.determined)
+                facts.emplace_back(p.key, fmt::format("{} (95 %: {})", parameter_text(p.value), interval(p)));
+        std::vector<std::string> effective, open;
+        for (const FittedParameter& p : best_.parameters)
+            if (!p.determined)
+                (p.effective ? effective : open).push_back(p.key);
+        if (!effective.empty())
+            facts.emplace_back("Effective", list_words(effective));
+        if (!open.empty())
+            facts.emplace_back("Not determined", list_words(open));
+        facts.emplace_back("Contact form", best_.name);
+        facts.emplace_back("Gain on held-out motions", gain_text(gain) + (gain.groups > 0 ? " nats" : ""));
+        page_.facts(facts);
+        page_.note("Scores are log likelihoods of the data, in nats: 1 nat more means 2.7 times as likely. The gain on "
+                   "held-out motions is the score of each motion with the parameters fitted to the other motions, "
+                   "minus its score with the start study.");
+    }
+
+    void parameters()
+    {
+        page_.section("Parameters");
+        HtmlTable table{"lrrrrl", {"parameter", "start", "calibrated", "95 % interval", "searched", ""}, {}, ""};
+        for (const FittedParameter& p : best_.parameters)
+            table.rows.push_back({code(p.key), parameter_text(p.start), parameter_text(p.value), interval(p),
+                                  fmt::format("{:.4g} to {:.4g}", p.from, p.to),
+                                  p.determined  ? tag("good", "determined")
+                                  : p.effective ? tag("warn", "effective")
+                                                : tag("warn", "not determined")});
+        page_.table(table);
+        std::vector<std::string> pairs;
+        const std::size_t n = best_.parameters.size();
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 1; j < n; ++j)
+                if (const double r = best_.correlation[i * n + j]; std::abs(r) > strong_correlation)
+                    pairs.push_back(
+                        fmt::format("{} and {} ({:+.2f})", best_.parameters[i].key, best_.parameters[j].key, r));
+        if (!pairs.empty())
+            page_.note("Strongly correlated and therefore partly interchangeable: " + list_words(pairs) + ".");
+    }
+
+    void undetermined()
+    {
+        page_.section("Parameters that these data do not determine");
+        if (determined() == best_.parameters.size()) {
+            page_.paragraph("All fitted parameters are determined.");
+            return;
+        }
+        HtmlTable table{"lll", {"parameter", "interval", "why"}, {}, ""};
+        for (const FittedParameter& p : best_.parameters)
+            if (!p.determined)
+                table.rows.push_back({code(p.key), interval(p), p.note.empty() ? "–" : p.note});
+        page_.table(table);
+        page_.note(
+            "The value of such a parameter is not a measurement. An effective parameter belongs to this model with its "
+            "contact form: its interval is that of the model's value, and an interval that reaches an end of the "
+            "searched range may extend beyond it. A parameter without an interval keeps the value of the study.");
+    }
+
+    void profiles()
+    {
+        if (std::all_of(best_.parameters.begin(), best_.parameters.end(),
+                        [](const FittedParameter& p) { return p.profile.empty(); }))
+            return;
+        page_.section("Profiles");
+        page_.paragraph("The best score with one parameter held at a value and all others free, minus the score of the "
+                        "calibrated study. Where a curve is flat the data do not constrain the parameter. Scores are "
+                        "noisy: a point above 0 is a parameter set whose score lies above the smooth fit by chance.");
+        for (const FittedParameter& p : best_.parameters) {
+            if (p.profile.empty())
+                continue;
+            std::vector<ProfilePoint> points = p.profile;
+            std::sort(points.begin(), points.end(),
+                      [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+            FigureSeries line{"profile", SeriesKind::line, {}, {}, {}, {}},
+                marks{"", SeriesKind::points, {}, {}, {}, {}};
+            FigureSeries ends{"ends of the 95 % interval", SeriesKind::line, {}, {}, {}, {}};
+            double least = 0, most = 0;
+            for (const ProfilePoint& point : points) {
+                line.x.push_back(point.value);
+                line.y.push_back(point.score);
+                least = std::min(least, std::isfinite(point.score) ? point.score : 0);
+                most = std::max(most, std::isfinite(point.score) ? point.score : 0);
+            }
+            marks.x = line.x;
+            marks.y = line.y;
+            ends.x = {p.low, p.low, p.low, p.high, p.high};
+            ends.y = {least, most, std::nan(""), most, least};
+            Figure figure;
+            figure.title = p.key;
+            figure.x_label = p.key;
+            figure.y_label = "score [nat]";
+            figure.x_log = p.from > 0 && p.to > 5 * p.from;
+            figure.series = {ends, line, marks};
+            Html caption = Html::ready("<b>" + html_escaped(p.key) + "</b> ");
+            caption += fmt::format("{} (95 %: {}){}", parameter_text(p.value), interval(p),
+                                   p.determined  ? "."
+                                   : p.effective ? "; effective."
+                                                 : "; not determined.");
+            page_.figure(figure_svg(figure), caption);
+        }
+    }
+
+    void forms()
+    {
+        page_.section("Contact forms");
+        HtmlTable table{
+            "lrrl",
+            {"form", "score minus that of the start study, all runs [nat]", "on held-out motions [nat] (95 %)", ""},
+            {},
+            ""};
+        for (const StoredForm& form : c_.forms)
+            table.rows.push_back({form.name, signed_number(form.score - form.nominal_score), gain_text(form.held_out),
+                                  &form == &best_ && c_.forms.size() > 1 ? tag("good", "best") : Html()});
+        page_.table(table);
+        page_.note(c_.forms.size() > 1 ? "The best form is the one with the best prediction of held-out motions. If "
+                                         "the intervals overlap widely, these data do not distinguish the forms."
+                                       : "Only this form was fitted; --form all compares them.");
+    }
+
+    void runs()
+    {
+        page_.section("Runs");
+        HtmlTable table{"lrrrrr", {"run", "motion", unit_, "start [nat]", "calibrated [nat]", "gain [nat]"}, {}, ""};
+        for (std::size_t i = 0; i < std::min(best_.runs.size(), most_runs); ++i) {
+            const RunScore& run = best_.runs[i];
+            table.rows.push_back({run.run, fmt::format("{}", run.motion_id), fmt::format("{}", run.units),
+                                  parameter_text(run.nominal), parameter_text(run.calibrated),
+                                  signed_number(run.calibrated - run.nominal)});
+        }
+        page_.table(table);
+        page_.note(fmt::format(
+            "Each run is scored with parameters that were fitted without its own motion.{}",
+            best_.runs.size() > most_runs
+                ? fmt::format(" The first {} of {} runs; the file contains all of them.", most_runs, best_.runs.size())
+                : ""));
+    }
+
+    void motion()
+    {
+        if (c_.evidence == "outcomes")
+            return;
+        page_.section("Windows");
+        if (c_.motion && !c_.motion->windows.empty())
+            add_motion(page_, *c_.motion);
+        else
+            page_.note(no_motion_words(file_, c_.code_version));
+    }
+
+    void notes()
+    {
+        page_.section("Data that could not be used");
+        if (c_.notes.empty())
+            page_.paragraph("All data could be used.");
+        else
+            page_.list({c_.notes.begin(), c_.notes.end()});
+    }
+
+    void method()
+    {
+        page_.section("Method and cost");
+        page_.paragraph(c_.evidence == "outcomes"
+                            ? "Evidence: the outcome of each test (fell or stood), compared with the share of falls in "
+                              "a small ensemble of realizations."
+                            : "Evidence: the measured histories, window by window: each window is simulated from its "
+                              "measured state and compared with the measurement.");
+        page_.paragraph(fmt::format("The scores scatter about the smooth fit by {:.2g} nats.", best_.roughness));
+        page_.paragraph(fmt::format("{} parameter sets, {} runs and {} windows simulated, {:.3g} block-steps, in {}.",
+                                    c_.parameter_sets, c_.simulations, c_.window_simulations,
+                                    static_cast<double>(c_.block_steps), duration_text(c_.seconds)));
+    }
+
+    void again()
+    {
+        page_.section("Reproduction");
+        page_.facts(
+            {{"Measured data", c_.measured}, {"Program", "stylobate " + c_.code_version}, {"This calibration", file_}});
+        page_.paragraph("With the first of the studies below as START.toml:");
+        std::string forms;
+        for (const StoredForm& form : c_.forms)
+            forms += (forms.empty() ? "" : ",") + form.name;
+        page_.block(fmt::format("stylobate calibrate {} --study START.toml --form {}\n", c_.measured, forms));
+        page_.heading("The start study");
+        page_.block(c_.start_toml);
+        page_.heading("The calibrated study");
+        page_.block(best_.study_toml);
+    }
+
+    const StoredCalibration& c_;
+    const StoredForm& best_;
+    const std::string unit_, file_;
+    HtmlPage page_;
+};
+
+} // namespace
+
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file, const std::string& title)
+{
+    return CalibrationPage(calibration, std::filesystem::path(file).filename().string(), title).page();
 }
 
 } // namespace stylobate

@@ -1,7 +1,9 @@
 #pragma once
-/// A calibration in words, as JSON, and as the study that it leads to.
+/// A calibration in words, as JSON, as the study that it leads to, and as a page.
 
 #include "studies/measured/calibration/calibration.hpp"
+#include "studies/measured/calibration/calibration_file.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <string>
@@ -25,5 +27,10 @@ Json calibration_json(const Calibration& calibration);
 /// The study with the calibrated values of the best form, which `stylobate run` takes; comments at its beginning state
 /// the values with their intervals. @param measured the file, for its name
 std::string calibrated_text(const Calibration& calibration, const std::string& measured);
+
+/// The parameters with their intervals, what is not determined and why, the contact forms, what it gains.
+/// @param file for names
+/// @param title of the page; empty: by what was measured
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file, const std::string& title = "");
 
 } // namespace stylobate

@@ -3,7 +3,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/boulders/boulder_model.hpp"
 #include "studies/evidence/measured/double_pulse/double_pulse.hpp"
 #include "studies/evidence/measured/parts/forecast.hpp"

@@ -2,7 +2,7 @@
 /// the fit against known parameters.
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/evidence/measured/planar_impact/planar_impact_cause.hpp"
+#include "studies/evidence/measured/planar_impact/planar_impact_model.hpp"
 #include "studies/evidence/measured/planar_impact/planar_impact_study.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "io/files/temporary_folder.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
-#include "studies/measured/calibration/calibration_page.hpp"
+#include "studies/measured/calibration/calibration_text.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"

@@ -1,17 +1,82 @@
 #pragma once
 /// A boulder as a planar rigid rectangle on the shaking table: what a test does to it, by the engine.
+///
+/// Shake-table tests of two boulders: the measured motion of the table and whether each fell (rock_shake_table).
 
+#include "ensemble/model/motion.hpp"
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
-#include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/parts/fall_table.hpp"
 
 #include <array>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate::measured {
+
+inline constexpr std::size_t boulders = 2;
+
+/// One test: both boulders stood on the table.
+struct BoulderTest {
+    int number = 0;
+    std::string ground_motion;
+    double pga_g = 0;          ///< as published
+    double pgv_over_pga_s = 0; ///< as published
+    std::array<bool, boulders> fell{};
+    /// Published numerical predictions (in the order of `BoulderData::published`).
+    std::array<std::vector<bool>, boulders> predicted;
+    Motion motion; ///< of the table, its strong part (`strong_part`); empty where it was not measured
+};
+
+struct BoulderData {
+    std::vector<BoulderTest> tests;                           ///< with a measured motion, by number
+    std::array<std::vector<std::string>, boulders> published; ///< names of the numerical models
+    int without_motion = 0;                                   ///< tests that are left out
+};
+
+/// Where a motion is worth following: from half a second before the acceleration first exceeds `level` until half a
+/// second after it last does. Empty range where it never does.
+/// @return first sample and one past the last
+std::pair<std::size_t, std::size_t> strong_part(const std::vector<double>& acceleration_m_s2, double dt_s,
+                                                double level_m_s2);
+
+/// Below this nothing moves that could fall: far under the least slenderness that is tried [m/s2].
+inline constexpr double still_below_m_s2 = 0.6;
+
+/// @param folder with tests.csv and table_motion_200Hz.h5
+/// @throws InputError naming the file, and the line or data set
+BoulderData read_boulders(const std::filesystem::path& folder);
+
+/// A closed surface of triangles, z up, standing on its lowest points.
+struct Mesh {
+    std::vector<std::array<double, 3>> vertices; ///< [m]
+    std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+/// Reads a Wavefront .obj, gzipped or not: its lines `v` and `f` (faces of three corners).
+/// @throws InputError naming the file and line
+Mesh read_obj(const std::filesystem::path& file);
+
+struct MeshBody {
+    double volume_m3 = 0;
+    std::array<double, 3> centroid_m{};
+    std::array<double, 3> extent_m{}; ///< of its bounding box
+};
+MeshBody body_of(const Mesh& mesh);
+
+/// Leaning towards one direction on a flat floor, quasi-statically, without slip: at each angle it stands on its lowest
+/// point, so that its centre rises as the support function of its convex hull.
+struct Stance {
+    double azimuth_rad = 0;
+    double start_slenderness = 0; ///< horizontal over vertical distance of the centre from the edge, leaned by 1 degree
+    double balance_rad = 0;       ///< lean at which the centre is highest
+    double barrier = 0;           ///< rise of the centre up to there, over its height at rest
+    double effective_slenderness() const; ///< of a rectangle with the same barrier: 1 / cos(alpha) = 1 + barrier
+};
+std::vector<Stance> stances(const Mesh& mesh, int directions);
 
 /// The rectangle: its mass is the boulder's; its slenderness and height are effective ones.
 struct BoulderModel {

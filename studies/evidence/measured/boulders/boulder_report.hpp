@@ -1,7 +1,6 @@
 #pragma once
 /// The page of the boulders: what was computed, as plain data, and its text and pictures.
 
-#include "studies/evidence/measured/boulders/boulder_data.hpp"
 #include "studies/evidence/measured/boulders/boulder_model.hpp"
 #include "studies/evidence/measured/parts/forecast.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"

@@ -2,7 +2,7 @@
 /// The results on the page of planar impacts: laws fitted on one half of the impacts and tested on the other,
 /// what the errors depend on, and how well the measurement lets one know.
 
-#include "studies/evidence/measured/planar_impact/planar_impact_cause.hpp"
+#include "studies/evidence/measured/planar_impact/planar_impact_model.hpp"
 
 #include <functional>
 #include <string>

@@ -16,7 +16,7 @@ namespace {
 constexpr double first_spread = 1.0 / 3, narrower = 0.5;
 // Of the numbers of joints by which laws are found that are like the measured one.
 constexpr double numbers_kept = 0.9;
-// Of the draw that moves a size; those of the laws are others (`law_family.cpp`).
+// Of the draw that moves a size; those of the laws are others (`virtual_campaign.cpp`).
 constexpr std::uint64_t size_draw = 1u << 17;
 
 std::vector<double> from(const SimulatedCampaign& shown, const LawLikeness& likeness, const NumbersOf& numbers,

@@ -1,7 +1,6 @@
 #include "studies/measured/diagnosis/direct/direct_tests.hpp"
 
 #include "studies/measured/diagnosis/direct/pitch_test.hpp"
-#include "studies/measured/diagnosis/direct/vertical_test.hpp"
 #include "studies/measured/diagnosis/evidence/ride.hpp"
 
 #include <fmt/format.h>

@@ -8,6 +8,7 @@
 #include "studies/report/figure.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -244,5 +245,13 @@ std::vector<const Candidate*> named_causes(const Diagnosis& diagnosis);
 
 /// The candidate of the largest gain with a p-value, where the verdict is `none`; else null.
 const Candidate* best_candidate(const Diagnosis& diagnosis);
+
+/// Writes the file whole or not at all; one that is there is replaced.
+/// @throws InputError if it cannot be written
+void write_diagnosis(const Diagnosis& diagnosis, const std::filesystem::path& file);
+
+/// @throws InputError if there is no such file, if it is none of stylobate's, if it is damaged, if it holds no
+///         diagnosis, or if it is of another format version
+Diagnosis read_diagnosis(const std::filesystem::path& file);
 
 } // namespace stylobate

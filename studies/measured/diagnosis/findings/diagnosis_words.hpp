@@ -1,7 +1,8 @@
 #pragma once
-/// A diagnosis in words: texts that are common to its page, its text and its headings.
+/// A diagnosis in words, and as JSON: texts that are common to its page, its text and its headings.
 
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
+#include "studies/report/json.hpp"
 
 #include <string>
 
@@ -52,5 +53,10 @@ std::string cost_words(const DiagnosisCost& cost);
 /// What is printed at the end of a diagnosis: the verdict first, then what it rests on; lines of 100 characters at most
 /// but where a name is longer, the last one ended too.
 std::string diagnosis_text(const Diagnosis& diagnosis);
+
+/// The object that `diagnose --json` prints. First, in this order: verdict, causes, indistinguishable, unexplained,
+/// wrong, gain, next_test, extended_study (where it was written), simulations, seconds; all else follows. What is not
+/// known is null.
+Json diagnosis_json(const Diagnosis& diagnosis);
 
 } // namespace stylobate

@@ -1,8 +1,8 @@
 /// The file of a diagnosis: what is written is read, whole or not at all, and damaged files are refused.
 
 #include "ensemble/model/input_error.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_fields.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_file.hpp"
 #include "tests/io/store/result_samples.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 

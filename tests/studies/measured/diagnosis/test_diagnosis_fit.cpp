@@ -1,7 +1,7 @@
 /// Smoothing by local cubics and the robust regression of the diagnosis, against what mathematics says of them.
 
 #include "studies/measured/diagnosis/evidence/robust_fit.hpp"
-#include "studies/measured/diagnosis/evidence/smoothing.hpp"
+#include "studies/measured/diagnosis/evidence/smoothed_run.hpp"
 
 #include <gtest/gtest.h>
 

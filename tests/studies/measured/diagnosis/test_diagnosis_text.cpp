@@ -1,6 +1,5 @@
 /// A diagnosis as JSON and as a page of text.
 
-#include "studies/measured/diagnosis/findings/diagnosis_json.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"

@@ -1,6 +1,5 @@
 /// Bins of a run, and sums of what a joint does in them, by hand.
 
-#include "studies/measured/diagnosis/evidence/coarse_run.hpp"
 #include "studies/measured/diagnosis/evidence/joint_sums.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "studies/measured/calibration/calibration.hpp"
-#include "studies/measured/diagnosis/campaigns/law_family.hpp"
 #include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"
 #include "studies/measured/windows/window_comparison.hpp"
 

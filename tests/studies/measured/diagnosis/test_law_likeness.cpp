@@ -1,6 +1,6 @@
 /// How unlike laws are: by hand, and in a world of laws whose truth is known.
 
-#include "studies/measured/diagnosis/campaigns/law_likeness.hpp"
+#include "studies/measured/diagnosis/campaigns/campaign_ensemble.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,10 @@
 
 #include "tests/ensemble/motion/formula_motions.hpp"
 
-#include "studies/measured/diagnosis/campaigns/force_test.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
 #include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
 #include "studies/measured/diagnosis/campaigns/synthetic_likelihood.hpp"
 #include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
-#include "studies/measured/diagnosis/evidence/coarse_run.hpp"
 #include "studies/measured/diagnosis/evidence/joint_sums.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 
 #include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
 #include "studies/measured/windows/motion_page.hpp"
-#include "studies/measured/windows/motion_stage.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
 #include "tests/studies/report/animation_reader.hpp"

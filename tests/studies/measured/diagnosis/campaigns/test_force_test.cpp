@@ -1,7 +1,7 @@
 /// The test for forces of no known kind, in a world whose truth is known: scores of unlike noise, correlated, with
 /// heavy tails.
 
-#include "studies/measured/diagnosis/campaigns/force_test.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The parts of the likelihood of statistics, each on a few numbers whose answer is computed here.
 
 #include "studies/measured/diagnosis/campaigns/conformal.hpp"
-#include "studies/measured/diagnosis/campaigns/force_test.hpp"
+#include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
 #include "studies/measured/diagnosis/campaigns/synthetic_likelihood.hpp"
 
 #include <gtest/gtest.h>
