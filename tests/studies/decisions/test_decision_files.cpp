@@ -11,6 +11,9 @@
 #include "studies/workflow/file_kind.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
 
+#include <gtest/gtest.h>
+
+#include <fstream>
 #include <iterator>
 
 namespace stylobate {
