@@ -7,8 +7,7 @@
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
-#include "ensemble/estimators/fragility/lack_of_fit.hpp"
-#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "io/tables/markdown.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

@@ -7,7 +7,7 @@
 /// `scripts/risk_coverage.sh` writes the table into docs/risk.md.
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
-#include "ensemble/estimators/fragility/lack_of_fit.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
 #include "io/tables/markdown.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

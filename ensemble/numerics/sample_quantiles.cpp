@@ -1,8 +1,14 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 
+#include "ensemble/numerics/quantiles.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace stylobate {
 
@@ -35,6 +41,59 @@ double upper_median(std::vector<double> values)
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
+}
+
+namespace {
+
+constexpr double tail = 0.025;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+Estimated mean_of(const std::vector<double>& values)
+{
+    Estimated mean{0, nan, -infinity, infinity};
+    double sum = 0;
+    for (const double v : values)
+        if (!std::isnan(v)) {
+            ++mean.count;
+            sum += v;
+        }
+    if (mean.count == 0)
+        return mean;
+    const auto n = static_cast<double>(mean.count);
+    mean.value = sum / n;
+    if (mean.count < 2)
+        return mean;
+    double squares = 0;
+    for (const double v : values)
+        if (!std::isnan(v))
+            squares += (v - mean.value) * (v - mean.value);
+    const double half = student_quantile(1 - tail, n - 1) * std::sqrt(squares / (n - 1) / n);
+    mean.lower = mean.value - half;
+    mean.upper = mean.value + half;
+    return mean;
+}
+
+Estimated median_of(std::vector<double> values)
+{
+    Estimated median{values.size(), nan, -infinity, infinity};
+    if (values.empty())
+        return median;
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    median.value = sorted_median(values);
+    // the k-th from below and from above, the largest k with P(fewer than k values below the median) <= tail
+    const boost::math::binomial fair(static_cast<double>(n), 0.5);
+    std::size_t k = 0;
+    while (boost::math::cdf(fair, static_cast<double>(k)) <= tail)
+        ++k;
+    if (k > 0) {
+        median.lower = values[k - 1];
+        median.upper = values[n - k];
+    }
+    return median;
 }
 
 } // namespace stylobate

@@ -7,7 +7,6 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/numerics/shard.hpp"
 #include "ensemble/ranks/ranks.hpp"
 #include "kernels/isa.hpp"
 

@@ -13,7 +13,7 @@
 /// cav_m_s, cav_cm_s, cav_g_s, sa_1s_m_s2, sa_1s_cm_s2, sa_1s_g. Of a power law it may be without: then it is in SI.
 /// OpenQuake's measures are in its units (`fragility_measure.hpp`).
 
-#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 /// What the readers of hazard curves share.
 
-#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 
 #include <optional>
 #include <string>

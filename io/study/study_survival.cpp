@@ -1,4 +1,4 @@
-#include "ensemble/estimators/past/mirror_image.hpp"
+#include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_file.hpp"
 #include "io/keys/survival_keys.hpp"

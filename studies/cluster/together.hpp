@@ -3,7 +3,7 @@
 /// status.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/shard.hpp"
+#include "ensemble/numerics/run_order.hpp"
 #include "ensemble/ranks/ranks.hpp"
 
 #include <stdexcept>

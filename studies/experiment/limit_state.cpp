@@ -1,7 +1,7 @@
 #include "studies/experiment/limit_state.hpp"
 
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
-#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "io/files/suggest.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "tests/program/program.hpp"
 
-#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/fragility_table.hpp"
 #include "kernels/isa.hpp"

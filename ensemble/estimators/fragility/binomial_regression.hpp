@@ -4,8 +4,6 @@
 /// estimates in logistic regression models", Biometrika 71 (1984) 1).
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
-#include "ensemble/estimators/fragility/limits.hpp"
-#include "ensemble/estimators/fragility/link.hpp"
 
 #include <Eigen/Core>
 

@@ -2,7 +2,7 @@
 /// Functions of a fitted curve: a number that its coefficients determine, with its intervals.
 
 #include "ensemble/estimators/fragility/binomial_regression.hpp"
-#include "ensemble/estimators/fragility/limits.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 
 #include <span>
 #include <vector>

@@ -15,7 +15,7 @@
 /// is, because truncating it would bias it. The shares are those of the nearest variances that are possible (none
 /// negative), so that each is between 0 and 1 and they add up to 1.
 
-#include "ensemble/estimators/fragility/limits.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 
 #include <array>
 #include <span>

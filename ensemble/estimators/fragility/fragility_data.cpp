@@ -2,14 +2,18 @@
 
 #include "ensemble/model/input_error.hpp"
 
+#include <boost/math/special_functions/erf.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace stylobate {
+
 namespace {
 
 void check(const FragilityRun& run, std::size_t number, std::size_t measures)
@@ -101,6 +105,34 @@ FragilityData with_measure(const FragilityData& data, std::size_t measure)
     for (const FragilityRow& row : data.rows)
         runs.push_back({row.record, {data.intensity[row.point * data.measures + measure]}, row.reached, row.trials});
     return grouped(runs);
+}
+
+const char* to_string(Link link)
+{
+    return link == Link::probit ? "probit" : "logit";
+}
+
+LinkValue link_at(Link link, double eta)
+{
+    using std::numbers::inv_sqrtpi;
+    using std::numbers::sqrt2;
+    if (link == Link::probit) {
+        const double density = inv_sqrtpi / sqrt2 * std::exp(-eta * eta / 2);
+        return {std::erfc(-eta / sqrt2) / 2, std::erfc(eta / sqrt2) / 2, density, -eta * density};
+    }
+    // by the smaller exponential, so that neither tail overflows
+    const double small = std::exp(-std::abs(eta));
+    const double far = small / (1 + small), near = 1 / (1 + small);
+    const double below = eta < 0 ? far : near, above = eta < 0 ? near : far;
+    return {below, above, far * near, far * near * (above - below)};
+}
+
+double link_quantile(Link link, double probability)
+{
+    assert(probability > 0 && probability < 1);
+    if (link == Link::probit)
+        return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * probability);
+    return std::log(probability / (1 - probability));
 }
 
 } // namespace stylobate

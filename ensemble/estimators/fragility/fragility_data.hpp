@@ -7,10 +7,26 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace stylobate {
+
+// The limits of an interval, and the kinds of maximum of a likelihood.
+
+struct Limits {
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+};
+
+/// Where the maximum of a likelihood is.
+enum class Maximum : std::uint8_t {
+    inside,    ///< it has its maximum at finite coefficients
+    separated, ///< unbounded: a plane separates the runs that reached the limit state from the others
+    none,      ///< nothing reached it
+    all        ///< everything did
+};
 
 /// Runs of one record at one intensity.
 struct FragilityRow {
@@ -55,5 +71,26 @@ std::vector<std::vector<double>> record_shares(const FragilityData& data);
 
 /// Outcomes with one of their measures only.
 FragilityData with_measure(const FragilityData& data, std::size_t measure);
+
+// From a linear predictor to a probability: the probit (the normal distribution; Bliss, "The calculation of the
+// dosage-mortality curve", Annals of Applied Biology 22 (1935) 134) and the logit (the logistic distribution; Berkson,
+// "Application of the logistic function to bio-assay", Journal of the American Statistical Association 39 (1944) 357).
+
+/// Which distribution function maps the linear predictor to a probability. The probit in the logarithm of an intensity
+/// is the lognormal fragility curve.
+enum class Link : std::uint8_t { probit, logit };
+const char* to_string(Link link);
+
+/// A link at one value of the linear predictor.
+struct LinkValue {
+    double below = 0.5;   ///< probability F(eta)
+    double above = 0.5;   ///< 1 - F(eta), with its own relative accuracy
+    double density = 0;   ///< dF / d eta
+    double curvature = 0; ///< d density / d eta
+};
+LinkValue link_at(Link link, double eta);
+
+/// The linear predictor of a probability in (0, 1): the inverse of `below`.
+double link_quantile(Link link, double probability);
 
 } // namespace stylobate

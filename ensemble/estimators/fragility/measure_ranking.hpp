@@ -5,7 +5,6 @@
 /// information per run is an own choice.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
-#include "ensemble/estimators/fragility/limits.hpp"
 
 #include <string>
 #include <vector>

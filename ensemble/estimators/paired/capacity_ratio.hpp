@@ -23,7 +23,7 @@
 /// The interval is that of the weighted mean of the differences: by pairs (`weighted_difference`), or by the motions
 /// (Student's, of the mean over motions of sum w_i d_ig).
 
-#include "ensemble/estimators/paired/paired_counts.hpp"
+#include "ensemble/estimators/paired/paired_difference.hpp"
 
 #include <cstddef>
 #include <span>

@@ -5,8 +5,11 @@
 /// (the uniform kernel of `past_likelihood.hpp`). Where the sense of the shaking is unknown, it is the smaller one of
 /// the distances from the observed state and from its mirror image (`mirror_image.hpp`).
 
+#include "ensemble/model/structure.hpp"
+
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,5 +69,19 @@ private:
     MeasuredState measured_;
     Order as_is_, mirrored_;
 };
+
+// A structure seen from behind: shaking of the other sense leaves it in the mirror image of the state.
+//
+// The state of a block or joint is then that of the one in its place on the other side, with the other sign. Of one
+// column it is its own; of a colonnade the columns change places.
+
+/// The block and the bed that stand in the place of each.
+struct MirrorImage {
+    std::vector<std::size_t> blocks, beds; ///< of `Layout`
+};
+
+/// Sizes, masses and places have to be alike to 1e-6; offsets of drums within a column do not count. Nothing: seen from
+/// behind it is another structure.
+std::optional<MirrorImage> mirror_image(const Layout& layout);
 
 } // namespace stylobate

@@ -26,7 +26,7 @@
 /// P is linear in the logarithm of the intensity between values of the axis, and beyond its end as at its end. Below
 /// its begin P is taken as 0: where P is not 0 there, L is too small.
 
-#include "ensemble/estimators/past/intensity_integral.hpp"
+#include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 
 #include <cstdint>

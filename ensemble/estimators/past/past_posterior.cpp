@@ -1,6 +1,9 @@
 #include "ensemble/estimators/past/past_posterior.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace stylobate {
@@ -69,6 +72,116 @@ PastPosterior past_posterior(const PastLikelihood& likelihood, const PriorDensit
     result.best_probability = past_estimate(
         likelihood, [&](auto cells) { return share(cells, [&](std::size_t c) { return c == result.best; }); });
     return result;
+}
+
+namespace {
+
+constexpr std::size_t parts = 64; // of a piece between two values of the axis
+
+} // namespace
+
+IntensityIntegral::IntensityIntegral(const std::vector<double>& intensity, const PriorDensity& prior)
+    : weights_(intensity.size(), 0)
+{
+    assert(intensity.size() >= 2 && "an axis of one value has no integral");
+    for (const double value : intensity)
+        log_intensity_.push_back(std::log(value));
+    for (std::size_t i = 0; i + 1 < intensity.size(); ++i)
+        for (std::size_t k = 0; k < parts; ++k)
+            prior_.push_back(prior(std::exp(std::lerp(log_intensity_[i], log_intensity_[i + 1],
+                                                      static_cast<double>(k) / static_cast<double>(parts)))));
+    prior_.push_back(prior(intensity.back()));
+    std::vector<double> one(intensity.size(), 0);
+    for (std::size_t i = 0; i < intensity.size(); ++i) {
+        one[i] = 1;
+        weights_[i] = total(one);
+        one[i] = 0;
+    }
+}
+
+double IntensityIntegral::total(std::span<const double> likelihood) const
+{
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < log_intensity_.size(); ++i) {
+        const double width = (log_intensity_[i + 1] - log_intensity_[i]) / static_cast<double>(parts);
+        if (likelihood[i] == 0 && likelihood[i + 1] == 0)
+            continue;
+        for (std::size_t k = 0; k <= parts; ++k) {
+            const double at = std::lerp(likelihood[i], likelihood[i + 1], static_cast<double>(k) / parts);
+            sum += (k == 0 || k == parts ? 0.5 : 1.0) * width * at * prior_[i * parts + k];
+        }
+    }
+    return sum;
+}
+
+double IntensityIntegral::quantile(std::span<const double> likelihood, double p) const
+{
+    const double wanted = p * total(likelihood);
+    if (!(wanted > 0))
+        return std::numeric_limits<double>::quiet_NaN();
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < log_intensity_.size(); ++i) {
+        const double width = (log_intensity_[i + 1] - log_intensity_[i]) / static_cast<double>(parts);
+        for (std::size_t k = 0; k < parts; ++k) {
+            const auto at = [&](std::size_t part) {
+                return std::lerp(likelihood[i], likelihood[i + 1], static_cast<double>(part) / parts) *
+                       prior_[i * parts + part];
+            };
+            const double more = 0.5 * width * (at(k) + at(k + 1));
+            if (sum + more >= wanted && more > 0)
+                return std::exp(log_intensity_[i] + width * (static_cast<double>(k) + (wanted - sum) / more));
+            sum += more;
+        }
+    }
+    return std::exp(log_intensity_.back());
+}
+
+double likelihood_limit(const std::vector<double>& intensity, std::span<const double> likelihood,
+                        std::span<const double> threshold)
+{
+    const auto above = [&](std::size_t i) { return likelihood[i] - threshold[i]; };
+    std::size_t i = intensity.size() - 1;
+    if (!(above(i) < 0))
+        return std::numeric_limits<double>::infinity();
+    while (i > 0 && above(i - 1) < 0)
+        --i;
+    if (i == 0)
+        return intensity.front();
+    const double t = above(i - 1) / (above(i - 1) - above(i));
+    return intensity[i - 1] * std::pow(intensity[i] / intensity[i - 1], t);
+}
+
+std::vector<double> frequency_weights(const std::vector<double>& frequency_hz)
+{
+    const std::size_t n = frequency_hz.size();
+    if (n == 1)
+        return {1.0};
+    const double whole = std::log(frequency_hz.back() / frequency_hz.front());
+    std::vector<double> weights(n, 0);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        const double half = 0.5 * std::log(frequency_hz[i + 1] / frequency_hz[i]) / whole;
+        weights[i] += half;
+        weights[i + 1] += half;
+    }
+    return weights;
+}
+
+std::vector<double> over_frequencies(std::span<const double> cells, std::span<const double> weights)
+{
+    const std::size_t ni = cells.size() / weights.size();
+    std::vector<double> mean(ni, 0);
+    for (std::size_t f = 0; f < weights.size(); ++f)
+        for (std::size_t i = 0; i < ni; ++i)
+            mean[i] += weights[f] * cells[f * ni + i];
+    return mean;
+}
+
+std::vector<double> largest_over_frequencies(std::span<const double> cells, std::size_t intensities)
+{
+    std::vector<double> most(intensities, 0);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        most[c % intensities] = std::max(most[c % intensities], cells[c]);
+    return most;
 }
 
 } // namespace stylobate

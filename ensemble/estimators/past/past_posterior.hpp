@@ -4,12 +4,54 @@
 /// Prior: equal for each number of events; flat in the logarithm of the frequency; over the intensity the given
 /// density. Between values of the axes the likelihood is linear in their logarithms.
 
-#include "ensemble/estimators/past/intensity_integral.hpp"
+#include "ensemble/estimators/past/past_likelihood.hpp"
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace stylobate {
+
+// Integrals over the intensity of a likelihood that is known on an axis, times a prior density.
+//
+// Between the values of the axis the likelihood is linear in the logarithm of the intensity; every piece is cut into
+// 64 parts, over which the trapezoidal rule is taken. The prior has no mass beyond the axis.
+
+/// Density over the logarithm of the intensity, up to a factor.
+using PriorDensity = std::function<double(double intensity)>;
+
+class IntensityIntegral {
+public:
+    /// @pre two intensities at least, ascending and > 0
+    IntensityIntegral(const std::vector<double>& intensity, const PriorDensity& prior);
+
+    /// The integral of prior x likelihood over ln(intensity). @param likelihood (ni)
+    double total(std::span<const double> likelihood) const;
+    /// The intensity below which a part p of it lies; NaN where the integral is 0.
+    double quantile(std::span<const double> likelihood, double p) const;
+    /// What each value of the axis contributes to `total`, over the likelihood there: sums to the prior's integral.
+    const std::vector<double>& weights() const { return weights_; }
+
+private:
+    std::vector<double> log_intensity_; ///< (ni)
+    std::vector<double> prior_;         ///< (parts + 1), piece by piece
+    std::vector<double> weights_;
+};
+
+/// The intensity above which the likelihood stays below a threshold, both linear in the logarithm between values of the
+/// axis; infinite where it does not at the axis' end, the first intensity where it is below everywhere.
+/// @param threshold (ni)
+double likelihood_limit(const std::vector<double>& intensity, std::span<const double> likelihood,
+                        std::span<const double> threshold);
+
+/// Of each frequency, for a density that is flat in its logarithm; sum 1.
+std::vector<double> frequency_weights(const std::vector<double>& frequency_hz);
+
+/// The mean over the frequencies, weighted. @param cells of one number of events (nf x ni)
+std::vector<double> over_frequencies(std::span<const double> cells, std::span<const double> weights);
+/// The largest value over the frequencies. @param cells as above
+std::vector<double> largest_over_frequencies(std::span<const double> cells, std::size_t intensities);
 
 struct PastPosterior {
     /// The mean likelihood under the prior. Of two studies of one structure and state that differ in their motions (two

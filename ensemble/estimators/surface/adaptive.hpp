@@ -19,7 +19,6 @@
 
 #include "ensemble/estimators/surface/interim_analyses.hpp"
 #include "ensemble/estimators/surface/surface_model.hpp"
-#include "ensemble/estimators/surface/widest_first.hpp"
 #include "ensemble/model/study.hpp"
 
 #include <cstdint>

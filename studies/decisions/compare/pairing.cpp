@@ -1,6 +1,6 @@
 #include "studies/decisions/compare/pairing.hpp"
 
-#include "ensemble/estimators/fragility/record_share.hpp"
+#include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/paired/paired_tests.hpp"
 #include "ensemble/model/nominal.hpp"

@@ -9,7 +9,7 @@
 /// structure keeps what has been displaced, and once with each earthquake by itself on the same structure as new. A
 /// history of one earthquake is run once: it cannot differ.
 
-#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/results/results.hpp"

@@ -8,7 +8,7 @@
 /// two points are those of the y_g of their common motions.
 
 #include "ensemble/estimators/risk/frequency_change.hpp"
-#include "ensemble/estimators/search/paired_noise.hpp"
+#include "ensemble/estimators/search/response_surface.hpp"
 #include "io/study/study_variants.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 

@@ -4,7 +4,6 @@
 
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
-#include "ensemble/estimators/fragility/lack_of_fit.hpp"
 #include "ensemble/estimators/fragility/measure_ranking.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"

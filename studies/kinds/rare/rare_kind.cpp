@@ -1,6 +1,6 @@
 #include "studies/kinds/rare/rare_kind.hpp"
 
-#include "ensemble/estimators/rare/subset_simulation.hpp"
+#include "ensemble/estimators/designs/subset_simulation.hpp"
 #include "io/plots/plot_rare.hpp"
 #include "studies/report/html_figure.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// A study of rare events: subset simulation on the peak displacement of the top, beyond all of which is the collapse,
-/// with chains as lanes (ensemble/estimators/rare/subset_simulation.hpp).
+/// with chains as lanes (ensemble/estimators/designs/subset_simulation.hpp).
 ///
 /// The numbers that a realization is drawn with are the standard normal ones of a chain's point, each by its
 /// distribution function; a step of all chains is one batch of the executor. The pilot is simulation 0, the repeats

@@ -2,9 +2,9 @@
 /// Results of a surface with perturbed replicas: predictability of the verdict of each cell, its sources, and the
 /// predictability horizon.
 
-#include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/replica_separation.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
 
@@ -48,8 +48,8 @@ struct Replicas {
     double tolerance = 0;
     std::vector<double> probability; ///< (nf x np) of collapse, of the originals; NaN without a valid one
     std::vector<KindDiscordance> kinds;
-    std::vector<ReplicaGrowth> growth;  ///< of the moves that begin below the tolerance
-    std::uint64_t invalid_pairs = 0; ///< with an invalid member: left out
+    std::vector<ReplicaGrowth> growth; ///< of the moves that begin below the tolerance
+    std::uint64_t invalid_pairs = 0;   ///< with an invalid member: left out
     /// (nf x np) number of the smallest move at which the verdict is not certain, by its interval; as many as there are
     /// moves: it is certain at all of them; one more: undecided (too few pairs).
     std::vector<std::size_t> lost_at;
@@ -64,7 +64,7 @@ struct ReplicaRow {
 
 /// @param rows of all realizations of a surface with replicas, in any order   @param followed pairs
 Replicas replicas_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
-               const std::vector<ReplicaSeparation>& followed);
+                     const std::vector<ReplicaSeparation>& followed);
 
 /// "moved by 1e-09 m", "step x 0.8", "single precision", "form two_corner"
 std::string describe(const Replica& kind);

@@ -1,7 +1,7 @@
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
-#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/elementary_effects.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
 #include "io/keys/words.hpp"

@@ -1,6 +1,6 @@
 #include "studies/kinds/survival/survival.hpp"
 
-#include "ensemble/estimators/past/mirror_image.hpp"
+#include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 

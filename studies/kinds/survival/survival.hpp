@@ -5,7 +5,7 @@
 #include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/estimators/past/exclusion.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
-#include "ensemble/estimators/past/motion_tally.hpp"
+#include "ensemble/estimators/past/past_likelihood.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
 #include "ensemble/model/study.hpp"

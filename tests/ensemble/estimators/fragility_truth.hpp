@@ -2,9 +2,8 @@
 /// Outcomes drawn from a known fragility curve, with records that differ, and a hazard of a power law.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
-#include "ensemble/estimators/fragility/link.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
-#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <algorithm>

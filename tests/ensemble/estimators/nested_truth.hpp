@@ -2,7 +2,7 @@
 /// Responses of a nested design whose components of variance are known.
 
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
-#include "ensemble/estimators/fragility/link.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// Pairs of trials whose true difference is known.
 
-#include "ensemble/estimators/paired/paired_counts.hpp"
+#include "ensemble/estimators/paired/paired_difference.hpp"
 
 #include <cmath>
 #include <random>

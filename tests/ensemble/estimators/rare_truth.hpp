@@ -1,7 +1,7 @@
 #pragma once
 /// Limit states of standard normal numbers whose probability is known in closed form.
 
-#include "ensemble/estimators/rare/subset_simulation.hpp"
+#include "ensemble/estimators/designs/subset_simulation.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>

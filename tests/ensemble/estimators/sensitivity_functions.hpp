@@ -1,7 +1,7 @@
 #pragma once
 /// Functions with known indices, on designs made here, with a generator that the estimators do not have.
 
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 
 #include <cmath>
 #include <functional>

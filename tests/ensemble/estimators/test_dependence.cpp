@@ -1,7 +1,7 @@
 /// Whether a gain depends on a drawn quantity: the variance of the rank sum by all permutations, the share of false
 /// alarms, and dependences that were planted.
 
-#include "ensemble/estimators/paired/dependence.hpp"
+#include "ensemble/estimators/paired/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 /// Final states against the observed one, as they are and mirrored; the mirror image of a structure.
 
 #include "ensemble/estimators/past/agreeing_states.hpp"
-#include "ensemble/estimators/past/mirror_image.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Lack of fit, shares by stripe, and monotony: right sizes under true curves, power against curves with a dip.
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
-#include "ensemble/estimators/fragility/lack_of_fit.hpp"
+#include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

@@ -2,7 +2,6 @@
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
-#include "ensemble/estimators/fragility/lack_of_fit.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
 #include "ensemble/numerics/quantiles.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"

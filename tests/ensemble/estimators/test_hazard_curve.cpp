@@ -1,7 +1,7 @@
 /// Integrals over a hazard curve against closed forms and against sums over fine steps.
 
+#include "ensemble/estimators/risk/frequency_estimate.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
-#include "ensemble/estimators/risk/risk_number.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <gtest/gtest.h>

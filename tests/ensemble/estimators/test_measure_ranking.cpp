@@ -1,6 +1,6 @@
 /// Intensity measures ranked: the one that drives the outcome comes first and is sufficient, the others are not.
 
-#include "ensemble/estimators/fragility/link.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/fragility/measure_ranking.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/random.hpp"

@@ -1,6 +1,6 @@
 /// Structures under one motion: shares by hand, their means over all outcomes, and counts of equal uncertainty.
 
-#include "ensemble/estimators/past/motion_tally.hpp"
+#include "ensemble/estimators/past/past_likelihood.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "tests/program/program.hpp"
 
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "io/store/result_store.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
 

@@ -1,7 +1,6 @@
 /// The interval of a share by records: Clopper's and Pearson's where records are all or nothing, never narrower on the
 /// side of damage where damage appears, and its coverage where few records are damaged.
 
-#include "ensemble/estimators/fragility/record_share.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 

@@ -1,7 +1,7 @@
 /// Resampled rows by hand: percentiles of the very resamples, and the jackknife of a mean, which is its standard error.
 
-#include "ensemble/estimators/resampling/row_bootstrap.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/numerics/row_bootstrap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 
 #include "ensemble/estimators/fragility/measure_ranking.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
-#include "ensemble/estimators/paired/dependence.hpp"
 #include "ensemble/estimators/paired/paired_allocation.hpp"
-#include "ensemble/estimators/past/ratio_thresholds.hpp"
+#include "ensemble/estimators/paired/paired_tests.hpp"
+#include "ensemble/estimators/past/exclusion.hpp"
 #include "ensemble/estimators/past/simulated_monuments.hpp"
-#include "ensemble/estimators/search/paired_noise.hpp"
+#include "ensemble/estimators/search/response_surface.hpp"
 
 #include <gtest/gtest.h>
 

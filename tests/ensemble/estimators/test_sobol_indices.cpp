@@ -1,8 +1,8 @@
 /// Sobol's indices and Morris' effects of functions whose indices are known in closed form, and how often the
 /// intervals hold them.
 
-#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/elementary_effects.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
 
 #include <fmt/format.h>

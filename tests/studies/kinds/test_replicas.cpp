@@ -1,8 +1,8 @@
 /// Twins: the same realization but for one thing; how fast they part; how often their verdicts differ, by pairs whose
 /// truth is known.
 
-#include "ensemble/estimators/resampling/mean_and_median.hpp"
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "ensemble/run/executor.hpp"

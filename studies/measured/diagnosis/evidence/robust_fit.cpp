@@ -1,7 +1,7 @@
 #include "studies/measured/diagnosis/evidence/robust_fit.hpp"
 
 #include "ensemble/numerics/eigen_blocks.hpp"
-#include "ensemble/numerics/log_gamma.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 
 #include <Eigen/Cholesky>
 

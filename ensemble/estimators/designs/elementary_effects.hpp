@@ -22,7 +22,7 @@
 /// Environmental Modelling & Software 22 (2007) 1509. The noise is removed as in sobol_indices.hpp: squares are
 /// estimated by products of different draws of the rest. Intervals: `bootstrap_rows`.
 
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 
 namespace stylobate {
 

@@ -38,7 +38,7 @@
 ///
 /// Intervals: `resampled_rows`. Their measured coverage is in docs/sensitivity.md.
 
-#include "ensemble/estimators/resampling/row_bootstrap.hpp"
+#include "ensemble/numerics/row_bootstrap.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/rare/subset_simulation.hpp"
+#include "ensemble/estimators/designs/subset_simulation.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
 #include "ensemble/numerics/quantiles.hpp"

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/sensitivity/sobol_indices.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/resampling/row_bootstrap.hpp"
+#include "ensemble/numerics/row_bootstrap.hpp"
 
 #include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/random.hpp"

@@ -36,7 +36,7 @@
 /// Every number is a function of (seed, simulation, evaluation, element): the same run results however a batch is
 /// evaluated.
 
-#include "ensemble/estimators/resampling/row_bootstrap.hpp"
+#include "ensemble/numerics/row_bootstrap.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "ensemble/estimators/sensitivity/elementary_effects.hpp"
+#include "ensemble/estimators/designs/elementary_effects.hpp"
 
 #include <cmath>
 #include <stdexcept>
