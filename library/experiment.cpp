@@ -1,6 +1,6 @@
 #include "ensemble/experiment.hpp"
 #include "io/keys/words.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
 

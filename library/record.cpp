@@ -1,4 +1,4 @@
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "library/inside.hpp"
 
 #include <fmt/format.h>

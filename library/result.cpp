@@ -1,14 +1,14 @@
-#include "library/results.hpp"
+#include "library/result.hpp"
 
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
-#include "library/outcomes.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
 #include "studies/workflow/run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace stylobate::api {
 
@@ -172,6 +172,131 @@ Fragility Result::fragility() const
         throw InputError(
             fmt::format("{}: the run is not complete; run the same study again to continue it", data_->name));
     return fragility_of(data_->fragility);
+}
+
+Result::Data::Data(inner::ResultHeader of, inner::Study from, std::string called)
+    : header(std::move(of)), study(std::move(from)), name(std::move(called)),
+      limits(header.block_names.size(),
+             header.kind == "replay" ? inner::MotionGroups{} : inner::motion_groups(study, header.motions)),
+      trials_(header.kind == "replay" ? study.total() : study.originals())
+{
+    if (!header.frequency_hz.empty())
+        for (std::size_t i = 0; i < inner::limit_state_names().size(); ++i)
+            counts_.emplace_back(header.frequency_hz, header.pga_m_s2, static_cast<inner::LimitState>(i));
+}
+
+void Result::Data::count_the_first(const std::function<bool(std::uint64_t)>& has)
+{
+    if (header.selected || study.kind == inner::StudyKind::single)
+        return; // their realizations begin in another order
+    order_.emplace(trials_);
+    while (places_ < trials_ && has(order_->index(places_)))
+        ++places_;
+    places_ = order_->fair(places_);
+}
+
+bool Result::Data::counts(std::uint64_t index) const
+{
+    return index < trials_ && (!order_ || order_->place(index) < places_);
+}
+
+void Result::Data::add(const inner::ResultRow& row)
+{
+    ++done;
+    invalid += row.outcome.state == inner::State::invalid;
+    if (header.has_rows())
+        outcomes.push_back(outcome_of(row));
+    if (!counts(row.index))
+        return;
+    limits.add(row);
+    for (inner::SurfaceCounts& each : counts_)
+        each.add(row);
+}
+
+void Result::Data::add(const inner::Tally& tally)
+{
+    limits = inner::LimitCounts(tally);
+    invalid = tally.all_invalid();
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+        counts_[i] = inner::SurfaceCounts(inner::surface_of(header, tally, static_cast<inner::LimitState>(i)));
+}
+
+void Result::Data::finish(std::optional<inner::SurfaceTable> surface, const inner::Table& of_rare,
+                          const inner::Table& of_fragility)
+{
+    std::sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
+    for (const inner::SurfaceCounts& each : counts_)
+        surfaces.push_back(each.table());
+    counts_.clear();
+    if (surface && !surfaces.empty())
+        surfaces[static_cast<std::size_t>(inner::LimitState::collapse)] = std::move(*surface);
+    rare = inner::rare_table(of_rare);
+    fragility = inner::fragility_table(of_fragility);
+}
+
+namespace {
+
+Estimate estimate(const stylobate::IntervalArray& array, std::size_t i)
+{
+    return {array.value[i], array.lower[i], array.upper[i]};
+}
+
+} // namespace
+
+Outcome outcome_of(const stylobate::ResultRow& row)
+{
+    const stylobate::Outcome& o = row.outcome;
+    Outcome out;
+    out.index = row.index;
+    out.cell = row.cell;
+    out.frequency_hz = row.frequency_hz;
+    out.pga_m_s2 = row.pga_m_s2;
+#define STYLOBATE_OUTCOME(type, name, ...) out.name = static_cast<type>(o.name);
+#define STYLOBATE_OUTCOME_AS(public_type, public_name, type, name, ...)                                                \
+    out.public_name = static_cast<public_type>(o.name);
+#include "stylobate/outcome_fields.inc"
+    out.fall_time_s = o.fall_time_s;
+    out.inputs = row.inputs;
+    return out;
+}
+
+Share share_of(const stylobate::Share& share)
+{
+    return {share.trials, share.count, share.probability, share.lower, share.upper};
+}
+
+Surface surface_of(const stylobate::SurfaceTable& table, const std::string& limit_state)
+{
+    return {limit_state,     table.interval,    table.frequency_hz, table.pga_m_s2, table.trials,
+            table.collapses, table.probability, table.lower,        table.upper};
+}
+
+Cell Surface::cell(std::size_t frequency, std::size_t pga) const
+{
+    if (frequency >= frequency_hz.size() || pga >= pga_m_s2.size())
+        throw std::out_of_range("the surface has no such cell");
+    const std::size_t i = frequency * pga_m_s2.size() + pga;
+    return {frequency_hz[frequency], pga_m_s2[pga], trials[i], reached[i], probability[i], lower[i], upper[i]};
+}
+
+Fragility fragility_of(const stylobate::FragilityTable& table)
+{
+    Fragility fragility{table.measure, table.grid, table.stripe, {}};
+    for (std::size_t s = 0; s < table.states.size(); ++s) {
+        FragilityCurve curve;
+        curve.limit_state = table.states[s];
+        curve.meaning = table.meanings[s];
+        curve.trials = table.trials[s];
+        curve.reached = table.reached[s];
+        curve.median = estimate(table.median, s);
+        curve.dispersion = estimate(table.dispersion, s);
+        for (std::size_t i = 0; i < table.grid.size(); ++i)
+            curve.probability.push_back(estimate(table.curve, s * table.grid.size() + i));
+        for (std::size_t i = 0; i < table.stripe.size(); ++i)
+            curve.share.push_back(estimate(table.share, s * table.stripe.size() + i));
+        fragility.curves.push_back(std::move(curve));
+    }
+    return fragility;
 }
 
 } // namespace stylobate::api

@@ -1,7 +1,7 @@
 #include "stylobate/run.hpp"
 
 #include "library/inside.hpp"
-#include "library/results.hpp"
+#include "library/result.hpp"
 #include "studies/results/study_run.hpp"
 
 #include <algorithm>

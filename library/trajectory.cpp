@@ -2,8 +2,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "library/inside.hpp"
-#include "library/outcomes.hpp"
-#include "library/results.hpp"
+#include "library/result.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 namespace stylobate {
 
-/// Corners of a Butterworth filter of order 4 (io/motion/ground_motion.hpp) [Hz].
+/// Corners of a Butterworth filter of order 4 (io/records/ground_motion.hpp) [Hz].
 struct BandPass {
     double low_hz = 0;
     double high_hz = 0;

@@ -2,15 +2,16 @@
 
 #include "ensemble/model/input_error.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <fstream>
+#include <string>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace stylobate {
@@ -185,6 +186,27 @@ void AtomicFolder::fail(const std::string& reason) const
     throw InputError(fmt::format("cannot write the folder '{}': {}.\n  Name a new folder, in one that exists, can be "
                                  "written and has room; nothing was written.",
                                  folder_.string(), reason));
+}
+
+TemporaryFolder::TemporaryFolder()
+{
+    std::error_code error;
+    std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    if (const char* const named = std::getenv("TMPDIR"); error && named != nullptr)
+        parent = named;
+    std::string name = (parent / "stylobate-XXXXXX").string();
+    if (error || ::mkdtemp(name.data()) == nullptr)
+        throw InputError(fmt::format("cannot make a temporary folder in '{}': {}.\n  Set TMPDIR to a folder that "
+                                     "exists and can be written.",
+                                     parent.string(),
+                                     error ? error.message() : std::generic_category().message(errno)));
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
 }
 
 } // namespace stylobate

@@ -1,7 +1,9 @@
 #include "io/hazard/hazard_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/quantiles.hpp"
 #include "io/files/csv_fields.hpp"
+#include "io/files/suggest.hpp"
 #include "io/hazard/hazard_parts.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 namespace stylobate {
@@ -87,6 +90,143 @@ HazardModel read_hazard(const std::vector<std::string>& given, const std::string
     HazardModel hazard = checked_hazard(std::move(raw));
     hazard.source = fmt::format("{}", fmt::join(given, ", "));
     return hazard;
+}
+
+RawHazard power_law_hazard(const std::string& given)
+{
+    constexpr const char* form = "Give k0=1e-4,k=2.5,measure=pga_g and, if it is known, sigma_ln=0.5.";
+    const auto refuse = [&](const std::string& text) -> void {
+        throw InputError(fmt::format("--hazard {}: {}\n  {}", given, text, form));
+    };
+    std::map<std::string, std::string, std::less<>> values;
+    for (std::size_t at = 0; at <= given.size();) {
+        const std::size_t end = std::min(given.find(',', at), given.size());
+        const std::string word = given.substr(at, end - at);
+        const std::size_t sign = word.find('=');
+        if (sign == std::string::npos)
+            refuse(fmt::format("'{}' is no KEY=VALUE, and there is no file of this name.", word));
+        const std::string key = word.substr(0, sign);
+        if (key != "k0" && key != "k" && key != "measure" && key != "sigma_ln")
+            refuse(fmt::format("'{}' is no part of a power law.", key));
+        if (!values.emplace(key, word.substr(sign + 1)).second)
+            refuse(fmt::format("{} is given twice.", key));
+        at = end + 1;
+    }
+    const auto number = [&](const char* key, double least, double most) {
+        const auto found = values.find(key);
+        if (found == values.end())
+            refuse(fmt::format("{} is missing.", key));
+        const auto value = hazard_number(found->second);
+        if (!value || !(*value >= least && *value <= most))
+            refuse(fmt::format("{} = {} is outside [{}, {}].", key, found->second, least, most));
+        return *value;
+    };
+    const double k0 = number("k0", 1e-100, 1e6), k = number("k", 0.01, 30);
+    if (!values.contains("measure"))
+        refuse("measure is missing.");
+    HazardMeasure measure = measure_of_column(values["measure"]);
+    if (measure.name.empty())
+        measure = measure_without_unit(values["measure"]);
+    if (measure.name.empty())
+        refuse(fmt::format("measure = '{}' is none of {}.", values["measure"], known_hazard_measures()));
+    RawHazard raw;
+    HazardModel& hazard = raw.hazard;
+    hazard.source = given;
+    hazard.measure = measure.name;
+    hazard.unbounded = true;
+    hazard.intensity = {measure.per_unit, 10 * measure.per_unit};
+    hazard.frequency = {k0, k0 * std::pow(10, -k)};
+    if (values.contains("sigma_ln"))
+        for (const double probability : {0.05, 0.95}) {
+            const double factor = std::exp(normal_quantile(probability) * number("sigma_ln", 1e-6, 5));
+            hazard.fractiles.push_back({probability, {k0 * factor, k0 * factor * std::pow(10, -k)}});
+        }
+    return raw;
+}
+
+namespace {
+
+/// What a column after the first one is: the best estimate, or a fractile.
+struct Column {
+    std::string name;
+    double fractile = 0; ///< 0: the best estimate
+};
+
+Column column_of(const std::string& file, const CsvLine& head, std::size_t field)
+{
+    const std::string name(head.fields[field]);
+    if (name == "annual_frequency")
+        return {name, 0};
+    if (name == "low")
+        return {name, 0.05};
+    if (name == "high")
+        return {name, 0.95};
+    if (name.starts_with("fractile_"))
+        if (const auto value = hazard_number(std::string_view(name).substr(9)); value && *value > 0 && *value < 1)
+            return {name, *value};
+    const std::string meant = nearest_word(name, {"annual_frequency", "low", "high"});
+    throw InputError(file, head.number,
+                     fmt::format("the column '{}' is not known.{}\n  After the intensity: annual_frequency, low and "
+                                 "high (the fractiles 0.05 and 0.95), or fractile_0.16 and others between 0 and 1.",
+                                 name.substr(0, 40), meant.empty() ? "" : fmt::format(" Did you mean {}?", meant)));
+}
+
+} // namespace
+
+RawHazard csv_hazard(const std::string& file, std::string_view text)
+{
+    RawHazard raw;
+    HazardModel& hazard = raw.hazard;
+    hazard.source = file;
+    HazardMeasure measure;
+    std::string column; // of the intensity
+    std::vector<Column> columns;
+    for_each_csv_line(text, [&](const CsvLine& line) {
+        if (measure.name.empty()) {
+            measure = measure_of_column(line.fields[0]);
+            if (measure.name.empty())
+                throw InputError(file, line.number,
+                                 fmt::format("the first column '{}' is no intensity measure with its unit.\n  Known: "
+                                             "{}; then annual_frequency.",
+                                             line.fields[0].substr(0, 40), known_hazard_measures()));
+            column = line.fields[0];
+            for (std::size_t f = 1; f < line.fields.size(); ++f)
+                columns.push_back(column_of(file, line, f));
+            if (columns.empty())
+                throw InputError(file, line.number, "has no column after the intensity.\n  Give annual_frequency.");
+            for (const Column& given : columns)
+                if (given.fractile > 0)
+                    hazard.fractiles.push_back({given.fractile, {}});
+            return;
+        }
+        if (line.fields.size() != columns.size() + 1)
+            throw InputError(file, line.number,
+                             fmt::format("has {} fields, the header {}.", line.fields.size(), columns.size() + 1));
+        const auto number = [&](std::size_t field, const std::string& name) {
+            const double value = csv_number(file, line, field, name);
+            if (std::isnan(value))
+                throw InputError(file, line.number,
+                                 fmt::format("{} is empty.\n  Leave out the whole line, or the column.", name));
+            return value;
+        };
+        hazard.intensity.push_back(number(0, "intensity") * measure.per_unit);
+        raw.names.push_back(fmt::format("{} = {}", column, line.fields[0]));
+        raw.lines.push_back(line.number);
+        for (std::size_t f = 0, fractile = 0; f < columns.size(); ++f) {
+            const double value = number(f + 1, columns[f].name);
+            (columns[f].fractile > 0 ? hazard.fractiles[fractile++].frequency : hazard.frequency).push_back(value);
+        }
+    });
+    if (measure.name.empty())
+        throw InputError(file, 0,
+                         "is empty.\n  Give a header such as pga_g,annual_frequency and a line for each "
+                         "intensity.");
+    if (hazard.intensity.empty())
+        throw InputError(file, 0, "has no line below its header.\n  Give a line for each intensity.");
+    if (hazard.frequency.size() > hazard.intensity.size())
+        throw InputError(file, 0, "has the column annual_frequency twice.");
+    hazard.measure = measure.name;
+    return raw;
 }
 
 } // namespace stylobate

@@ -2,7 +2,6 @@
 /// The keys of [contact].
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/conditions.hpp"
 #include "io/keys/ranges.hpp"
 #include "io/keys/words.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/keys/axis_key.hpp"
-#include "io/keys/conditions.hpp"
 #include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
 
 namespace stylobate {
 

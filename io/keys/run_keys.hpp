@@ -2,9 +2,9 @@
 /// The keys of [study], and of what every study has at its end: [initial], [output], [outcome], [run].
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/conditions.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 /// The keys of [structure].
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/conditions.hpp"
 #include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
 
 namespace stylobate::structure_keys {
 

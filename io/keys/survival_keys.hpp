@@ -2,8 +2,8 @@
 /// The keys of [survival]: the state in which a structure is found, the prior, and the hazard.
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/conditions.hpp"
 #include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
 
 namespace stylobate::survival_keys {
 

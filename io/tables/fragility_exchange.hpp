@@ -16,6 +16,14 @@
 
 namespace stylobate {
 
+// Units of intensity measures in NRML.
+
+/// What one SI unit is in the unit of OpenQuake's hazard library (`openquake.hazardlib.imt`): PGA and SA in g, PGV in
+/// cm/s, PGD in cm, IA in m/s, CAV in g s. @throws InputError for an unknown measure
+double per_si_unit(const std::string& measure);
+/// That unit: "g", "cm/s", "g s". @throws InputError for an unknown measure
+const char* openquake_unit(const std::string& measure);
+
 /// The requirements of OpenQuake for a model, and more: that no limit state is more probable than the one before it,
 /// and that no number stands without its interval.
 /// @throws InputError naming function, limit state, value and range

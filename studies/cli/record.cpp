@@ -2,7 +2,7 @@
 
 #include "io/records/record.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "studies/cli/command.hpp"
 #include "studies/report/json.hpp"
 #include "studies/workflow/console.hpp"

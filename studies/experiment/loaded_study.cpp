@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/words.hpp"
-#include "io/measured/base_table.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/measured/measured_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"

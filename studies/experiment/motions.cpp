@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "io/files/utf8.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
-#include "io/files/temporary_folder.hpp"
 #include "io/plots/plot_order.hpp"
 #include "io/store/surface_axis.hpp"
 #include "studies/experiment/conventions.hpp"

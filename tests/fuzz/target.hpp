@@ -2,7 +2,7 @@
 /// What the fuzzer and the tests of malformed files need of a reader.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 
 #include <algorithm>
 #include <filesystem>

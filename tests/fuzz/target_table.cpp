@@ -1,8 +1,8 @@
 /// CSV tables. The first byte of an input chooses the reader: an odd one that of measured outcomes, an even one that of
 /// base motions.
 
-#include "io/measured/base_table.hpp"
-#include "io/measured/measured_outcomes.hpp"
+#include "io/measured/measured_file.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "tests/fuzz/text_mutation.hpp"
 
 #include <cmath>

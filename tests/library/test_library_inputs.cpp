@@ -4,7 +4,7 @@
 #include "tests/program/program.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/study/study_file.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/tables/fragility_exchange.hpp"
-#include "io/tables/fragility_measure.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>

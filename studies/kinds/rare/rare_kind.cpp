@@ -1,7 +1,7 @@
 #include "studies/kinds/rare/rare_kind.hpp"
 
 #include "ensemble/estimators/designs/subset_simulation.hpp"
-#include "io/plots/plot_rare.hpp"
+#include "io/plots/plot_estimates.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "studies/kinds/sensitivity/sensitivity_kind.hpp"
 
-#include "io/plots/plot_sensitivity.hpp"
+#include "io/plots/plot_estimates.hpp"
 #include "io/tables/csv.hpp"
 
 namespace stylobate {

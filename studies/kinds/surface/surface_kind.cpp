@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_surface.hpp"
 #include "io/store/surface_axis.hpp"
 #include "studies/kinds/law_band.hpp"

@@ -5,7 +5,6 @@
 #include "ensemble/tracking/specimen.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
-#include "io/measured/measured_outcomes.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_evidence.hpp"
 #include "studies/measured/calibration/calibration_search.hpp"

@@ -4,9 +4,8 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "io/keys/ranges.hpp"
 #include "io/keys/words.hpp"
-#include "io/measured/base_table.hpp"
 #include "io/measured/measured_motion.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 /// Tables of samples as base motions: what is read, and what is refused with which words.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/measured/base_table.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_motion.hpp"
 

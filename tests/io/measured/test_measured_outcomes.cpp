@@ -1,6 +1,6 @@
 /// Tables of outcomes: what they mean, and what is refused.
 
-#include "io/measured/measured_outcomes.hpp"
+#include "io/measured/measured_file.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 /// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
 
 #include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_estimates.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "io/plots/plot_rare.hpp"
-#include "io/plots/plot_slice.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "io/plots/plot_surface.hpp"
 #include "io/store/surface_axis.hpp"

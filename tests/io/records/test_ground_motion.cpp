@@ -2,7 +2,7 @@
 /// NumPy gave for real records (`summary.csv` beside them, whose README.md states how each was computed).
 
 #include "ensemble/model/input_error.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "tests/io/store/csv_line.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 /// What the tests of exports and pictures share: a folder, a surface, a trajectory.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/store/result_store.hpp"
 
 #include <algorithm>

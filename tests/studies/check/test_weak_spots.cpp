@@ -1,6 +1,6 @@
 /// Where a study is weak: each spot on a study that has it and on one that just has not; the ready studies have none.
 
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "tests/studies/check/ready_study.hpp"
 

@@ -1,6 +1,6 @@
 /// Histories of earthquakes: the rest between two of them, and the shares of a run, by hand.
 
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/decisions/risk/sequences.hpp"
 #include "studies/results/study_run.hpp"

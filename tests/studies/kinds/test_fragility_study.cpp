@@ -5,7 +5,7 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/experiment/motions.hpp"
 #include "studies/kinds/fragility/damage.hpp"

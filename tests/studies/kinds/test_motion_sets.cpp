@@ -2,7 +2,7 @@
 /// vertical components, the same motion under several names, weak motions scaled far, and few motions.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/check/check_study.hpp"
 #include "studies/check/weak_spots.hpp"

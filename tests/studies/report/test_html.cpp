@@ -1,7 +1,7 @@
 /// Pages and figures: what comes from elsewhere is text and never markup; figures hold what they are given.
 
 #include "ensemble/model/collapse_criterion.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/measured/calibration/calibration_text.hpp"

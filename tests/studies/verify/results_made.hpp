@@ -3,7 +3,7 @@
 /// right: what a wrong program, and no damage, would leave.
 
 #include "ensemble/run/executor.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/results/run_store.hpp"

@@ -3,7 +3,7 @@
 #include "tests/io/measured/measured_samples.hpp"
 
 #include "ensemble/sampling/sampler.hpp"
-#include "io/measured/measured_outcomes.hpp"
+#include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration.hpp"
 #include "studies/measured/calibration/calibration_evidence.hpp"

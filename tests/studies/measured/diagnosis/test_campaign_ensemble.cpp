@@ -4,7 +4,7 @@
 #include "tests/ensemble/ranks/thread_ranks.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/measured/calibration/calibration.hpp"
 #include "studies/measured/diagnosis/campaigns/proposals.hpp"
 #include "studies/measured/diagnosis/decision.hpp"
@@ -124,7 +124,8 @@ TEST(CandidateCauses, WearGoesOnWhereEarlierRunsHaveLeftIt)
     wear.persists = corners.persists = true;
     const Joint late = joint(worn(wear, 20, before), 1);
     for (const double slip : {0.0, 0.01, 0.025}) // the law itself, over the whole path
-        EXPECT_NEAR(late.friction * (1 - late.mechanisms.wear_per_m * slip), friction * (1 - 20 * (0.02 + slip)), 1e-12);
+        EXPECT_NEAR(late.friction * (1 - late.mechanisms.wear_per_m * slip), friction * (1 - 20 * (0.02 + slip)),
+                    1e-12);
     EXPECT_EQ(joint(worn(wear, 20, before), 0).friction, joint(healthy, 0).friction);
     const Joint worn_out = joint(worn(wear, 60, before), 1);
     EXPECT_EQ(worn_out.friction, 0);

@@ -1,7 +1,7 @@
 /// Intensity measures of a record: peaks, Arias intensity, Fourier amplitude, response spectrum.
 
 #include "ensemble/numerics/fourier.hpp"
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 
 #include <algorithm>
 #include <cassert>

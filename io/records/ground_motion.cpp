@@ -1,4 +1,4 @@
-#include "io/motion/ground_motion.hpp"
+#include "io/records/ground_motion.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/fourier.hpp"

@@ -8,6 +8,7 @@
 #include "library/inside.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"
+#include "stylobate/result.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -54,5 +55,12 @@ private:
     std::uint64_t places_ = 0;                 ///< of it, that count
     std::uint64_t trials_ = 0;                 ///< realizations below count; perturbed replicas are no further trials
 };
+
+// From the engine's rows and tables to the plain data of the public headers.
+
+Outcome outcome_of(const stylobate::ResultRow& row);
+Share share_of(const stylobate::Share& share);
+Surface surface_of(const stylobate::SurfaceTable& table, const std::string& limit_state);
+Fragility fragility_of(const stylobate::FragilityTable& table);
 
 } // namespace stylobate::api

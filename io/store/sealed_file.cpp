@@ -1,4 +1,4 @@
-#include "io/sealed/sealed_file.hpp"
+#include "io/store/sealed_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"

@@ -1,8 +1,9 @@
+#include "io/tables/fragility_exchange.hpp"
+
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/utf8.hpp"
-#include "io/tables/fragility_exchange.hpp"
-#include "io/tables/fragility_measure.hpp"
+#include "io/tables/csv.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -10,9 +11,142 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <sstream>
 
 namespace stylobate {
+
+namespace {
+
+constexpr double standard_gravity = 9.80665;
+
+[[noreturn]] void refuse(const FragilityFunction& function, const std::string& text)
+{
+    throw InputError(fmt::format("fragility function '{}': {}", function.id, text));
+}
+
+void check_value(const FragilityFunction& function, const std::string& what, const FragilityValue& value, double least,
+                 double most)
+{
+    if (!(value.value >= least && value.value <= most && std::isfinite(value.value)))
+        refuse(function, fmt::format("{} = {} is outside [{}, {}].\n  Where an estimate has no curve, export its "
+                                     "bounds as a discrete function.",
+                                     what, value.value, least, most));
+    const bool no_interval = std::isnan(value.lower) && std::isnan(value.upper); // too few motions
+    if (!no_interval && !(value.lower <= value.value && value.value <= value.upper))
+        refuse(function,
+               fmt::format("{} = {} is outside its interval [{}, {}].", what, value.value, value.lower, value.upper));
+}
+
+double probability(const FragilityState& state, double intensity)
+{
+    return std::erfc(-std::log(intensity / state.median.value) / state.dispersion.value / std::sqrt(2.0)) / 2;
+}
+
+/// Damage is shared out by differences of neighbours: a later state that is more probable makes one negative.
+void check_order(const FragilityModel& model, const FragilityFunction& function)
+{
+    const auto refuse_order = [&](std::size_t state, double intensity, double before, double here) {
+        refuse(function,
+               fmt::format("limit states in the wrong order: at intensity {:.4g} '{}' has probability {:.4g}, "
+                           "but '{}' before it {:.4g}.\n  Order them from the first to be reached, narrow the range, "
+                           "or export shares by stripe.",
+                           intensity, model.limit_states[state], here, model.limit_states[state - 1], before));
+    };
+    for (std::size_t s = 1; s < function.states.size(); ++s) {
+        const FragilityState &before = function.states[s - 1], &here = function.states[s];
+        if (function.discrete) {
+            for (std::size_t i = 0; i < function.intensity.size(); ++i)
+                if (here.probability[i].value > before.probability[i].value + 1e-9)
+                    refuse_order(s, function.intensity[i], before.probability[i].value, here.probability[i].value);
+            continue;
+        }
+        // two lognormal curves cross once at most: their order at the ends of the range decides
+        for (const double intensity : {function.least, function.most})
+            if (probability(here, intensity) > probability(before, intensity) + 1e-3)
+                refuse_order(s, intensity, probability(before, intensity), probability(here, intensity));
+    }
+}
+
+} // namespace
+
+double per_si_unit(const std::string& measure)
+{
+    if (measure == "PGA")
+        return 1 / standard_gravity;
+    if (measure == "PGV" || measure == "PGD")
+        return 100;
+    if (measure == "IA")
+        return 1;
+    if (measure == "CAV")
+        return 1 / standard_gravity;
+    if (measure.starts_with("SA(") && measure.ends_with(")")) {
+        double period = 0;
+        const char* const end = measure.data() + measure.size() - 1;
+        const auto [rest, error] = std::from_chars(measure.data() + 3, end, period);
+        if (error == std::errc() && rest == end && period > 0)
+            return 1 / standard_gravity;
+    }
+    throw InputError(fmt::format("fragility: '{}' is not a known intensity measure of OpenQuake.\n  Known: PGA, "
+                                 "PGV, PGD, SA(period), IA, CAV.",
+                                 measure));
+}
+
+const char* openquake_unit(const std::string& measure)
+{
+    per_si_unit(measure); // refuses an unknown one
+    return measure == "PGV"   ? "cm/s"
+           : measure == "PGD" ? "cm"
+           : measure == "IA"  ? "m/s"
+           : measure == "CAV" ? "g s"
+                              : "g";
+}
+
+void check_fragility_model(const FragilityModel& model)
+{
+    if (model.limit_states.empty() || model.functions.empty())
+        throw InputError("fragility model: it has no limit states or no functions.");
+    std::set<std::string> names;
+    for (const std::string& name : model.limit_states)
+        if (name.empty() || name.find_first_of(" \t\r\n") != std::string::npos || !names.insert(name).second)
+            throw InputError(fmt::format("fragility model: limit state '{}' is empty, has a blank, or comes twice.\n  "
+                                         "NRML separates limit states by blanks: write fallen_drum.",
+                                         name));
+    std::set<std::string> ids;
+    for (const FragilityFunction& function : model.functions) {
+        if (function.id.empty() || !ids.insert(function.measure + ' ' + function.id).second)
+            refuse(function, "its name is empty or comes twice.");
+        per_si_unit(function.measure);
+        if (function.states.size() != model.limit_states.size())
+            refuse(function, fmt::format("it has {} limit states, the model {}.", function.states.size(),
+                                         model.limit_states.size()));
+        if (function.discrete) {
+            const auto& at = function.intensity;
+            if (at.size() < 2 || !(at.front() > 0) ||
+                std::adjacent_find(at.begin(), at.end(), [](double a, double b) { return !(a < b); }) != at.end())
+                refuse(function, "its intensities are not two or more, above 0 and ascending.");
+        } else if (!(function.least > 0 && function.least < function.most && std::isfinite(function.most)))
+            refuse(function, fmt::format("its range of intensity [{}, {}] is not above 0 and ascending.",
+                                         function.least, function.most));
+        for (std::size_t s = 0; s < function.states.size(); ++s) {
+            const FragilityState& state = function.states[s];
+            const std::string& name = model.limit_states[s];
+            if (!function.discrete) {
+                check_value(function, name + ": median", state.median, 1e-300, 1e300);
+                check_value(function, name + ": dispersion", state.dispersion, 1e-6, 10);
+                continue;
+            }
+            if (state.probability.size() != function.intensity.size())
+                refuse(function, fmt::format("{}: {} probabilities at {} intensities.", name, state.probability.size(),
+                                             function.intensity.size()));
+            for (const FragilityValue& value : state.probability)
+                check_value(function, name + ": probability", value, 0, 1);
+        }
+        check_order(model, function);
+    }
+}
+
 namespace {
 
 constexpr const char* nrml_namespace = "http://openquake.org/xmlns/nrml/0.5";
@@ -264,6 +398,104 @@ std::string fragility_nrml(const FragilityModel& model)
 FragilityModel read_fragility_nrml(const std::filesystem::path& file)
 {
     return Reader(file).read();
+}
+
+namespace {
+
+std::string quoted(const std::string& text)
+{
+    std::string out = "\"";
+    for (const char c : replaced_text(text))
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            out += c;
+    return out + '"';
+}
+
+/// JSON has no infinity: an open end is null.
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+std::string member(const char* name, const FragilityValue& value)
+{
+    return fmt::format("\"{}\": {}, \"{}_lower\": {}, \"{}_upper\": {}", name, number(value.value), name,
+                       number(value.lower), name, number(value.upper));
+}
+
+std::string list(const char* name, const std::vector<FragilityValue>& values, double FragilityValue::*part)
+{
+    std::string out = fmt::format("\"{}\": [", name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        out += (i > 0 ? ", " : "") + number(values[i].*part);
+    return out + ']';
+}
+
+} // namespace
+
+std::string fragility_json(const FragilityModel& model)
+{
+    check_fragility_model(model);
+    std::string out = fmt::format("{{\"format\": \"stylobate-fragility\", \"format_version\": 1,\n \"id\": {}, "
+                                  "\"description\": {}, \"level\": {},\n \"limit_states\": [",
+                                  quoted(model.id), quoted(model.description), model.level);
+    for (std::size_t s = 0; s < model.limit_states.size(); ++s)
+        out += (s > 0 ? ", " : "") + quoted(model.limit_states[s]);
+    out += "],\n \"functions\": [";
+    for (std::size_t f = 0; f < model.functions.size(); ++f) {
+        const FragilityFunction& function = model.functions[f];
+        out +=
+            fmt::format("{}\n  {{\"id\": {}, \"measure\": {}, \"unit\": \"SI\", \"form\": \"{}\", \"note\": {},\n   ",
+                        f > 0 ? "," : "", quoted(function.id), quoted(function.measure),
+                        function.discrete ? "discrete" : "lognormal", quoted(function.note));
+        if (function.discrete) {
+            out += "\"intensity\": [";
+            for (std::size_t i = 0; i < function.intensity.size(); ++i)
+                out += (i > 0 ? ", " : "") + number(function.intensity[i]);
+            out += "],";
+        } else
+            out += fmt::format("\"least\": {}, \"most\": {},", number(function.least), number(function.most));
+        out += "\n   \"states\": [";
+        for (std::size_t s = 0; s < function.states.size(); ++s) {
+            const FragilityState& state = function.states[s];
+            out += fmt::format("{}\n    {{\"limit_state\": {}, ", s > 0 ? "," : "", quoted(model.limit_states[s]));
+            if (function.discrete)
+                out += list("probability", state.probability, &FragilityValue::value) + ", " +
+                       list("lower", state.probability, &FragilityValue::lower) + ", " +
+                       list("upper", state.probability, &FragilityValue::upper);
+            else
+                out += member("median", state.median) + ", " + member("dispersion", state.dispersion);
+            out += '}';
+        }
+        out += "]}";
+    }
+    return out + "]}\n";
+}
+
+std::string fragility_csv(const FragilityModel& model)
+{
+    check_fragility_model(model);
+    std::string out = "function,measure,limit_state,intensity,probability,probability_lower,probability_upper,median,"
+                      "median_lower,median_upper,dispersion,dispersion_lower,dispersion_upper\n";
+    for (const FragilityFunction& function : model.functions)
+        for (std::size_t s = 0; s < function.states.size(); ++s) {
+            const FragilityState& state = function.states[s];
+            const std::string start = csv_field(function.id) + ',' + csv_field(function.measure) + ',' +
+                                      csv_field(model.limit_states[s]) + ',';
+            if (function.discrete)
+                for (std::size_t i = 0; i < function.intensity.size(); ++i)
+                    fmt::format_to(std::back_inserter(out), "{}{},{},{},{},,,,,,\n", start, function.intensity[i],
+                                   state.probability[i].value, state.probability[i].lower, state.probability[i].upper);
+            else
+                fmt::format_to(std::back_inserter(out), "{},,,,{},{},{},{},{},{}\n", start, state.median.value,
+                               state.median.lower, state.median.upper, state.dispersion.value, state.dispersion.lower,
+                               state.dispersion.upper);
+        }
+    return out;
 }
 
 } // namespace stylobate
