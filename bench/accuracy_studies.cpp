@@ -17,7 +17,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/experiment/loaded_study.hpp"
 
 #include <CLI/CLI.hpp>

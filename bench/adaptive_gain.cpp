@@ -11,7 +11,7 @@
 #include "ensemble/estimators/surface/adaptive.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 /// What each convention of a study changes in one collapse probability, on the same draws: contact form, K_N, place of
-/// the dashpots, start and length of the shaking. A table for docs/sensitivity.md, by scripts/conventions.sh.
+/// the dashpots, start and length of the shaking. A table for docs/sensitivity.md, by scripts/tables.sh conventions.
 ///
 ///   stylobate_conventions [--draws N] [--study STUDY.toml] [--frequency HZ] [--pga M_S2]
 
@@ -10,7 +10,7 @@
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/experiment/contact_laws.hpp"
 
 #include <CLI/CLI.hpp>

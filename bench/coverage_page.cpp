@@ -3,13 +3,13 @@
 ///   stylobate_coverage [--repeats N] [--resamples N]
 ///
 /// Outcomes are drawn from curves that are known (`tests/ensemble/estimators/fragility_truth.hpp`); no mechanics.
-/// `scripts/coverage.sh` writes the tables into docs/fragility_statistics.md.
+/// `scripts/tables.sh coverage` writes the tables into docs/fragility_statistics.md.
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/dispersion_shares.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 #include "tests/ensemble/estimators/nested_truth.hpp"
 

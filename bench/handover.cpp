@@ -12,7 +12,7 @@
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/compliant_set.hpp"
 #include "io/study/study_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "kernels/isa.hpp"
 #include "studies/measured/calibration/calibration.hpp"
 #include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"

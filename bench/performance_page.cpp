@@ -4,7 +4,7 @@
 ///   performance_page --kinds FOLDER   one table, with the rows of every kind of processor of which it has results
 
 #include "bench/results_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "bench/rigid_agreement.hpp"
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 

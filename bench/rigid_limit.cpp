@@ -7,14 +7,14 @@
 ///   stylobate_rigid_limit --stiff ...                                 of much stiffer contacts, far slower
 ///   stylobate_rigid_limit --cost ...                                  realizations per second of processor time
 ///   stylobate_rigid_limit --agreement PAGE                            what the first table of the page shows, for
-///                                                                     scripts/rigid_agreement.sh
+///                                                                     scripts/tables.sh rigid_limit
 
 #include "bench/mean.hpp"
 #include "bench/processor.hpp"
 #include "bench/rigid_agreement.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/run/executor.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

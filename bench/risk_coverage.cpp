@@ -4,12 +4,12 @@
 ///   stylobate_risk_coverage [--repeats N]
 ///
 /// Campaigns are drawn from fragilities that are known (`tests/ensemble/estimators/fragility_truth.hpp`); no mechanics.
-/// `scripts/risk_coverage.sh` writes the table into docs/risk.md.
+/// `scripts/tables.sh risk_coverage` writes the table into docs/risk.md.
 
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 
 #include <CLI/CLI.hpp>

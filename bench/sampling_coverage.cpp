@@ -3,11 +3,11 @@
 ///   stylobate_sampling_coverage [--repeats N]
 ///
 /// Limit states and functions known in closed form (`tests/ensemble/estimators/rare_truth.hpp`,
-/// `tests/ensemble/estimators/sensitivity_functions.hpp`); no mechanics. `scripts/sampling_coverage.sh` writes the
-/// tables into docs/sensitivity.md.
+/// `tests/ensemble/estimators/sensitivity_functions.hpp`); no mechanics. `scripts/tables.sh sampling_coverage` writes
+/// the tables into docs/sensitivity.md.
 
 #include "bench/mean.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "tests/ensemble/estimators/rare_truth.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
 

@@ -31,7 +31,7 @@ inline Study rocking_column(int blocks)
     return study;
 }
 
-/// The same with faces that carry in another way.
+/// A scene with faces that carry in another way.
 inline Study formed_column(ContactForm form)
 {
     Study study = rocking_column(7);
@@ -39,7 +39,7 @@ inline Study formed_column(ContactForm form)
     return study;
 }
 
-/// The same, with every pair watched that may meet when it falls.
+/// A scene in which every pair is watched that may meet when it falls.
 inline Study watched_column(int blocks)
 {
     Study study = rocking_column(blocks);

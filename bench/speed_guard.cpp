@@ -1,7 +1,6 @@
 /// Runs two builds of the benchmarks in turns and says which one is faster, how sure that is, or that these pairs do
 /// not tell. One build right after the other, again and again: what neighbours do to a shared machine hits both alike.
 
-#include "bench/pairs.hpp"
 #include "bench/results_file.hpp"
 
 #include <CLI/CLI.hpp>

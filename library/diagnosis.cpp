@@ -11,15 +11,7 @@ Diagnosis::Diagnosis(std::shared_ptr<const Data> data) : data_(std::move(data)) 
 
 Verdict Diagnosis::verdict() const
 {
-    switch (data_->diagnosis.verdict) {
-    case inner::Verdict::none:
-        return Verdict::none;
-    case inner::Verdict::named:
-        return Verdict::named;
-    case inner::Verdict::unexplained:
-        break;
-    }
-    return Verdict::unexplained;
+    return static_cast<Verdict>(data_->diagnosis.verdict);
 }
 
 std::string Diagnosis::verdict_text() const

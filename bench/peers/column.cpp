@@ -1,6 +1,6 @@
 #include "bench/peers/column.hpp"
 
-#include "bench/peers/ground.hpp"
+#include "bench/peers/engine.hpp"
 #include "bench/scenes.hpp"
 
 #include <algorithm>

@@ -1,9 +1,12 @@
 #include "bench/peers/contender.hpp"
 
-#include "bench/peers/overturning.hpp"
 #include "bench/peers/rocking.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <set>
 
 namespace stylobate::peers {
 
@@ -32,6 +35,65 @@ std::vector<Contender> contenders(const Engine& engine)
         all.push_back(std::move(c));
     }
     return all;
+}
+
+double Errors::worst() const
+{
+    const double worst = std::max(std::fabs(quarter_period), std::fabs(overturning));
+    return std::isfinite(quarter_period) && std::isfinite(overturning) ? worst
+                                                                       : std::numeric_limits<double>::infinity();
+}
+
+Result scan(const Contender& contender, double seconds, double patience_s)
+{
+    const double period = exact_quarter_period(), eta = exact_overturning_eta();
+    Result result{contender, {}, {}, {}};
+    const auto errors_at = [&](double dial) {
+        return Errors{dial, contender.quarter_period_s(dial) / period - 1, contender.overturning_eta(dial) / eta - 1};
+    };
+    const auto timed_at = [&](const Errors& errors) {
+        return Timed{errors, contender.step_s(errors.dial), contender.columns(errors.dial, true, seconds),
+                     contender.columns(errors.dial, false, seconds)};
+    };
+    result.customary = timed_at(errors_at(contender.customary));
+    std::map<std::size_t, Timed> timed; // of the scanned dials that were within a target, and at which columns stand
+    std::set<std::size_t> fallen;       // those at which they do not
+    for (const double dial : contender.dials) {
+        const double begin = processor_seconds();
+        result.scanned.push_back(errors_at(dial));
+        const std::size_t n = result.scanned.size();
+        for (std::size_t t = 0; n > confirmed_by && t < targets.size(); ++t) {
+            const std::size_t i = n - 1 - confirmed_by;
+            if (result.reached[t] || fallen.count(i) ||
+                std::any_of(result.scanned.begin() + static_cast<std::ptrdiff_t>(i), result.scanned.end(),
+                            [&](const Errors& e) { return !(e.worst() <= targets[t]); }))
+                continue;
+            // the few that are run at the least show most of those that do not stand
+            if (!timed.count(i) && contender.columns(result.scanned[i].dial, false, 0).moved == 0)
+                timed[i] = timed_at(result.scanned[i]);
+            if (timed.count(i) && timed[i].stands())
+                result.reached[t] = timed[i];
+            else
+                fallen.insert(i);
+        }
+        const bool found = std::any_of(result.reached.begin(), result.reached.end(), [&](const auto& reached) {
+            return reached && n > confirmed_by && reached->errors.dial == result.scanned[n - 1 - confirmed_by].dial;
+        });
+        if (result.reached.back() || (!found && processor_seconds() - begin > patience_s))
+            break;
+    }
+    return result;
+}
+
+const Result* fastest(const std::vector<Result>& results, bool own, std::size_t target)
+{
+    const Result* best = nullptr;
+    for (const Result& r : results)
+        if (r.contender.own == own && r.reached[target] &&
+            (best == nullptr ||
+             r.reached[target]->shaken.realizations_per_second > best->reached[target]->shaken.realizations_per_second))
+            best = &r;
+    return best;
 }
 
 } // namespace stylobate::peers

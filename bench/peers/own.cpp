@@ -1,7 +1,6 @@
 /// Stylobate among the others: the library as a study uses it, its step at 0.9 of each realization's safe bound.
 
 #include "bench/peers/contender.hpp"
-#include "bench/peers/overturning.hpp"
 #include "bench/peers/rocking.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/statics/step_bound.hpp"

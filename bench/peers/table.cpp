@@ -1,6 +1,6 @@
 #include "bench/peers/table.hpp"
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/report/json.hpp"
 #include "studies/version.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What was found, as a table for people (Markdown) and as JSON.
 
-#include "bench/peers/scan.hpp"
+#include "bench/peers/contender.hpp"
 #include "studies/report/json.hpp"
 
 #include <string>

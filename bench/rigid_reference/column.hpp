@@ -3,7 +3,9 @@
 /// Andersen 1983; gaps and sliding by their own differences over the step, so that nothing drifts); the time at which
 /// another point meets its face is found within the step, and there the law of impact alone changes the velocities.
 
-#include "bench/rigid_reference/impact.hpp"
+#include "bench/rigid_reference/contact_problem.hpp"
+#include "ensemble/motion/base_motion.hpp"
+#include "ensemble/planar/limit_states.hpp"
 
 #include <cstdint>
 
@@ -57,6 +59,40 @@ private:
     };
     std::vector<Memory> memory_; ///< (keys of contacts)
     Counts counts_;
+};
+
+// A realization of a study as a column of the reference: the same blocks, friction and motion of the base.
+
+/// One realization on its way.
+class Draw {
+public:
+    /// @param study of the realization
+    Draw(const Study& study, Realization realization, const Impacts& impacts, double step_s);
+
+    void step();
+    double time_s() const { return steps_ * step_s_; }
+    bool over() const { return fallen() || time_s() >= end_s_; }
+    bool fallen() const { return limits_.fallen(); }
+    const Column& column() const { return column_; }
+    const Realization& realization() const { return realization_; }
+    /// Displacements from the places at rest.
+    const std::vector<BlockMotion>& moved() const { return moved_; }
+    /// At the end: what has turned too far has fallen.
+    bool conclude();
+
+private:
+    double base_acceleration(int step) const;
+
+    Realization realization_;
+    double step_s_;
+    BaseMotion base_;
+    double end_s_;
+    Column column_;
+    Twists start_;
+    LimitStates limits_;
+    std::vector<BlockMotion> moved_;
+    std::vector<int> inside_;
+    int steps_ = 0;
 };
 
 } // namespace stylobate::reference

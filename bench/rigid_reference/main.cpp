@@ -4,11 +4,11 @@
 ///   stylobate_rigid_reference --cell six_drums_a --trace N --rate 15360      beside the rigid form, over time
 
 #include "bench/mean.hpp"
-#include "bench/rigid_reference/draw.hpp"
+#include "bench/rigid_reference/column.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/run/executor.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

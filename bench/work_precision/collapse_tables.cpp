@@ -1,7 +1,7 @@
 /// Collapse probabilities with common random numbers.
 
 #include "bench/work_precision/page.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 

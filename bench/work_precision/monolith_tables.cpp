@@ -2,7 +2,7 @@
 
 #include "bench/work_precision/page.hpp"
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/verification/case.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "ensemble/model/study.hpp"
 
-#include "ensemble/numerics/double_pair.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>

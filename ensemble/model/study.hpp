@@ -224,8 +224,8 @@ struct FragilitySpec {
 };
 
 enum class SensitivityMethod {
-    sobol, ///< shares of the variance (estimators/sobol_indices.hpp): points A, B, A_1 ... of each row
-    morris ///< screening (estimators/elementary_effects.hpp): points A, A_1 ...
+    sobol, ///< shares of the variance (estimators/designs/sobol_indices.hpp): points A, B, A_1 ... of each row
+    morris ///< screening (estimators/designs/sobol_indices.hpp): points A, A_1 ...
 };
 
 /// A design of the factors: rows of points, and at each point some realizations that differ in all that is no factor,
@@ -251,7 +251,7 @@ struct SensitivitySpec {
     }
 };
 
-/// Subset simulation (estimators/subset_simulation.hpp), repeated for its interval.
+/// Subset simulation (estimators/designs/subset_simulation.hpp), repeated for its interval.
 struct RareSpec {
     std::uint64_t samples = 1000; ///< at each level
     std::uint64_t repeats = 10;

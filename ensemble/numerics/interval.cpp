@@ -1,8 +1,12 @@
 #include "ensemble/numerics/interval.hpp"
 
 #include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <cassert>
+#include <cmath>
+#include <numbers>
 
 namespace stylobate {
 
@@ -21,6 +25,26 @@ BinomialInterval jeffreys(std::uint64_t trials, std::uint64_t successes, double 
     const double tail = (1 - level) / 2;
     return {successes == 0 ? 0 : quantile(posterior, tail),
             successes == trials ? 1 : quantile(complement(posterior, tail))};
+}
+
+double student_quantile(double probability, double degrees)
+{
+    return boost::math::quantile(boost::math::students_t(degrees), probability);
+}
+
+double normal_quantile(double probability)
+{
+    return boost::math::quantile(boost::math::normal(), probability);
+}
+
+double normal_below(double z)
+{
+    return std::erfc(-z / std::numbers::sqrt2) / 2;
+}
+
+double normal_density(double z)
+{
+    return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
 }
 
 } // namespace stylobate

@@ -1,6 +1,6 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 

@@ -1,7 +1,7 @@
 #include "ensemble/replicas/replicas.hpp"
 
 #include "ensemble/engine/drive.hpp"
-#include "ensemble/numerics/slope.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/scales.hpp"
 

@@ -1,7 +1,7 @@
 #include "ensemble/sampling/distribution.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/double_pair.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ namespace stylobate {
 ///
 /// The truncated normal is inverted through the nearer tail, so that it keeps its relative accuracy when both limits
 /// lie far out on one side (own derivation). Logarithms and exponentials have twice the digits of a double and are
-/// rounded once (`double_pair.hpp`), so that the value does not depend on the processor.
+/// rounded once (`elementary.hpp`), so that the value does not depend on the processor.
 class Distribution {
 public:
     /// @param nominal value of the quantity without perturbation, in its unit

@@ -1,6 +1,6 @@
 #include "ensemble/tracking/tracking_score.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <algorithm>

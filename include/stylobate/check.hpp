@@ -120,7 +120,7 @@ private:
 /// @throws InputError for what `run` refuses, and for options out of range
 std::optional<Check> check(const Experiment& experiment, const CheckOptions& options = {});
 
-/// The same with the excitation that the study names.
+/// Checks a study with the excitation that it names.
 std::optional<Check> check(const Study& study, const CheckOptions& options = {});
 
 } // namespace stylobate::api

@@ -36,7 +36,7 @@ struct RunOptions {
 /// @throws InputError for options that this machine does not have, and for a realization that cannot be built
 Result run(const Experiment& experiment, const RunOptions& options = {});
 
-/// The same into a file, as `stylobate run` does: the file has the same bytes. A file of the same study that is not
+/// Runs a study into a file, which has the bytes of `stylobate run`. A file of the same study that is not
 /// complete is continued, and one that is complete is read; killed at any moment, the next call goes on where this one
 /// stopped.
 /// @throws InputError as above, if the file is another study's or damaged, or if it cannot be written

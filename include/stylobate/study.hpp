@@ -20,7 +20,7 @@ public:
     /// @throws InputError naming file, line, key, value, the allowed range and what to do
     static Study from_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
-    /// The same from text. Files that it names are looked for from the working folder.
+    /// Reads a study from text. Files that it names are looked for from the working folder.
     static Study from_text(const std::string& toml, const std::vector<std::string>& settings = {});
 
     /// Sets one key, "KEY=VALUE": "surface.pga_m_s2.count=4". The whole study is checked again.

@@ -1,7 +1,7 @@
 #include "io/hazard/hazard_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/suggest.hpp"
 #include "io/hazard/hazard_parts.hpp"

@@ -11,7 +11,7 @@
 ///
 /// A MEASURE has its unit in its name: pga_m_s2, pga_cm_s2, pga_g, pgv_m_s, pgv_cm_s, pgd_m, pgd_cm, arias_m_s,
 /// cav_m_s, cav_cm_s, cav_g_s, sa_1s_m_s2, sa_1s_cm_s2, sa_1s_g. Of a power law it may be without: then it is in SI.
-/// OpenQuake's measures are in its units (`fragility_measure.hpp`).
+/// OpenQuake's measures are in its units (`fragility_exchange.hpp`).
 
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 

@@ -3,8 +3,8 @@
 /// [survival] see survival_keys.hpp.
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/axis_key.hpp"
 #include "io/keys/ranges.hpp"
+#include "io/keys/spread_key.hpp"
 #include "io/keys/words.hpp"
 
 namespace stylobate {

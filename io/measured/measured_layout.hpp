@@ -81,7 +81,7 @@ void check_specimen(const Campaign& campaign);
 void check_campaign(Campaign& campaign);
 
 Campaign read_measured_hdf5(const std::filesystem::path& file);
-/// The same without the child process that reads the file first, in case the HDF5 library breaks on it.
+/// Reads a file in this process: where the HDF5 library breaks on it, the program ends.
 Campaign read_measured_hdf5_here(const std::filesystem::path& file);
 Campaign read_measured_csv(const std::filesystem::path& folder);
 

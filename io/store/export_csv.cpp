@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/result_layout.hpp"
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 #include <string>

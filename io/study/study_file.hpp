@@ -29,7 +29,7 @@ std::vector<std::string> read_variant_names(const std::filesystem::path& file,
 std::optional<OptimiseSpec> read_optimisation(const std::filesystem::path& file,
                                               const std::vector<std::string>& overrides = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads a study from text; `name` stands for the file in messages.
 /// A relative `excitation.file` is left as it is.
 Study parse_study(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {});
 

@@ -2,7 +2,7 @@
 /// The sections of a study file, each read by a file of its own. All throw InputError, which names the key.
 
 #include "ensemble/model/study.hpp"
-#include "io/keys/axis_key.hpp"
+#include "io/keys/spread_key.hpp"
 #include "io/records/record.hpp"
 #include "io/study/study_accuracy.hpp"
 

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/utf8.hpp"
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 #include <pugixml.hpp>

@@ -28,7 +28,7 @@ struct FragilityTable {
 
 /// /fragility.
 Table to_table(const FragilityTable& fragility);
-/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+/// From /fragility as it was read; empty if there is none. @throws InputError if it is not as it was written
 FragilityTable fragility_table(const Table& table);
 
 } // namespace stylobate

@@ -30,7 +30,7 @@ struct RareTable {
 
 /// /rare.
 Table to_table(const RareTable& rare);
-/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+/// From /rare as it was read; empty if there is none. @throws InputError if it is not as it was written
 RareTable rare_table(const Table& table);
 
 } // namespace stylobate

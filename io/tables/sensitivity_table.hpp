@@ -44,7 +44,7 @@ inline constexpr char rest_name[] = "the rest";
 
 /// /sensitivity. @throws std::invalid_argument if its arrays do not fit its names
 Table to_table(const SensitivityTable& sensitivity);
-/// The same from what was read; empty if there is none. @throws InputError if it is not as it was written
+/// From /sensitivity as it was read; empty if there is none. @throws InputError if it is not as it was written
 SensitivityTable sensitivity_table(const Table& table);
 /// A line for each outcome, index and factor, with value, lower and upper; "mean" and "explained" have no factor.
 Table listed(const SensitivityTable& sensitivity);

@@ -1,8 +1,10 @@
 #include "io/tables/table.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/utf8.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 namespace stylobate {
@@ -165,6 +167,60 @@ const Table& table_named(const std::vector<Table>& tables, const std::string& na
     if (!found)
         Table(name, file).refuse("the table " + name + " is missing");
     return *found;
+}
+
+std::string csv_field(std::string_view value)
+{
+    std::string text = replaced_text(value);
+    if (!text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos)
+        text.insert(0, "'");
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string out = "\"";
+    for (const char c : text)
+        out.append(c == '"' ? 2 : 1, c);
+    return out + '"';
+}
+
+std::string csv_text(const Table& table)
+{
+    std::string text;
+    const std::size_t rows = table.columns().empty() ? 0 : table.columns().front().shape.at(0);
+    {
+        CsvRow head(text);
+        for (const Table::Column& column : table.columns()) {
+            if (column.shape != Table::Shape{rows})
+                throw std::invalid_argument("the columns of '" + table.name() + "' are not lists of equal length");
+            head << column.name;
+        }
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+        CsvRow line(text);
+        for (const Table::Column& column : table.columns())
+            std::visit([&](const auto& values) { line << values[i]; }, column.values);
+    }
+    return text;
+}
+
+std::string markdown_head(std::string_view columns, Align align)
+{
+    std::string head = "|", rule = "|";
+    for (std::size_t begin = 0; begin <= columns.size();) {
+        const std::size_t end = std::min(columns.find('|', begin), columns.size());
+        std::string_view name = columns.substr(begin, end - begin);
+        while (name.starts_with(' '))
+            name.remove_prefix(1);
+        while (name.ends_with(' '))
+            name.remove_suffix(1);
+        head += ' ';
+        head += name;
+        head += name.empty() ? "|" : " |";
+        rule += align == Align::numbers ? "---:|" : "---|";
+        begin = end + 1;
+    }
+    if (align == Align::numbers)
+        rule.replace(1, 5, "---|");
+    return head + '\n' + rule + '\n';
 }
 
 } // namespace stylobate

@@ -1,9 +1,13 @@
 #pragma once
 /// A table as plain data: columns with a name and a unit, and what holds of the whole. `table_hdf5.hpp` writes it into
-/// a results file and reads it back, `csv.hpp` writes it as comma-separated values.
+/// a results file and reads it back, `csv_text` writes it as comma-separated values.
+
+#include <fmt/format.h>
 
 #include <cstdint>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -101,5 +105,70 @@ private:
 const Table* find_table(const std::vector<Table>& tables, const std::string& name);
 /// @param file for messages   @throws InputError "FILE: is damaged" if there is no table of this name
 const Table& table_named(const std::vector<Table>& tables, const std::string& name, const std::string& file);
+
+// Comma-separated values as they are written: a header line, the unit in the column's name, numbers that read back bit
+// by bit ("nan" and "inf" where they are not finite), texts in quotation marks where they need them (RFC 4180).
+
+/// A text as a field, in quotation marks where it needs them. What is no UTF-8 is replaced. One that begins as a
+/// formula does in a spreadsheet (=, +, -, @) has an apostrophe before it, so that the name of a file can start nothing
+/// there.
+std::string csv_field(std::string_view text);
+
+/// One line of a table, field by field.
+class CsvRow {
+public:
+    explicit CsvRow(std::string& text) : text_(text) {}
+    ~CsvRow() { text_ += '\n'; }
+    CsvRow(const CsvRow&) = delete;
+    CsvRow& operator=(const CsvRow&) = delete;
+
+    template <class Number>
+    CsvRow& operator<<(Number value)
+    {
+        separate();
+        // fmt's default for doubles is the shortest decimal that reads back as the same double.
+        fmt::format_to(std::back_inserter(text_), "{}", value);
+        return *this;
+    }
+    CsvRow& operator<<(std::string_view value)
+    {
+        separate();
+        text_ += csv_field(value);
+        return *this;
+    }
+    CsvRow& operator<<(const char* value) { return *this << std::string_view(value); }
+    CsvRow& operator<<(const std::string& value) { return *this << std::string_view(value); }
+
+private:
+    void separate()
+    {
+        if (!first_)
+            text_ += ',';
+        first_ = false;
+    }
+
+    std::string& text_;
+    bool first_ = true;
+};
+
+/// A table whose columns are lists of equal length. Its attributes are left out.
+/// @throws std::invalid_argument if they are not
+std::string csv_text(const Table& table);
+
+// Tables of the Markdown pages that programs write, line by line.
+
+enum class Align { left, numbers /*!< flush right, but for the first column */ };
+
+/// The heading of a table and the rule under it.
+/// @param columns their names, with '|' between them; a name may be empty
+std::string markdown_head(std::string_view columns, Align align = Align::left);
+
+/// One row.
+/// @param cells formats with " | " between them, as `fmt::format` takes them
+template <class... Values>
+std::string markdown_row(fmt::format_string<Values...> cells, Values&&... values)
+{
+    return "| " + fmt::format(cells, std::forward<Values>(values)...) + " |\n";
+}
 
 } // namespace stylobate

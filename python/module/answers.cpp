@@ -56,26 +56,14 @@ void add_answers(py::module_& module)
     using C = sb::CompareOptions;
     add_options<C>(module, "CompareOptions", "settings", &C::settings, "folder", &C::folder, "level", &C::level,
                    "adaptive", &C::adaptive, "margin", &C::margin, "threads", &C::threads, "simd", &C::simd);
-    module.def(
-        "compare",
-        [](const Files& files, const C& options, const py::object& progress) {
-            return interruptible_lines<std::optional<sb::Comparison>>(
-                options, progress, [&](const C& told) { return sb::compare(files, told); });
-        },
-        "files"_a, "options"_a, "progress"_a);
+    add_told<C, Files>(module, "compare", [](const auto&... given) { return sb::compare(given...); });
     using R = sb::RiskOptions;
     add_options<R>(module, "RiskOptions", "site", &R::site, "limit_state", &R::limit_state, "years", &R::years, "level",
                    &R::level, "most_outside", &R::most_outside, "sequences", &R::sequences, "threshold", &R::threshold,
                    "pause_s", &R::pause_s, "seed", &R::seed, "settings", &R::settings, "threads", &R::threads, "simd",
                    &R::simd);
-    module.def(
-        "risk",
-        [](const std::filesystem::path& file, const std::vector<std::string>& hazard, const R& options,
-           const py::object& progress) {
-            return interruptible_lines<std::optional<sb::Risk>>(
-                options, progress, [&](const R& told) { return sb::risk(file, hazard, told); });
-        },
-        "file"_a, "hazard"_a, "options"_a, "progress"_a);
+    add_told<R, std::filesystem::path, std::vector<std::string>>(
+        module, "risk", [](const auto&... given) { return sb::risk(given...); });
     module.def(
         "past", [](const Files& files) { return sb::past(files); }, "files"_a,
         py::call_guard<py::gil_scoped_release>());
@@ -85,13 +73,7 @@ void add_answers(py::module_& module)
                    &P::simd);
     attributes(py::class_<sb::Page>(module, "Page"), "html", &sb::Page::html, "warnings", &sb::Page::warnings)
         .def("write", &sb::Page::write, "file"_a);
-    module.def(
-        "report",
-        [](const std::filesystem::path& file, const P& options, const py::object& progress) {
-            return interruptible_lines<std::optional<sb::Page>>(options, progress,
-                                                                [&](const P& told) { return sb::report(file, told); });
-        },
-        "file"_a, "options"_a, "progress"_a);
+    add_told<P, std::filesystem::path>(module, "report", [](const auto&... given) { return sb::report(given...); });
 }
 
 } // namespace stylobate::python

@@ -32,12 +32,9 @@ void add_findings(py::module_& module)
         .def("__repr__",
              [](const T& trial) { return "<Trial: " + std::to_string(trial.realizations) + " realizations>"; });
     using R = sb::RunTime;
-    py::class_<R>(module, "RunTime")
-        .def_readonly("seconds", &R::seconds)
+    attributes(py::class_<R>(module, "RunTime"), "seconds", &R::seconds, "at_most", &R::at_most, "processor_s",
+               &R::processor_s, "block_steps", &R::block_steps)
         .def_property_readonly("range_s", [](const R& time) { return pair(time.range_s); })
-        .def_readonly("at_most", &R::at_most)
-        .def_readonly("processor_s", &R::processor_s)
-        .def_readonly("block_steps", &R::block_steps)
         .def_property_readonly("steps", [](const R& time) { return pair(time.steps); })
         .def("__repr__", [](const R& time) {
             return py::str("<RunTime: {:.2g} to {:.2g} s>").format(time.range_s.lower, time.range_s.upper);
@@ -58,30 +55,18 @@ void add_check(py::module_& module)
     add_findings(module);
     using C = sb::Check;
     attributes(py::class_<C>(module, "Check"), "kind", &C::kind, "form", &C::form, "realizations", &C::realizations,
-               "at_most", &C::at_most, "cells", &C::cells, "blocks", &C::blocks, "free_blocks", &C::free_blocks)
+               "at_most", &C::at_most, "cells", &C::cells, "blocks", &C::blocks, "free_blocks", &C::free_blocks,
+               "trial", &C::trial, "time", &C::time, "memory_bytes", &C::memory_bytes, "file_bytes", &C::file_bytes,
+               "chosen", &C::chosen, "weak_spots", &C::weak_spots, "pilot", &C::pilot, "warnings", &C::warnings)
         .def_property_readonly("step_s", [](const C& check) { return pair(check.step_s()); })
         .def_property_readonly("longest_steps", [](const C& check) { return pair(check.longest_steps()); })
-        .def_property_readonly("trial", &C::trial)
-        .def_property_readonly("time", &C::time)
-        .def_property_readonly("memory_bytes", &C::memory_bytes)
-        .def_property_readonly("file_bytes", &C::file_bytes)
-        .def_property_readonly("chosen", &C::chosen)
-        .def_property_readonly("weak_spots", &C::weak_spots)
-        .def_property_readonly("pilot", &C::pilot)
-        .def_property_readonly("warnings", &C::warnings)
         .def("text", &C::text)
         .def("json", &C::json)
         .def("draw", &C::draw, "picture"_a, py::call_guard<py::gil_scoped_release>());
     using O = sb::CheckOptions;
     add_options<O>(module, "CheckOptions", "pilot", &O::pilot, "trial_seconds", &O::trial_seconds, "law_seconds",
                    &O::law_seconds, "threads", &O::threads, "simd", &O::simd);
-    module.def(
-        "check",
-        [](const sb::Experiment& experiment, const O& options, const py::object& progress) {
-            return interruptible_lines<std::optional<C>>(options, progress,
-                                                         [&](const O& told) { return sb::check(experiment, told); });
-        },
-        "experiment"_a, "options"_a, "progress"_a);
+    add_told<O, sb::Experiment>(module, "check", [](const auto&... given) { return sb::check(given...); });
 }
 
 } // namespace stylobate::python

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -86,7 +87,7 @@ Answer interruptible(const std::function<Answer(const std::function<bool(const s
     return std::move(*answer);
 }
 
-/// The same for work that tells lines of text, of which none is lost.
+/// Runs work that tells lines of text, of which none is lost, as `interruptible` does.
 /// @param progress None, or a Python function that is called with each line; only False stops
 /// @param options  whose `tell` and `go_on` are set here
 /// @param work     of (options)
@@ -121,6 +122,17 @@ Answer interruptible_lines(Options options, const pybind11::object& progress, co
             return work(options);
         },
         listen);
+}
+
+/// Adds a function of the library, whose last argument are options with `tell` and `go_on`, as one that works in a
+/// thread of its own: NAME(given..., options, progress).
+template <class Options, class... Given, class Function>
+void add_told(pybind11::module_& module, const char* name, const Function& function)
+{
+    module.def(name, [function](const Given&... given, const Options& options, const pybind11::object& progress) {
+        return interruptible_lines<std::invoke_result_t<Function, const Given&..., const Options&>>(
+            options, progress, [&](const Options& told) { return function(given..., told); });
+    });
 }
 
 } // namespace stylobate::python

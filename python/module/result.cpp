@@ -81,15 +81,13 @@ void add_fragility(py::module_& module)
     const auto values = [](const std::vector<sb::Estimate>& list) {
         return matrix(list, 3, [](const sb::Estimate& e) { return std::array{e.value, e.lower, e.upper}; });
     };
-    py::class_<sb::FragilityCurve>(module, "FragilityCurve")
-        .def_readonly("limit_state", &sb::FragilityCurve::limit_state)
-        .def_readonly("meaning", &sb::FragilityCurve::meaning)
-        .def_readonly("trials", &sb::FragilityCurve::trials)
-        .def_readonly("reached", &sb::FragilityCurve::reached)
-        .def_property_readonly("median", [values](const sb::FragilityCurve& c) { return values({c.median}); })
-        .def_property_readonly("dispersion", [values](const sb::FragilityCurve& c) { return values({c.dispersion}); })
-        .def_property_readonly("probability", [values](const sb::FragilityCurve& c) { return values(c.probability); })
-        .def_property_readonly("share", [values](const sb::FragilityCurve& c) { return values(c.share); });
+    using C = sb::FragilityCurve;
+    attributes(py::class_<C>(module, "FragilityCurve"), "limit_state", &C::limit_state, "meaning", &C::meaning,
+               "trials", &C::trials, "reached", &C::reached)
+        .def_property_readonly("median", [values](const C& c) { return values({c.median}); })
+        .def_property_readonly("dispersion", [values](const C& c) { return values({c.dispersion}); })
+        .def_property_readonly("probability", [values](const C& c) { return values(c.probability); })
+        .def_property_readonly("share", [values](const C& c) { return values(c.share); });
     py::class_<sb::Fragility>(module, "Fragility")
         .def_readonly("measure", &sb::Fragility::measure)
         .def_property_readonly("intensity", [](const sb::Fragility& f) { return copied(f.intensity); })
@@ -135,25 +133,14 @@ void add_result(py::module_& module)
     add_surface(module);
     add_fragility(module);
     add_trajectory(module);
-    py::class_<sb::Share>(module, "Share")
-        .def_readonly("trials", &sb::Share::trials)
-        .def_readonly("count", &sb::Share::count)
-        .def_readonly("probability", &sb::Share::probability)
-        .def_readonly("lower", &sb::Share::lower)
-        .def_readonly("upper", &sb::Share::upper);
-    py::class_<sb::Result>(module, "Result")
+    attributes(py::class_<sb::Share>(module, "Share"), "trials", &sb::Share::trials, "count", &sb::Share::count,
+               "probability", &sb::Share::probability, "lower", &sb::Share::lower, "upper", &sb::Share::upper);
+    using R = sb::Result;
+    attributes(py::class_<R>(module, "Result"), "kind", &R::kind, "study_text", &R::study_text, "code_version",
+               &R::code_version, "complete", &R::complete, "realizations", &R::realizations, "invalid", &R::invalid,
+               "too_many_invalid", &R::too_many_invalid, "warnings", &R::warnings, "input_names", &R::input_names,
+               "input_units", &R::input_units, "block_names", &R::block_names)
         .def_static("from_file", &sb::Result::from_file, "file"_a, py::call_guard<py::gil_scoped_release>())
-        .def_property_readonly("kind", &sb::Result::kind)
-        .def_property_readonly("study_text", &sb::Result::study_text)
-        .def_property_readonly("code_version", &sb::Result::code_version)
-        .def_property_readonly("complete", &sb::Result::complete)
-        .def_property_readonly("realizations", &sb::Result::realizations)
-        .def_property_readonly("invalid", &sb::Result::invalid)
-        .def_property_readonly("too_many_invalid", &sb::Result::too_many_invalid)
-        .def_property_readonly("warnings", &sb::Result::warnings)
-        .def_property_readonly("input_names", &sb::Result::input_names)
-        .def_property_readonly("input_units", &sb::Result::input_units)
-        .def_property_readonly("block_names", &sb::Result::block_names)
         .def("share", &sb::Result::share, "limit_state"_a = "collapse")
         .def("surface", &sb::Result::surface, "limit_state"_a = "collapse")
         .def("fragility", &sb::Result::fragility)

@@ -1,12 +1,11 @@
 """Comparisons, risk estimates, the past of a site, and pages of any file."""
 
 import html
-import json
 import os
 import warnings
 
 from . import _core
-from ._forward import forwarded, options
+from ._forward import FiledFinding, forwarded, options
 from ._study import _settings, number, whole_number
 
 
@@ -49,11 +48,8 @@ class Table:
         return f"<Table: {', '.join(self)}>"
 
 
-class Answer:
+class Answer(FiledFinding):
     """What comparisons, risk estimates and pasts have in common."""
-
-    def __init__(self, core):
-        self._core = core
 
     @property
     def rows(self):
@@ -67,18 +63,6 @@ class Answer:
     def to_pandas(self):
         """`rows` as a pandas.DataFrame."""
         return self.rows.to_pandas()
-
-    def text(self):
-        """What the program prints."""
-        return self._core.text()
-
-    def to_dict(self):
-        """All of it, as the program prints it with `--json`; the names of its files are not in it."""
-        return json.loads(self._core.json())
-
-    def write(self, path):
-        """Writes the file of the program, which `report` accepts."""
-        self._core.write(os.fspath(path))
 
     def draw(self, path, limit_state=""):
         """Draws the picture of the program: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.

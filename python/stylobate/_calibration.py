@@ -1,20 +1,16 @@
 """Contact parameters, and other numbers of a study, from measured response."""
 
-import json
 import os
 from collections.abc import Mapping
 
 from . import _core, _toml
-from ._forward import forwarded, options
+from ._forward import FiledFinding, forwarded, options
 from ._study import Study, study_of, whole_number
 
 
-class Calibration:
+class Calibration(FiledFinding):
     """Parameters of a study from measured data (docs/calibration.md). Scores are in nats; values have the unit of their
     key."""
-
-    def __init__(self, core):
-        self._core = core
 
     measured = forwarded("measured", "The file that was measured, or its campaign.")
     evidence = forwarded("evidence", '"histories" or "outcomes".')
@@ -29,12 +25,10 @@ class Calibration:
         """
         return {parameter.key: parameter for parameter in self._core.best.parameters}
 
-    @property
-    def best(self):
-        """The contact form that predicts best, a CalibratedForm: form, parameters, score, start_score, runs (run,
-        motion_id, units, start, calibrated), held_out (None, or nats, lower, upper: the gain on motions left out)."""
-        return self._core.best
-
+    best = forwarded("best",
+                     "The contact form that predicts best, a CalibratedForm: form, parameters, score, start_score, runs "
+                     "(run, motion_id, units, start, calibrated), held_out (None, or nats, lower, upper: the gain on "
+                     "motions left out).")
     forms = forwarded("forms", "A CalibratedForm for each contact form, in the order asked for.")
     notes = forwarded("notes", "What could not be used or judged: texts.")
 
@@ -43,26 +37,10 @@ class Calibration:
         """The study with the calibrated values of the best form (a Study)."""
         return Study(_core.Study.from_text(self._core.calibrated_study))
 
-    @property
-    def parameter_sets(self):
-        """How many sets of parameters were tried."""
-        return self._core.parameter_sets
-
+    parameter_sets = forwarded("parameter_sets", "How many sets of parameters were tried.")
     restored_sets = forwarded("restored_sets",
                               "How many of them come from the cache of a calibration that was stopped.")
     seconds = forwarded("seconds", "Duration [s].")
-
-    def text(self):
-        """What the program prints: every parameter with its interval, the gain, the notes."""
-        return self._core.text()
-
-    def to_dict(self):
-        """All of it, as `stylobate calibrate --json`; the names of its files are not in it."""
-        return json.loads(self._core.json())
-
-    def write(self, path):
-        """Writes the results file of the program, which `stylobate report` takes."""
-        self._core.write(os.fspath(path))
 
     def __repr__(self):
         return f"<Calibration: {len(self.parameters)} parameters by {self.evidence}, contact form {self.best.form}>"

@@ -1,19 +1,15 @@
 """Checks of a study before its run."""
 
-import json
 import os
 import warnings
 
 from . import _core
-from ._forward import forwarded, options
+from ._forward import Finding, forwarded, options
 from ._study import experiment_of, number, whole_number
 
 
-class Check:
+class Check(Finding):
     """The realizations, costs and weak spots of a study (docs/check.md); `Study.check` makes one."""
-
-    def __init__(self, core):
-        self._core = core
 
     kind = forwarded("kind", 'Kind of the study: "surface".')
     form = forwarded("form", 'Contact form: "area".')
@@ -47,14 +43,6 @@ class Check:
                       "the collapse probability, its standard_error, accuracy_missed; None: not asked for, or not "
                       "possible.")
     warnings = forwarded("warnings", "Implausible values of the study: texts.")
-
-    def text(self):
-        """What the program prints."""
-        return self._core.text()
-
-    def to_dict(self):
-        """All of it, as `stylobate check --json`."""
-        return json.loads(self._core.json())
 
     def draw(self, path):
         """Draws the structure to scale with its dimensions: .png, .svg or .pdf, by gnuplot. A file that is there is

@@ -1,18 +1,14 @@
 """Errors of the simulation against measured data, and their cause."""
 
-import json
 import os
 
 from . import _core
-from ._forward import forwarded, options
+from ._forward import FiledFinding, forwarded, options
 from ._study import Study, study_of, whole_number
 
 
-class Diagnosis:
+class Diagnosis(FiledFinding):
     """Where the simulation disagrees with a measured campaign, and why."""
-
-    def __init__(self, core):
-        self._core = core
 
     verdict = forwarded("verdict",
                         '"none": simulation and measurement agree; "named": a mechanism, or a set, explains the '
@@ -27,18 +23,6 @@ class Diagnosis:
         """The study with the cause in it (a Study); None: there is none."""
         text = self._core.extended_study
         return Study(_core.Study.from_text(text)) if text else None
-
-    def text(self):
-        """The page that the program prints."""
-        return self._core.text()
-
-    def to_dict(self):
-        """All of it, as `stylobate diagnose --json`."""
-        return json.loads(self._core.json())
-
-    def write(self, path):
-        """Writes the file that `stylobate report` takes."""
-        self._core.write(os.fspath(path))
 
     def __repr__(self):
         return f"<Diagnosis: {self.verdict}, {len(self.causes)} causes>"

@@ -4,7 +4,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 #include "studies/cli/command.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_page.hpp"

@@ -2,7 +2,7 @@
 
 #include "io/keys/spread_key.hpp"
 #include "io/keys/study_tables.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,8 @@
 /// The comparison with general engines: that each is built and driven as it should be, and that the scan is not misled.
 
-#include "bench/peers/ground.hpp"
-#include "bench/peers/overturning.hpp"
+#include "bench/peers/contender.hpp"
+#include "bench/peers/engine.hpp"
 #include "bench/peers/rocking.hpp"
-#include "bench/peers/scan.hpp"
 #include "bench/peers/table.hpp"
 
 #include <gtest/gtest.h>

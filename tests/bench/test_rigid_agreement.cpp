@@ -66,7 +66,7 @@ TEST(RigidAgreement, WantsATableWithTheLimit)
     EXPECT_THROW(agreement_text(text), std::runtime_error);
 }
 
-/// The page states what its table shows: scripts/rigid_agreement.sh writes it.
+/// The page states what its table shows: scripts/tables.sh rigid_limit writes it.
 TEST(RigidAgreement, ThePageHasTheTextOfItsTable)
 {
     std::ifstream file(std::string(STYLOBATE_SOURCE_DIR) + "/docs/rigid_limit.md");

@@ -1,7 +1,7 @@
 /// The reference of rigid blocks: its points of contact, its laws of impact, its motion, and where the rigid form of
 /// the kernels comes to it.
 
-#include "bench/rigid_reference/draw.hpp"
+#include "bench/rigid_reference/column.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/sampling/sampler.hpp"

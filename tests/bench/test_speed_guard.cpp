@@ -1,6 +1,5 @@
 /// The speed guard: its verdicts on ratios whose answer is known, and the program on two builds that are scripts.
 
-#include "bench/pairs.hpp"
 #include "bench/results_file.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include "tests/program/program.hpp"
 
-#include "ensemble/estimators/designs/elementary_effects.hpp"
+#include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"

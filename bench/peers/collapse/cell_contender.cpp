@@ -1,7 +1,7 @@
 #include "bench/peers/collapse/cell_contender.hpp"
 
 #include "bench/peers/column.hpp"
-#include "bench/peers/ground.hpp"
+#include "bench/peers/engine.hpp"
 #include "ensemble/planar/limit_states.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/statics/scales.hpp"

@@ -1,7 +1,7 @@
 #include "bench/peers/collapse/collapse_table.hpp"
 
 #include "bench/peers/table.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/report/json.hpp"
 #include "studies/version.hpp"
 

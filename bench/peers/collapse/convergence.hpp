@@ -9,6 +9,14 @@
 
 namespace stylobate::peers {
 
+// Draws on several cores: in processes and not in threads, because not every engine may be used by several threads.
+
+/// The draws begin .. end - 1, in equal parts in `processes` processes (1: in this one).
+/// @pre no other thread runs
+/// @throws std::runtime_error if a process ends without a result
+Draws run_forked(const CellContender& contender, const Cell& cell, int level, std::uint64_t begin, std::uint64_t end,
+                 int processes);
+
 /// What a probability may be off its scheme's own limit.
 inline constexpr std::array collapse_targets{0.05, 0.02};
 

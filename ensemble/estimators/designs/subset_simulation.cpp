@@ -1,7 +1,7 @@
 #include "ensemble/estimators/designs/subset_simulation.hpp"
 
 #include "ensemble/numerics/elementary.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <cmath>

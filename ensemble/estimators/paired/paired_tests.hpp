@@ -51,7 +51,7 @@ std::vector<double> holm(const std::vector<double>& p);
 //
 // How much it depends is shown by the differences in the lower, middle and upper third of the quantity.
 
-/// The same realization of two studies.
+/// One realization as two studies have it.
 struct PairedTrial {
     std::size_t stratum = 0; ///< its cell, from 0
     bool base = false;       ///< whether it reached the limit state there

@@ -1,7 +1,7 @@
 #include "ensemble/estimators/past/exclusion.hpp"
 
 #include "ensemble/estimators/past/past_posterior.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "ensemble/estimators/past/past_likelihood.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 

@@ -3,7 +3,7 @@
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
@@ -188,7 +188,7 @@ private:
 
     /// By what is not known of the form of the curve where the stripes of a structure separate: the distances of its
     /// limits from its value are joined with those of the draws, at the root of the sum of their squares (as in
-    /// `risk_number.hpp`).
+    /// `frequency_estimate.hpp`).
     void widen(std::vector<ChangeNumber>& numbers) const
     {
         for (std::size_t q = 0; q < numbers.size(); ++q) {

@@ -12,7 +12,7 @@
 ///             under which nothing changes do not show the scatter (own choice, as in `share_frequency`)
 ///   few       where fewer than `least_records` motions count so, there is no scatter to rely on. A further motion is
 ///             drawn under which the state is reached in one structure alone, at every stripe from the first one with
-///             damage on: in the variant for the upper limits, in the base for the lower ones (`record_share.hpp`).
+///             damage on: in the variant for the upper limits, in the base for the lower ones (`stripe_shares.hpp`).
 ///             The spread is then not multiplied
 ///   hazard    each draw of `total` has its own curve of the hazard, the quantile of a uniform number; both structures
 ///             have the same one. Those of `fragility` have the best estimate

@@ -4,7 +4,7 @@
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/estimators/risk/hazard_curve.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <array>

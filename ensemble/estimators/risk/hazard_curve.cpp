@@ -1,6 +1,6 @@
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #include "ensemble/estimators/surface/interim_analyses.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,6 @@
 #pragma once
 /// What an intervention changes, by limit state and place, as plain data, and as an HDF5 file (`io/FORMAT.md`).
 
-#include "ensemble/estimators/paired/capacity_ratio.hpp"
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/paired/paired_tests.hpp"
 #include "io/tables/rows.hpp"

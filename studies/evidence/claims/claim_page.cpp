@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/claims/claim.hpp"
 
 #include <fmt/format.h>

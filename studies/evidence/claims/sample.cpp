@@ -4,7 +4,6 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/numerics/quantiles.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"

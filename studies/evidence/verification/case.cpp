@@ -1,7 +1,7 @@
 #include "studies/evidence/verification/case.hpp"
 
 #include "ensemble/numerics/in_parallel.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/picture/picture.hpp"
 
 #include <fmt/format.h>

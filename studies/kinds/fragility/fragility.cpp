@@ -5,7 +5,7 @@
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "studies/experiment/motions.hpp"
 
 #include <fmt/format.h>

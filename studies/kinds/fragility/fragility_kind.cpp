@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
 #include "io/files/suggest.hpp"
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 #include "studies/kinds/fragility/exchange.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
 #include "studies/kinds/nearest_on_axis.hpp"

@@ -25,7 +25,7 @@ constexpr double many_stuck = 0.25;
 struct Stopped {};
 
 /// The distribution function of the standard normal, within (0, 1). Not in long double, which depends on the maker of
-/// the processor (`double_pair.hpp`).
+/// the processor (`elementary.hpp`).
 double probability_of(double z)
 {
     const double below = std::erfc(-z / std::numbers::sqrt2) / 2;

@@ -1,6 +1,6 @@
 #include "studies/kinds/replicas/replicas_text.hpp"
 
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ std::string lost_text(const Replicas& replicas)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
                             k < replicas.moves    ? fmt::format("{:g} m", replicas.kinds[k].kind.size)
                             : k == replicas.moves ? "none"
-                                               : too_few_pairs,
+                                                  : too_few_pairs,
                             cells);
     }
     return text;
@@ -168,7 +168,7 @@ Json replicas_json(const Replicas& replicas)
 }
 
 void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
-                   const std::function<void()>& growth)
+                      const std::function<void()>& growth)
 {
     page.section("Predictability of the verdict");
     page.paragraph(fmt::format(
@@ -242,8 +242,8 @@ std::string predictability_csv(const Replicas& replicas)
             const Estimated& h = each.horizon_s[cell];
             CsvRow row(text);
             add_cell(row, replicas, cell);
-            row << replicas.kinds[each.kind].name << each.lost[cell] << e.count << e.value << e.lower << e.upper << h.count
-                << h.value << h.lower << h.upper;
+            row << replicas.kinds[each.kind].name << each.lost[cell] << e.count << e.value << e.lower << e.upper
+                << h.count << h.value << h.lower << h.upper;
         }
     return text;
 }

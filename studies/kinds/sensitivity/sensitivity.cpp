@@ -1,6 +1,5 @@
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
-#include "ensemble/estimators/designs/elementary_effects.hpp"
 #include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"

@@ -1,7 +1,7 @@
 #include "studies/kinds/sensitivity/sensitivity_kind.hpp"
 
 #include "io/plots/plot_estimates.hpp"
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 
 namespace stylobate {
 

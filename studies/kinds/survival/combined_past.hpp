@@ -2,7 +2,7 @@
 /// Several structures of one site that have been through the same shaking.
 ///
 /// Given the motion each responds by itself; the likelihood of a past is the mean over the motions of the product of
-/// theirs (`motion_tally.hpp`). Their studies therefore have the same motions: the same excitation, axes, seed and
+/// theirs (`past_likelihood.hpp`). Their studies therefore have the same motions: the same excitation, axes, seed and
 /// `structures_per_motion`, and each its own `survival.structure`, by which it draws its own properties. That the
 /// ground moved in the same way under all of them is an assumption: soil, topography and the direction of the shaking
 /// may differ.

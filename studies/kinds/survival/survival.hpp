@@ -7,7 +7,6 @@
 #include "ensemble/estimators/past/hazard_update.hpp"
 #include "ensemble/estimators/past/past_likelihood.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
-#include "ensemble/estimators/past/simulated_monuments.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
 

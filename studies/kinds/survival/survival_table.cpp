@@ -1,6 +1,6 @@
 #include "studies/kinds/survival/survival_table.hpp"
 
-#include "io/tables/csv.hpp"
+#include "io/tables/table.hpp"
 #include "studies/experiment/limit_state.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "studies/measured/windows/window_comparison.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "ensemble/statics/static_state.hpp"
 #include "ensemble/tracking/specimen.hpp"

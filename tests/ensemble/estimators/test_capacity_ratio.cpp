@@ -1,6 +1,6 @@
 /// Ratios of capacities: by hand, against capacities that are known, and the coverage of the intervals.
 
-#include "ensemble/estimators/paired/capacity_ratio.hpp"
+#include "ensemble/estimators/paired/paired_difference.hpp"
 
 #include <gtest/gtest.h>
 

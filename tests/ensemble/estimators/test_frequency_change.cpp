@@ -1,7 +1,7 @@
 /// The change of a frequency by pairs: by hand, against Student's interval, without any change, and its coverage.
 
 #include "ensemble/estimators/risk/frequency_change.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 

@@ -3,7 +3,7 @@
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/estimators/fragility/fragility_curve.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "tests/ensemble/estimators/fragility_truth.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "ensemble/estimators/past/exclusion.hpp"
 #include "ensemble/estimators/past/hazard_update.hpp"
 #include "ensemble/estimators/past/past_posterior.hpp"
-#include "ensemble/estimators/past/simulated_monuments.hpp"
 
 #include <gtest/gtest.h>
 

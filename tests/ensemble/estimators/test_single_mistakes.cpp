@@ -5,7 +5,7 @@
 #include "ensemble/estimators/paired/paired_allocation.hpp"
 #include "ensemble/estimators/paired/paired_tests.hpp"
 #include "ensemble/estimators/past/exclusion.hpp"
-#include "ensemble/estimators/past/simulated_monuments.hpp"
+#include "ensemble/estimators/past/past_posterior.hpp"
 #include "ensemble/estimators/search/response_surface.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 /// Sobol's indices and Morris' effects of functions whose indices are known in closed form, and how often the
 /// intervals hold them.
 
-#include "ensemble/estimators/designs/elementary_effects.hpp"
 #include "ensemble/estimators/designs/sobol_indices.hpp"
 #include "tests/ensemble/estimators/sensitivity_functions.hpp"
 

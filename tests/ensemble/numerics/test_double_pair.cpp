@@ -1,7 +1,7 @@
 /// Exponential and logarithm with twice the digits: against values of 300 bits (mpmath 1.3), and against the C library
 /// in long double.
 
-#include "ensemble/numerics/double_pair.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 /// Binomial intervals: exact coverage by summing probabilities, limits, closed forms.
 
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/numerics/quantiles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Quantiles of distributions against published tables and closed forms, those of samples by hand.
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <gtest/gtest.h>

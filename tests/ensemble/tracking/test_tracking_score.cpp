@@ -1,6 +1,6 @@
 /// The score of free windows against closed forms, and what cameras saw as the model sees it.
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/tracking/tracking_score.hpp"
 
 #include <gtest/gtest.h>

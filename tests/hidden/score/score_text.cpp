@@ -1,4 +1,4 @@
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "tests/hidden/score/score.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "ensemble/numerics/slope.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"

@@ -1,6 +1,6 @@
 #include "studies/evidence/measured/boulders/boulder_report.hpp"
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/version.hpp"
 

@@ -3,7 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/measured/parts/forecast.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
 #include "studies/evidence/measured/parts/table.hpp"

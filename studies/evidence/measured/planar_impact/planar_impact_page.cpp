@@ -2,7 +2,7 @@
 /// its text and its pictures.
 
 #include "io/files/atomic_file.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/measured/parts/page_case.hpp"
 #include "studies/evidence/measured/planar_impact/planar_impact_study.hpp"
 #include "studies/evidence/picture/picture.hpp"

@@ -1,6 +1,6 @@
 /// Overturning of one block by half a sine and by a full one, against the rigid block.
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"

@@ -1,6 +1,6 @@
 /// Free rocking of one block against Housner's rigid one.
 
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"

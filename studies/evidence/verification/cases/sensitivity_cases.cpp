@@ -3,7 +3,7 @@
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "io/tables/markdown.hpp"
+#include "io/tables/table.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"

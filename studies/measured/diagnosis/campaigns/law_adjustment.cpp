@@ -1,6 +1,6 @@
 #include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 /// What lies askew before the shaking: wedges and offsets of drums.
 
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 #include "io/measured/measured_noise.hpp"
 #include "studies/measured/diagnosis/direct/direct_tests.hpp"
 

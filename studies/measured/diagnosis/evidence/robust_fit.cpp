@@ -1,7 +1,7 @@
 #include "studies/measured/diagnosis/evidence/robust_fit.hpp"
 
 #include "ensemble/numerics/eigen_blocks.hpp"
-#include "ensemble/numerics/quantiles.hpp"
+#include "ensemble/numerics/interval.hpp"
 
 #include <Eigen/Cholesky>
 

@@ -17,13 +17,9 @@ void add_forms(py::module_& module)
 {
     using P = sb::CalibratedParameter;
     attributes(py::class_<P>(module, "CalibratedParameter"), "key", &P::key, "start", &P::start, "value", &P::value,
-               "lower", &P::lower, "upper", &P::upper)
+               "lower", &P::lower, "upper", &P::upper, "bounded_below", &P::bounded_below, "bounded_above",
+               &P::bounded_above, "determined", &P::determined, "effective", &P::effective, "note", &P::note)
         .def_property_readonly("range", [](const P& p) { return py::make_tuple(p.range_from, p.range_to); })
-        .def_readonly("bounded_below", &P::bounded_below)
-        .def_readonly("bounded_above", &P::bounded_above)
-        .def_readonly("determined", &P::determined)
-        .def_readonly("effective", &P::effective)
-        .def_readonly("note", &P::note)
         .def("__repr__", [](const P& p) {
             return py::str("<CalibratedParameter: {} = {:.5g}, {}>")
                 .format(p.key, p.value,
@@ -62,13 +58,31 @@ void add_calibration(py::module_& module)
     add_options<O>(module, "CalibrationOptions", "study", &O::study, "forms", &O::forms, "fit", &O::fit, "hold",
                    &O::hold, "outcomes", &O::outcomes, "held_out", &O::held_out, "threads", &O::threads, "simd",
                    &O::simd, "cache", &O::cache);
-    module.def(
-        "calibrate",
-        [](const std::filesystem::path& measured, const O& options, const py::object& progress) {
-            return interruptible_lines<std::optional<C>>(options, progress,
-                                                         [&](const O& told) { return sb::calibrate(measured, told); });
-        },
-        "measured"_a, "options"_a, "progress"_a);
+    add_told<O, std::filesystem::path>(module, "calibrate",
+                                       [](const auto&... given) { return sb::calibrate(given...); });
+}
+
+void add_diagnosis(py::module_& module)
+{
+    attributes(py::class_<sb::Cause>(module, "Cause"), "mechanism", &sb::Cause::mechanism, "place", &sb::Cause::place,
+               "parameter", &sb::Cause::parameter, "unit", &sb::Cause::unit, "size", &sb::Cause::size, "lower",
+               &sb::Cause::lower, "upper", &sb::Cause::upper, "probability", &sb::Cause::probability, "gain_nats",
+               &sb::Cause::gain_nats, "p", &sb::Cause::p)
+        .def("__repr__", [](const sb::Cause& c) { return "<Cause: " + c.mechanism + " at " + c.place + ">"; });
+    const auto verdict = [](const sb::Diagnosis& d) {
+        constexpr const char* words[] = {"none", "named", "unexplained"};
+        return words[static_cast<int>(d.verdict())];
+    };
+    attributes(py::class_<sb::Diagnosis>(module, "Diagnosis"), "verdict", verdict, "verdict_text",
+               &sb::Diagnosis::verdict_text, "causes", &sb::Diagnosis::causes, "extended_study",
+               &sb::Diagnosis::extended_study)
+        .def("text", &sb::Diagnosis::text)
+        .def("json", &sb::Diagnosis::json)
+        .def("write", &sb::Diagnosis::write, "file"_a);
+    using O = sb::DiagnosisOptions;
+    add_options<O>(module, "DiagnosisOptions", "study", &O::study, "nulls", &O::nulls, "seed", &O::seed, "threads",
+                   &O::threads, "simd", &O::simd, "cache", &O::cache);
+    add_told<O, std::filesystem::path>(module, "diagnose", [](const auto&... given) { return sb::diagnose(given...); });
 }
 
 } // namespace stylobate::python
