@@ -5,7 +5,6 @@
 #include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_file.hpp"
-#include "io/measured/measured_outcomes.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"

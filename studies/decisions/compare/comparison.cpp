@@ -1,6 +1,6 @@
 #include "studies/decisions/compare/comparison.hpp"
 
-#include "io/sealed/sealed_file.hpp"
+#include "io/store/sealed_file.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>

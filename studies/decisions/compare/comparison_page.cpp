@@ -1,9 +1,9 @@
 #include "studies/decisions/compare/comparison_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/plots/plot_estimates.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "io/plots/plot_shares.hpp"
 #include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"

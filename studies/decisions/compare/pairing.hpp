@@ -1,7 +1,7 @@
 #pragma once
 /// Studies paired realization by realization: which limit states each reached, and what the intervention changes.
 
-#include "ensemble/estimators/paired/repeated_looks.hpp"
+#include "ensemble/estimators/paired/paired_allocation.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/experiment/limit_state.hpp"

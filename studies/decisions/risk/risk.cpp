@@ -2,8 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_parts.hpp"
-#include "io/sealed/sealed_file.hpp"
-#include "io/tables/csv.hpp"
+#include "io/store/sealed_file.hpp"
+#include "io/tables/table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #pragma once
 /// How often a monument reaches each limit state, and how likely that is over years: a fragility study over a hazard.
 
-#include "ensemble/estimators/fragility/limits.hpp"
+#include "ensemble/estimators/fragility/fragility_data.hpp"
 #include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/estimators/risk/frequency_estimate.hpp"
-#include "ensemble/estimators/risk/hazard.hpp"
+#include "ensemble/estimators/risk/hazard_curve.hpp"
 #include "ensemble/model/fields.hpp"
 #include "io/tables/rows.hpp"
 #include "io/tables/table.hpp"

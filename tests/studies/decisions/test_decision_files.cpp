@@ -2,7 +2,7 @@
 /// are refused.
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/temporary_folder.hpp"
+#include "io/files/atomic_file.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/risk/risk.hpp"

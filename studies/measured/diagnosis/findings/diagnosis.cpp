@@ -1,6 +1,6 @@
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 
-#include "io/sealed/sealed_file.hpp"
+#include "io/store/sealed_file.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_fields.hpp"
 
 #include <algorithm>
