@@ -39,9 +39,9 @@ inner::Study under_record(const inner::Study& study, const inner::Record& record
         table += ", baseline = false";
     else if (had_record && e.band_pass)
         table += fmt::format(", band_pass_hz = [{}, {}]", e.band_pass->low_hz, e.band_pass->high_hz);
-    if (had_record && !has_axes(study.kind) && e.pga_m_s2 > 0)
+    if (had_record && !study.surface && e.pga_m_s2 > 0)
         table += fmt::format(", scale_to_pga_m_s2 = {}", e.pga_m_s2);
-    if (had_record && !has_axes(study.kind))
+    if (had_record && !study.surface)
         table += fmt::format(", time_scale = {}", e.time_scale);
     if (e.tail_s)
         table += fmt::format(", tail_s = {}", *e.tail_s);
@@ -104,7 +104,7 @@ Experiment::Experiment(const Study& study, const std::function<double(double)>& 
 Experiment::Experiment(const Study& study, const Record& record)
     : data_(translated([&] {
           const inner::Study& own = Inside::of(study).study;
-          if (own.fragility)
+          if (own.design().motions)
               throw InputError(name_of(study) + ": study.kind = \"fragility\" has its motions in [fragility] and "
                                                 "accepts no other one. Give the files in fragility.records.");
           const auto& given = Inside::of(record);

@@ -105,7 +105,7 @@ Share Result::share(const std::string& limit_state) const
 {
     const inner::LimitState limit = limit_of(limit_state);
     Share share = share_of(data_->limits.share(limit));
-    const bool adaptive = data_->is_adaptive(), rare = data_->study.rare.has_value();
+    const bool adaptive = data_->is_adaptive(), rare = data_->study.design().chained();
     if (!adaptive && !rare)
         return share;
     // some cells, or chains, have more realizations than others: the plain share means nothing
@@ -166,7 +166,7 @@ Surface Result::surface(const std::string& limit_state) const
 
 Fragility Result::fragility() const
 {
-    if (!data_->study.fragility || kind() == "replay")
+    if (!data_->study.design().motions || kind() == "replay")
         throw InputError(fmt::format("{}: a result of kind '{}' is not a fragility study", data_->name, kind()));
     if (!data_->complete)
         throw InputError(
@@ -187,7 +187,7 @@ Result::Data::Data(inner::ResultHeader of, inner::Study from, std::string called
 
 void Result::Data::count_the_first(const std::function<bool(std::uint64_t)>& has)
 {
-    if (header.selected || study.kind == inner::StudyKind::single)
+    if (header.selected || study.design().traced)
         return; // their realizations begin in another order
     order_.emplace(trials_);
     while (places_ < trials_ && has(order_->index(places_)))

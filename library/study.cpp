@@ -49,7 +49,7 @@ std::uint64_t Study::seed() const
 
 std::uint64_t Study::realizations() const
 {
-    return inner::most_realizations(data_->study);
+    return data_->study.design().most;
 }
 
 } // namespace stylobate::api

@@ -30,7 +30,7 @@ void copy_lists(const From& from, To& to)
 Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
 {
     const inner::Study& study = loaded.study();
-    if (study.rare)
+    if (study.design().chained())
         refuse_rare();
     if (index >= study.total())
         throw InputError(fmt::format("realization {}: the study has realizations 0 to {}", index, study.total() - 1));
@@ -76,7 +76,7 @@ Trajectory replay(const Result& result, std::uint64_t index, const std::vector<s
 {
     return translated([&] {
         const auto& of = Inside::of(result);
-        if (of.study.rare) // before its motions are read
+        if (of.study.design().chained()) // before its motions are read
             refuse_rare();
         try {
             return followed(inner::LoadedStudy::from_results(of.study, of.header, of.name, settings), index, go_on);

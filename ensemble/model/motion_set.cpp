@@ -35,12 +35,12 @@ const MotionMeasure& MotionSet::measure(const std::string& name) const
     return *at;
 }
 
-double motion_scale(const FragilitySpec& fragility, const MotionSet& set, std::size_t motion, int stripe)
+double motion_scale(const MotionSetSpec& spec, const MotionSet& set, std::size_t motion, int stripe)
 {
-    if (fragility.method == FragilityMethod::cloud)
-        return fragility.scale;
-    const MotionMeasure& measure = set.measure(measure_name(fragility.measure, fragility.period_s));
-    return std::pow(fragility.intensity.value(stripe) / measure.value[motion], 1 / measure.exponent);
+    if (spec.method == FragilityMethod::cloud)
+        return spec.scale;
+    const MotionMeasure& measure = set.measure(measure_name(spec.measure, spec.period_s));
+    return std::pow(spec.intensity.value(stripe) / measure.value[motion], 1 / measure.exponent);
 }
 
 } // namespace stylobate

@@ -1,5 +1,5 @@
 #pragma once
-/// The ground motions of a fragility study, and how strong each is by every intensity measure, as plain data.
+/// A set of ground motions, and how strong each is by every intensity measure, as plain data.
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
@@ -32,7 +32,7 @@ struct MotionSet {
     const MotionMeasure& measure(const std::string& name) const;
 };
 
-/// How many times as strong as it stands a motion is in a stripe of a fragility study.
-double motion_scale(const FragilitySpec& fragility, const MotionSet& set, std::size_t motion, int stripe);
+/// How many times as strong as it stands a motion is in a stripe.
+double motion_scale(const MotionSetSpec& spec, const MotionSet& set, std::size_t motion, int stripe);
 
 } // namespace stylobate

@@ -81,12 +81,7 @@ double nominal_tail_s(const StructureSpec& structure)
 
 double shaking_pause_s(const Study& study)
 {
-    return study.fragility->pause_s.value_or(pause_tails * nominal_tail_s(study.structure));
-}
-
-bool counts_residuals(const Study& study)
-{
-    return study.fragility || study.sensitivity || (study.survival && study.survival->observed);
+    return study.design().motions->pause_s.value_or(pause_tails * nominal_tail_s(study.structure));
 }
 
 } // namespace stylobate

@@ -18,12 +18,9 @@ std::vector<double> nominal_restitution(const Study& study, const Layout& layout
 
 /// `tail_after_shaking` (base_motion.hpp) of the structure as it is given, nothing drawn [s].
 double nominal_tail_s(const StructureSpec& structure);
-/// Whether residual displacements are counted, or compared with those of a monument: such a study is by default
-/// simulated until rest.
-bool counts_residuals(const Study& study);
 /// So many times `tail_after_shaking` is the pause between earthquakes by default.
 inline constexpr double pause_tails = 10;
-/// The pause between two shakings of a fragility study [s]. @pre it is one
+/// The pause between two shakings of a sequence [s]. @pre the study has a set of motions
 double shaking_pause_s(const Study& study);
 /// So many times longer a realization may be simulated until it lies still (`Tail::rest`).
 inline constexpr double rest_tails = 20;

@@ -3,9 +3,11 @@
 ///
 /// `io/study/study_file.hpp` fills it from TOML and checks every range; nothing after that checks again.
 
+#include "ensemble/model/kind_settings.hpp"
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/structure.hpp"
+#include "ensemble/model/study_design.hpp"
 #include "kernels/planar/step_model.hpp"
 
 #include <algorithm>
@@ -17,21 +19,6 @@
 #include <vector>
 
 namespace stylobate {
-
-enum class StudyKind {
-    single,
-    surface,
-    fragility,   ///< many motions, each scaled to given intensities: probabilities of damage and their curves
-    sensitivity, ///< which of the perturbed quantities the outcomes depend on
-    rare,        ///< a probability of collapse too small to be counted
-    survival     ///< past shaking, inferred from the state of a structure
-};
-
-/// Whether frequency and PGA are those of the cells of [surface].
-constexpr bool has_axes(StudyKind kind)
-{
-    return kind == StudyKind::surface || kind == StudyKind::survival;
-}
 
 /// What the uniform numbers of a cell's realizations are (point_set.hpp).
 enum class Sampling {
@@ -87,8 +74,6 @@ enum class PgaOf {
     mean         ///< the mean of the peaks: one scale for all realizations of a cell, whose peaks differ
 };
 
-enum class Spacing { linear, log };
-
 /// How long a realization is simulated after the shaking, if it does not come to rest before.
 enum class Tail {
     structure, ///< long enough for a fall: `tail_after_shaking()`
@@ -142,198 +127,6 @@ struct ExcitationSpec {
     Tail tail = Tail::structure;  ///< in a study file `rest` is the default of kinds that report what remains
 
     friend bool operator==(const ExcitationSpec&, const ExcitationSpec&) = default;
-};
-
-struct Axis {
-    double from = 0;
-    double to = 0;
-    int count = 0;
-    Spacing spacing = Spacing::linear;
-
-    /// The i-th of `count` values; the first and last are exactly `from` and `to`.
-    double value(int i) const;
-};
-
-/// Confidence of the intervals of an adaptive surface.
-inline constexpr double adaptive_level = 0.95;
-
-/// Realizations where they are needed (ensemble/estimators/surface/adaptive.hpp), instead of equal numbers in each
-/// cell.
-struct AdaptiveSpec {
-    std::uint64_t budget = 0;  ///< realizations of the whole surface, at most
-    std::uint64_t minimum = 8; ///< of each cell
-    double half_width = 0.05;  ///< that each cell's interval is to have
-    bool borrow = true;        ///< from neighbouring cells
-};
-
-struct SurfaceSpec {
-    Axis frequency_hz; ///< nf rows
-    Axis pga_m_s2;     ///< np columns
-    std::optional<AdaptiveSpec> adaptive = {};
-    int cells() const { return frequency_hz.count * pga_m_s2.count; }
-};
-
-/// Which motions a fragility study has, and how strong.
-enum class FragilityMethod {
-    stripes, ///< every motion scaled to each intensity of an axis
-    cloud    ///< every motion once, as it was recorded
-};
-
-/// By which measure motions are scaled.
-enum class IntensityMeasure { pga, pgv, pgd, arias, cav, sa };
-
-/// A ground motion of a fragility study, as files hold it.
-struct RecordSpec {
-    std::string file;
-    std::string component; ///< empty: the only one there is
-    std::string unit;      ///< empty: the file gives it
-    friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
-};
-
-/// A fragility study: motions x stripes x structures, `Study::realizations` structures under each motion in each
-/// stripe. The structures of a motion are the same in all its stripes (an incremental dynamic analysis of each), and
-/// others than those of another motion.
-struct FragilitySpec {
-    FragilityMethod method = FragilityMethod::stripes;
-    std::vector<RecordSpec> records; ///< of an excitation "record", else none
-    /// Files of the folder that hold no accelerations, and its vertical components: not part of the study, for
-    /// messages.
-    std::vector<std::string> left_out = {};
-    int motions = 0; ///< those of the records, or as many drawn from the seed
-    IntensityMeasure measure = IntensityMeasure::pga;
-    double period_s = 1; ///< of `sa`
-    Axis intensity;      ///< of `stripes`; in the measure's unit
-    double scale = 1;    ///< of `cloud`: factor on every motion
-
-    // Number of earthquakes in succession, each with the intensity of its stripe; each begins from the state that the
-    // one before has left.
-    int shakings = 1;
-    std::optional<double> pause_s; ///< between two of them; none: `pause_until_rest_s` of the nominal structure
-
-    // Where the scatter comes from: of the structures of a motion, every `contacts` x `twins` have the same
-    // imperfections, and every `twins` of these the same contacts too.
-    int contacts = 1;
-    int twins = 1;
-    double twin_m = 1e-9; ///< standard deviation of what twins differ by: the place of each drum
-
-    std::vector<double> peak_limits = {0.15, 0.35, 1};         ///< of the top's displacement over the column's width
-    std::vector<double> residual_limits = {0.005, 0.01, 0.02}; ///< of a joint's dislocation over its width
-    std::vector<double> periods_s = {0.5, 1, 2};               ///< at which spectral accelerations are measured
-
-    int stripes() const { return method == FragilityMethod::cloud ? 1 : intensity.count; }
-};
-
-enum class SensitivityMethod {
-    sobol, ///< shares of the variance (estimators/designs/sobol_indices.hpp): points A, B, A_1 ... of each row
-    morris ///< screening (estimators/designs/sobol_indices.hpp): points A, A_1 ...
-};
-
-/// A design of the factors: rows of points, and at each point some realizations that differ in all that is no factor,
-/// the same way at all points of a row. Realizations are counted row by row, point by point.
-struct SensitivitySpec {
-    SensitivityMethod method = SensitivityMethod::sobol;
-    std::uint64_t samples = 0;        ///< rows
-    std::uint64_t inner = 1;          ///< realizations at each point
-    std::vector<std::string> factors; ///< perturbed quantities, by the names of the inputs; in the order of the inputs
-
-    struct Place {
-        std::uint64_t row = 0;
-        std::uint64_t point = 0; ///< A is 0
-        std::uint64_t draw = 0;  ///< of the rest
-    };
-    /// Number of the first of the points A_k.
-    std::uint64_t first_changed() const { return method == SensitivityMethod::sobol ? 2 : 1; }
-    std::uint64_t points() const { return factors.size() + first_changed(); }
-    std::uint64_t total() const { return samples * points() * inner; }
-    Place place(std::uint64_t index) const
-    {
-        return {index / (points() * inner), index / inner % points(), index % inner};
-    }
-};
-
-/// Subset simulation (estimators/designs/subset_simulation.hpp), repeated for its interval.
-struct RareSpec {
-    std::uint64_t samples = 1000; ///< at each level
-    std::uint64_t repeats = 10;
-    static constexpr double level_probability = 0.1;
-    static constexpr std::uint64_t most_levels = 10; ///< beyond the first one
-    /// The pilot, which is number 0, and the repeats after it.
-    std::uint64_t simulations() const { return repeats + 1; }
-    /// A realization's index is the number of its simulation x this + its number in it.
-    static constexpr std::uint64_t indices_of_simulation = std::uint64_t{1} << 32;
-    /// Upper bound of its realizations.
-    std::uint64_t most() const { return simulations() * samples * (most_levels + 1); }
-};
-
-/// The density of the prior over the intensity of the past shaking.
-enum class PastPrior {
-    log_uniform, ///< equal probability for equal ratios
-    uniform,     ///< equal probability for equal differences
-    hazard       ///< in proportion to the rate at which the hazard of the study has such shakings
-};
-
-/// The state in which a structure is found, as far as it was measured. A state agrees with it where every measured
-/// value is met within its tolerance.
-struct ObservedState {
-    std::vector<int> joints;          ///< that were measured, counted as the beds of `lay_out`, ascending
-    std::vector<double> offset_m;     ///< (joints) how far the faces lie from where they lay when it was built
-    double tolerance_m = 0;           ///< largest difference between the true and the measured offset
-    std::vector<double> rotation_rad; ///< (free blocks) from upright; empty: not measured
-    double tolerance_rad = 0;
-    bool mirrored = false; ///< the sense of the shaking is unknown: the mirrored state agrees too
-};
-
-/// Rates of exceedance of the intensity, and their uncertainty.
-struct HazardSpec {
-    double k0_per_year = 0; ///< H(a) = k0 a^-k, a in m/s2; 0: the points
-    double k = 0;
-    std::vector<double> intensity_m_s2; ///< ascending; between them H is a power law
-    std::vector<double> rate_per_year;  ///< descending
-    double sigma_ln = 0;                ///< of the factor on all rates, lognormal about 1
-};
-
-/// Inference from the survival of a structure. Of each cell of [surface] the study has `Study::realizations` with one
-/// event, then as many with two in succession, up to `events`.
-struct SurvivalSpec {
-    std::optional<ObservedState> observed = {}; ///< none: it is only known that it stands
-    PastPrior prior = PastPrior::log_uniform;
-    double level = 0.95;           ///< of exclusions and credible intervals
-    int events = 1;                ///< largest number, equally strong
-    std::optional<double> pause_s; ///< between two of them; none: `pause_until_rest_s` of each realization
-    std::uint64_t monuments = 200; ///< simulated ones by which the intervals are calibrated and tested
-    /// Structures of one site share the seed, and so their shaking; each draws its own properties by its number.
-    std::uint64_t structure = 1;
-    std::uint64_t per_motion = 1; ///< so many realizations of a cell, in succession, have the same motion
-    /// Alike structures that were built at the site, and how many of them stand; the observed one is among these.
-    std::uint64_t built = 1, standing = 1;
-    std::optional<double> stands_for_years = {};
-    std::optional<HazardSpec> hazard = {};
-};
-
-/// The property in which the replica of a realization differs.
-enum class ReplicaBy {
-    move,      ///< the place of one drum
-    step,      ///< the time step
-    precision, ///< stepped in single precision
-    form       ///< the contact form
-};
-
-/// One kind of replica: the same realization in all draws, except for one property.
-struct Replica {
-    ReplicaBy by = ReplicaBy::move;
-    double size = 0; ///< move: how far to the right [m]; step: times the realization's own
-    ContactForm form = ContactForm::area;
-    friend bool operator==(const Replica&, const Replica&) = default;
-};
-
-/// Twins of every realization of a surface: how reliable a verdict is, and what decides it
-/// (ensemble/replicas/replicas.hpp).
-struct ReplicasSpec {
-    std::vector<Replica> kinds; ///< moves, then the step, the precision and the forms
-    int block = 0;              ///< the drum that is moved, in layout order
-    /// Number of realizations of each cell, the first ones, whose displaced replicas are followed step by step.
-    std::uint64_t followed = 8;
-    double tolerance = 0.01; ///< predictable as long as replicas are closer than this part of the drums' width
 };
 
 /// What can be perturbed. The names in study files are the enumerators' names.
@@ -483,7 +276,7 @@ struct Study {
     ExcitationSpec excitation;
     std::optional<SurfaceSpec> surface;
     std::optional<FragilitySpec> fragility;
-    std::optional<SensitivitySpec> sensitivity;
+    std::optional<FactorDesign> sensitivity;
     std::optional<RareSpec> rare;
     std::optional<SurvivalSpec> survival;    ///< beside `surface`, which has its axes
     std::optional<ReplicasSpec> replicas;    ///< of a surface
@@ -515,68 +308,21 @@ struct Study {
         return std::any_of(mechanisms.begin(), mechanisms.end(),
                            [mechanism](const MechanismSpec& spec) { return spec.mechanism == mechanism; });
     }
-    /// Parts of as many realizations each: those of a surface, or motions x stripes.
-    std::uint64_t cells() const
-    {
-        if (surface)
-            return static_cast<std::uint64_t>(surface->cells());
-        if (fragility)
-            return static_cast<std::uint64_t>(fragility->motions) * static_cast<std::uint64_t>(fragility->stripes());
-        return 1;
-    }
-    /// Most events that a realization is shaken by, one after the other.
-    int events() const { return survival ? survival->events : 1; }
-    /// How many shake this one.
-    int events(std::uint64_t index) const
-    {
-        return survival ? 1 + static_cast<int>(index / (realizations * cells())) : 1;
-    }
-    /// Realizations that are not perturbed replicas, under one event.
-    std::uint64_t originals() const { return replicas || events() > 1 ? realizations * cells() : total(); }
-    /// Realizations of the whole study. Of a surface with replicas: the originals, then all replicas of the first kind
-    /// in the same order, and so on; of a survival study those of one event, then those of two, and so on.
-    std::uint64_t total() const
-    {
-        if (sensitivity)
-            return sensitivity->total();
-        if (rare)
-            return rare->simulations() * RareSpec::indices_of_simulation;
-        return realizations * cells() *
-               (static_cast<std::uint64_t>(events()) + (replicas ? replicas->kinds.size() : 0));
-    }
-    /// The original of a replica, or the realization of one event with the same draws; of an original its own index.
-    std::uint64_t original(std::uint64_t index) const { return replicas || events() > 1 ? index % originals() : index; }
-    /// Its kind; null of an original.
-    const Replica* replica(std::uint64_t index) const
-    {
-        return replicas && index >= originals() ? &replicas->kinds[index / originals() - 1] : nullptr;
-    }
-    /// The cell of a realization: frequency row x number of PGAs + PGA column, or motion x number of stripes + stripe.
-    std::uint64_t cell(std::uint64_t index) const { return surface || fragility ? original(index) / realizations : 0; }
-    /// The number of a factor of a sensitivity study, by its name among the inputs; -1: it is none.
-    int factor(const std::string& name) const
-    {
-        if (!sensitivity)
-            return -1;
-        const auto found = std::find(sensitivity->factors.begin(), sensitivity->factors.end(), name);
-        return found == sensitivity->factors.end() ? -1 : static_cast<int>(found - sensitivity->factors.begin());
-    }
-    /// Index by which a realization draws the quantities that are not factors: its own, or that of all points of its
-    /// row.
-    std::uint64_t rest_index(std::uint64_t index) const
-    {
-        if (!sensitivity)
-            return index;
-        const SensitivitySpec::Place place = sensitivity->place(index);
-        return place.row * sensitivity->inner + place.draw;
-    }
-    /// Index by which a realization draws its motion: of a survival study that of all structures under the motion.
-    std::uint64_t motion_index(std::uint64_t index) const
-    {
-        if (!survival)
-            return rest_index(index);
-        return index / realizations * realizations + index % realizations / survival->per_motion;
-    }
+    /// Which realizations it has and what they share. It refers to this study.
+    StudyDesign design() const;
+    // What is asked of it most often.
+    std::uint64_t cells() const { return design().cells; }
+    int events() const { return design().events; }
+    std::uint64_t originals() const { return design().originals(); }
+    std::uint64_t total() const { return design().total(); }
+    std::uint64_t original(std::uint64_t index) const { return design().original(index); }
+    const Replica* replica(std::uint64_t index) const { return design().replica(index); }
+    std::uint64_t cell(std::uint64_t index) const { return design().cell(index); }
+
+    /// So many realizations of its structure under its excitation, and nothing of its kind.
+    Study as_single(std::uint64_t count) const;
+    /// Its originals alone.
+    Study without_replicas() const;
 };
 
 /// Default sampling rate of a trajectory: 100 times in 2 pi / p, p = sqrt(3 g / (4 R)) of the free

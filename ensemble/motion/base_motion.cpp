@@ -86,15 +86,16 @@ BaseMotion BaseMotion::along(std::shared_ptr<const Motion> motion, double step_s
 bool BaseMotion::on_host(const Study& study)
 {
     const ExcitationKind kind = study.excitation.kind;
-    return study.fragility || study.events() > 1 || kind == ExcitationKind::record || kind == ExcitationKind::table ||
-           kind == ExcitationKind::noise || SyntheticMotion::covers(kind) || study.names(Mechanism::time_offset) ||
-           study.names(Mechanism::harmonic_distortion);
+    return study.design().motions != nullptr || study.events() > 1 || kind == ExcitationKind::record ||
+           kind == ExcitationKind::table || kind == ExcitationKind::noise || SyntheticMotion::covers(kind) ||
+           study.names(Mechanism::time_offset) || study.names(Mechanism::harmonic_distortion);
 }
 
 bool BaseMotion::along_shared_samples(const Study& study)
 {
     const ExcitationKind kind = study.excitation.kind;
-    const bool shared = study.fragility || kind == ExcitationKind::record || kind == ExcitationKind::table;
+    const bool shared =
+        study.design().motions != nullptr || kind == ExcitationKind::record || kind == ExcitationKind::table;
     return shared && study.events() == 1 && !study.names(Mechanism::time_offset) &&
            !study.names(Mechanism::harmonic_distortion);
 }

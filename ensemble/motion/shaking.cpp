@@ -54,8 +54,8 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
     : motions_(std::move(motions))
 {
     const ExcitationSpec& excitation = study.excitation;
-    if (study.fragility) {
-        if (!motions_ || motions_->size() != static_cast<std::size_t>(study.fragility->motions))
+    if (const MotionSetSpec* set = study.design().motions) {
+        if (!motions_ || motions_->size() != static_cast<std::size_t>(set->motions))
             throw std::invalid_argument("a fragility study was not given its motions");
         return;
     }
@@ -102,8 +102,9 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     realization.base_tilt_rad = drawn.base_tilt_rad;
     realization.phase_rad = drawn.phase_rad;
     realization.pulse_gamma = drawn.pulse_gamma;
-    if (study.fragility)
-        return apply_motion(study, realization);
+    const StudyDesign design = study.design();
+    if (design.motions != nullptr)
+        return apply_motion(design, realization);
     std::size_t row = 0; // of the surface
     if (study.surface) {
         const auto cell = static_cast<int>(study.cell(realization.index));
@@ -116,16 +117,16 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     }
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
-        const std::uint64_t drawn = study.motion_index(realization.index);
+        const std::uint64_t own = design.motion_index(realization.index);
         realization.motion = std::make_shared<const Motion>(
-            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, drawn, realization.pga_m_s2 / mean_peak_[row])
-                                             : noise.motion_of_peak(study.seed, drawn, realization.pga_m_s2));
+            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, own, realization.pga_m_s2 / mean_peak_[row])
+                                             : noise.motion_of_peak(study.seed, own, realization.pga_m_s2));
     }
     if (realization.change.distorts())
         distort(excitation, realization);
     if (vertical_)
         move_vertically(realization);
-    if (const int events = study.events(realization.index); events > 1)
+    if (const int events = design.events_of(realization.index); events > 1)
         repeat(study, events, row, realization);
 }
 
@@ -133,12 +134,13 @@ void Shaking::repeat(const Study& study, int events, std::size_t row, Realizatio
 {
     const ExcitationSpec& excitation = study.excitation;
     std::vector<Motion> motions;
-    double pause_s = study.survival->pause_s.value_or(pause_until_rest(realization));
+    const StudyDesign design = study.design();
+    double pause_s = design.event_pause_s.value_or(pause_until_rest(realization));
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
         for (int k = 0; k < events; ++k) { // the first one is the realization's own
             const std::uint64_t index =
-                study.motion_index(realization.index) + static_cast<std::uint64_t>(k) * study.total();
+                design.motion_index(realization.index) + static_cast<std::uint64_t>(k) * design.total();
             motions.push_back(excitation.pga_of == PgaOf::mean
                                   ? noise.motion(study.seed, index, realization.pga_m_s2 / mean_peak_[row])
                                   : noise.motion_of_peak(study.seed, index, realization.pga_m_s2));
@@ -158,13 +160,13 @@ void Shaking::repeat(const Study& study, int events, std::size_t row, Realizatio
     realization.motion = std::make_shared<const Motion>(repeated_motion(motions, pause_s));
 }
 
-void Shaking::apply_motion(const Study& study, Realization& realization) const
+void Shaking::apply_motion(const StudyDesign& design, Realization& realization) const
 {
-    const auto stripes = static_cast<std::uint64_t>(study.fragility->stripes());
-    const std::uint64_t cell = study.cell(realization.index);
-    const auto motion = static_cast<std::size_t>(cell / stripes);
+    const std::uint64_t cell = design.cell(realization.index);
+    const auto motion = static_cast<std::size_t>(cell / design.columns);
     realization.motion = motions_->motions[motion];
-    realization.motion_scale = motion_scale(*study.fragility, *motions_, motion, static_cast<int>(cell % stripes));
+    realization.motion_scale =
+        motion_scale(*design.motions, *motions_, motion, static_cast<int>(cell % design.columns));
     realization.frequency_hz = realization.motion->predominant_frequency_hz;
     realization.pga_m_s2 = realization.motion_scale * realization.motion->pga_m_s2;
 }

@@ -27,7 +27,7 @@ public:
     Shaking() = default;
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
-    /// @param motions  those of a fragility study, else ignored
+    /// @param motions  those of a study with a set of motions, else ignored
     /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
     Shaking(const Study& study, const Motion* record, const Motion* vertical,
             std::shared_ptr<const MotionSet> motions = nullptr);
@@ -38,7 +38,7 @@ public:
 
 private:
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const;
-    void apply_motion(const Study& study, Realization& realization) const;
+    void apply_motion(const StudyDesign& design, Realization& realization) const;
     void distort(const ExcitationSpec& excitation, Realization& realization) const;
     void move_vertically(Realization& realization) const;
     /// Several events instead of one. @param row of the surface

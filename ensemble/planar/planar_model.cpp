@@ -384,7 +384,7 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
     // a realization that was set aside has no outcome
     const bool valid = state != State::invalid;
     (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r, o);
-    if (study_.survival) {
+    if (study_.design().end_state) {
         o.bed_offset_m.assign(offsets.size(), 0);
         o.rotation_rad.assign(static_cast<std::size_t>(r.drums), 0);
         for (std::size_t j = 0; valid && j < offsets.size(); ++j)

@@ -110,7 +110,8 @@ private:
     /// The next displaced replica, if there is one. One that begins beyond the tolerance is done at once.
     bool next(LaneSet& lanes, int lane)
     {
-        const std::vector<Replica>& kinds = study_.replicas->kinds;
+        const ReplicasSpec& replicas = *study_.design().replicas;
+        const std::vector<Replica>& kinds = replicas.kinds;
         while (++kind_ < static_cast<int>(kinds.size())) {
             if (kinds[static_cast<std::size_t>(kind_)].by != ReplicaBy::move)
                 continue;
@@ -124,7 +125,7 @@ private:
             pair.start = history_.separation(lanes.snapshot(lane), 0);
             pair.original_end_s = time(history_.checks() - 1);
             pair.exponent_per_s = nan;
-            pair.horizon_s = pair.start < study_.replicas->tolerance ? nan : 0;
+            pair.horizon_s = pair.start < replicas.tolerance ? nan : 0;
             pairs_.push_back(pair);
             if (std::isnan(pair.horizon_s))
                 return true;
@@ -137,7 +138,7 @@ private:
         ReplicaSeparation& pair = pairs_.back();
         const double s = history_.separation(lanes.snapshot(lane), ++check_);
         pair.followed_s = time(check_);
-        if (s < study_.replicas->tolerance) {
+        if (s < study_.design().replicas->tolerance) {
             if (left_at_ > 0 && check_ >= left_at_ && time(check_) <= shaking_s_ && s > 0)
                 growth_.add(time(check_), std::log(s));
             if (check_ + 1 < history_.checks() && !lanes.done(lane))
@@ -233,11 +234,17 @@ std::vector<ReplicaRange> replica_ranges(const Study& study)
     return ranges;
 }
 
+std::uint64_t moves_of(const Study& study)
+{
+    const ReplicasSpec* replicas = study.design().replicas;
+    return replicas == nullptr
+               ? 0
+               : static_cast<std::uint64_t>(std::ranges::count(replicas->kinds, ReplicaBy::move, &Replica::by));
+}
+
 std::uint64_t separated_originals(const Study& study)
 {
-    const bool moves = std::any_of(study.replicas->kinds.begin(), study.replicas->kinds.end(),
-                                   [](const Replica& kind) { return kind.by == ReplicaBy::move; });
-    return moves ? study.cells() * std::min(study.replicas->followed, study.realizations) : 0;
+    return moves_of(study) > 0 ? study.cells() * std::min(study.design().replicas->followed, study.realizations) : 0;
 }
 
 std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options,

@@ -16,8 +16,8 @@
 /// that opens, a joint that slips) occurs in only one of the two; the exponent therefore belongs to a size.
 
 #include "ensemble/experiment.hpp"
-#include "ensemble/model/replica_separation.hpp"
 #include "ensemble/model/observer.hpp"
+#include "ensemble/model/replica_separation.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
 
@@ -48,9 +48,12 @@ inline constexpr int least_checks = 8;
 ///
 /// @param observer is notified of originals that are done
 /// @return fewer originals' if the observer asked to stop
-std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options, Observer& observer);
+std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options,
+                                                   Observer& observer);
 
-/// Originals that are followed.
+/// Kinds of displaced replicas; 0 of a study without replicas.
+std::uint64_t moves_of(const Study& study);
+/// Originals whose displaced replicas are followed; 0 of a study without any.
 std::uint64_t separated_originals(const Study& study);
 
 } // namespace stylobate

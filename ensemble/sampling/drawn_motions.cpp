@@ -15,17 +15,12 @@
 
 namespace stylobate {
 
-int motions_needed(const FragilitySpec& fragility)
-{
-    return fragility.records.empty() ? fragility.motions * fragility.shakings : fragility.motions;
-}
-
 namespace {
 
 /// Shakings of sequence `first`, in order.
 std::vector<std::size_t> shakings_of(const Study& study, std::size_t first)
 {
-    const FragilitySpec& f = *study.fragility;
+    const MotionSetSpec& f = *study.design().motions;
     const auto count = static_cast<std::size_t>(f.shakings), motions = static_cast<std::size_t>(f.motions);
     std::vector<std::size_t> order = {first};
     if (f.records.empty()) { // those beyond the first `motions` follow
@@ -73,7 +68,7 @@ Succession in_succession(std::span<const ScaledMotion> shakings, double pause_s)
 
 MotionSet in_sequence(const Study& study, const MotionSet& set)
 {
-    const FragilitySpec& f = *study.fragility;
+    const MotionSetSpec& f = *study.design().motions;
     const auto motions = static_cast<std::size_t>(f.motions);
     MotionSet sequences;
     for (std::size_t i = 0; i < motions; ++i) {
@@ -106,12 +101,10 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
 
 MotionSet drawn_motions(const Study& study)
 {
-    if (!study.fragility || !study.fragility->records.empty())
+    const MotionSetSpec* spec = study.design().motions;
+    if (spec == nullptr || !spec->records.empty())
         throw std::invalid_argument("only a fragility study without records draws motions");
-    Study one = study;
-    one.kind = StudyKind::single;
-    one.fragility.reset();
-    one.realizations = static_cast<std::uint64_t>(motions_needed(*study.fragility));
+    Study one = study.as_single(static_cast<std::uint64_t>(spec->motions * spec->shakings));
     std::erase_if(one.perturbations, [](const Perturbation& p) {
         return p.quantity != Quantity::phase && p.quantity != Quantity::pulse_frequency &&
                p.quantity != Quantity::pulse_gamma;

@@ -1,5 +1,5 @@
 #pragma once
-/// The motions that a fragility study generates itself: drawn from its seed, and sequences of shakings.
+/// The motions that a study with a set of motions generates itself: drawn from its seed, and sequences of shakings.
 
 #include "ensemble/model/motion_set.hpp"
 
@@ -15,7 +15,7 @@ namespace stylobate {
 /// record i are others of the set, by random numbers of the study's seed, each of them once in a sequence.
 ///
 /// The samples have the shortest spacing in a sequence; the acceleration is linear between a record's own samples.
-/// @pre the set is measured; `fragility.shakings` > 1
+/// @pre the set is measured; `MotionSetSpec::shakings` > 1
 MotionSet in_sequence(const Study& study, const MotionSet& set);
 
 /// A motion times a factor.
@@ -31,9 +31,6 @@ struct Succession {
     std::vector<double> ends_s; ///< (shakings) when each is over
 };
 Succession in_succession(std::span<const ScaledMotion> shakings, double pause_s);
-
-/// Motions of which the sequences of a study are made.
-int motions_needed(const FragilitySpec& fragility);
 
 /// The motions that a study with a synthetic excitation draws from its seed: the excitation with its perturbations, and
 /// noise, one after the other; each with a PGA of `excitation.pga_m_s2`. Not measured yet.

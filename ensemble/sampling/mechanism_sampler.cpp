@@ -151,7 +151,7 @@ std::vector<PointSet::Place> MechanismSampler::places(const Study& study) const
     std::vector<PointSet::Place> places;
     for (const Drawn& drawn : drawn_) {
         const MechanismRule& rule = *acting_[drawn.acting].rule;
-        const int factor = study.factor(input_name(rule.mechanism, rule.parameters[drawn.parameter]));
+        const int factor = study.design().factor(input_name(rule.mechanism, rule.parameters[drawn.parameter]));
         for (std::size_t i = 0; i < (drawn.once ? 1 : drawn.places.size()); ++i)
             places.push_back({drawn.stream, drawn.once ? 0 : drawn.places[i], factor});
     }

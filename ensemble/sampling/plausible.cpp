@@ -104,7 +104,7 @@ double strongest_m_s2(const Subject& s)
 {
     if (s.study.surface)
         return extent(s.study.surface->pga_m_s2).high;
-    if (const std::optional<FragilitySpec>& f = s.study.fragility) {
+    if (const MotionSetSpec* f = s.study.design().motions) {
         const double intensity = extent(f->intensity).high;
         if (f->method == FragilityMethod::cloud)
             return f->scale * s.facts.pga_m_s2;
@@ -129,7 +129,7 @@ Finding check_pga(const Subject& s)
 {
     const double pga = strongest_m_s2(s);
     const ExcitationKind kind = s.study.excitation.kind;
-    if (const std::optional<FragilitySpec>& f = s.study.fragility; f && f->measure == IntensityMeasure::pgv) {
+    if (const MotionSetSpec* f = s.study.design().motions; f && f->measure == IntensityMeasure::pgv) {
         const double pgv = extent(f->intensity).high;
         if (f->method == FragilityMethod::cloud || pgv <= fastest_ground_m_s)
             return std::nullopt;
@@ -214,7 +214,7 @@ Finding check_weak_shaking(const Subject& s)
 {
     const Study& study = s.study;
     if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
-        study.vertical || study.rare)
+        study.vertical || study.design().chained())
         return std::nullopt;
     constexpr double strongest_in_g = 1.5;
     const double pga = std::max(strongest_m_s2(s), s.facts.scaled_pga_m_s2), in_g = pga * standard_gravity;
@@ -271,13 +271,13 @@ Finding check_equal_motions(const Subject& s)
                        "The same ground motion is in the set several times (equal samples, up to a "
                        "factor): {}. {} of the {} motions {} therefore no additional evidence: intervals "
                        "over motions count each ground motion once. Remove the copies.",
-                       text, copies, s.study.fragility->motions, copies == 1 ? "is" : "are");
+                       text, copies, s.study.design().motions->motions, copies == 1 ? "is" : "are");
 }
 
 Finding check_direction(const Subject& s)
 {
     if (!s.facts.vertical_motions.empty())
-        return implausible(s.study.fragility.has_value(),
+        return implausible(s.study.design().motions != nullptr,
                            "Vertical component{} would shake the base horizontally: {}. Take the "
                            "horizontal components of the record.",
                            s.facts.vertical_motions.size() == 1 ? "" : "s", some_of(s.facts.vertical_motions));
@@ -292,9 +292,10 @@ Finding check_direction(const Subject& s)
 
 Finding check_left_out(const Subject& s)
 {
-    if (!s.study.fragility || s.study.fragility->left_out.empty())
+    const MotionSetSpec* set = s.study.design().motions;
+    if (set == nullptr || set->left_out.empty())
         return std::nullopt;
-    const std::vector<std::string>& files = s.study.fragility->left_out;
+    const std::vector<std::string>& files = set->left_out;
     return implausible(false,
                        "{} file{} or component{} of fragility.folder {} no horizontal acceleration and "
                        "{} left out: {}. To choose files give fragility.pattern.",

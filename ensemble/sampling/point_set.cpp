@@ -61,31 +61,23 @@ bool is_of_motion(Stream stream)
 } // namespace
 
 PointSet::PointSet(const Study& study, const std::vector<Place>& all)
-    : seed_(study.seed), structure_seed_(study.seed), per_cell_(study.realizations), design_(study.sensitivity)
+    : seed_(study.seed), structure_seed_(study.seed), per_cell_(study.realizations), design_(study.design())
 {
-    if (study.survival) {
-        per_motion_ = study.survival->per_motion;
-        if (study.survival->structure > 1)
-            structure_seed_ = random_bits(study.seed, study.survival->structure, Stream::structure, 0);
-    }
-    if (study.fragility) {
-        stripes_ = static_cast<std::uint64_t>(study.fragility->stripes());
-        contacts_ = static_cast<std::uint64_t>(study.fragility->contacts);
-        twins_ = static_cast<std::uint64_t>(study.fragility->twins);
-    }
+    if (design_.structure > 1)
+        structure_seed_ = random_bits(study.seed, design_.structure, Stream::structure, 0);
     std::vector<Place> places = all;
-    if (design_) {
-        per_cell_ = design_->samples;
+    if (design_.factors != nullptr) {
+        per_cell_ = design_.factors->samples;
         std::erase_if(places, [](const Place& place) { return place.factor < 0; });
         for (const Place& place : places)
             factor_.emplace(key(place.stream, place.element), static_cast<std::uint64_t>(place.factor));
         for (std::size_t i = 0, n = places.size(); i < n; ++i)
             places.push_back({places[i].stream, places[i].element + element_of_b, places[i].factor});
     }
-    if (study.rare)
+    if (design_.chained())
         for (std::size_t d = 0; d < places.size(); ++d)
             dimension_.emplace(key(places[d].stream, places[d].element), d);
-    if (study.rare || study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
+    if (design_.chained() || study.sampling == Sampling::independent || per_cell_ < 2 || places.empty())
         return;
     digits_ = std::min(most_digits, static_cast<int>(std::bit_width(per_cell_ - 1)));
     const std::size_t dimensions = std::min(places.size(), most_dimensions);
@@ -117,17 +109,15 @@ PointSet::PointSet(const Study& study, const std::vector<Place>& all)
 
 std::uint64_t PointSet::drawn_as(std::uint64_t index, Stream stream) const
 {
-    if (per_motion_ > 1 && is_of_motion(stream))
-        return index / per_cell_ * per_cell_ + index % per_cell_ / per_motion_; // `Study::motion_index`
-    if (stripes_ == 0)
-        return index;
-    // the structures of a motion, whatever the stripe
-    const std::uint64_t structure = index / (stripes_ * per_cell_) * per_cell_ + index % per_cell_;
+    if (design_.per_motion > 1 && is_of_motion(stream))
+        return design_.motion_index(index);
+    // the structures of a row of cells, whatever the column
+    const std::uint64_t structure = index / (design_.recurring * per_cell_) * per_cell_ + index % per_cell_;
     switch (cause_of(stream)) {
     case Cause::imperfection:
-        return structure / (contacts_ * twins_);
+        return structure / design_.same_imperfections;
     case Cause::contact:
-        return structure / twins_;
+        return structure / design_.same_contacts;
     case Cause::twin:
         break;
     }
@@ -147,14 +137,14 @@ double PointSet::uniform(std::uint64_t index, Stream stream, std::uint64_t eleme
     index = drawn_as(index, stream);
     if (!given_.empty())
         return given_[dimension_.at(key(stream, element))];
-    if (!design_)
+    if (design_.factors == nullptr)
         return point(is_of_motion(stream) ? seed_ : structure_seed_, index, stream, element);
     const auto found = factor_.find(key(stream, element));
-    const SensitivitySpec::Place place = design_->place(index);
     if (found == factor_.end())
-        return uniform01(seed_, place.row * design_->inner + place.draw, stream, element);
-    const bool changed = place.point == design_->first_changed() + found->second;
-    if (design_->method == SensitivityMethod::sobol)
+        return uniform01(seed_, design_.factors->rest_index(index), stream, element);
+    const FactorDesign::Place place = design_.factors->place(index);
+    const bool changed = place.point == design_.factors->first_changed() + found->second;
+    if (design_.factors->method == SensitivityMethod::sobol)
         return point(seed_, place.row, stream, changed || place.point == 1 ? element + element_of_b : element);
     const double u = point(seed_, place.row, stream, element);
     return changed ? (u < 0.5 ? u + 0.5 : u - 0.5) : u; // exact: both are on the same grid

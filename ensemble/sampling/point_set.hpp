@@ -21,7 +21,8 @@
 ///
 /// In a sensitivity study the numbers of a factor are those of its row's point A or B, depending on the realization's
 /// point; for Morris' points A_k the factor's own numbers are half a range away from A's. All others are drawn once for
-/// all points of a row (`Study::rest_index`). Sobol points are then the rows, with twice the dimensions: A's, then B's.
+/// all points of a row (`FactorDesign::rest_index`). Sobol points are then the rows, with twice the dimensions: A's,
+/// then B's.
 ///
 /// Not offered: the same numbers in every cell (common random numbers). They reduce the variance of the difference of
 /// two cells, not that of the probability of any; and correlated errors make pooling with neighbours less informative.
@@ -30,7 +31,6 @@
 #include "ensemble/numerics/random.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -43,21 +43,21 @@ public:
     struct Place {
         Stream stream;
         std::uint64_t element;
-        int factor = -1; ///< of a sensitivity study: its number, -1: none
+        int factor = -1; ///< its number in the design; -1: it is none
     };
 
     PointSet() = default;
     /// @param places the numbers of a realization, the most important ones first: the first dimensions are the best
+    /// @param study must outlive it
     PointSet(const Study& study, const std::vector<Place>& places);
 
-    /// In the open interval (0, 1), as `uniform01`. The index is that of a realization; in a fragility study the
-    /// realizations that share the object of the number (`FragilitySpec`) have the same one. A place that was not named
-    /// is independent in any case.
+    /// In the open interval (0, 1), as `uniform01`. The index is that of a realization; realizations that share the
+    /// object of the number (`StudyDesign`) have the same one. A place that was not named is independent in any case.
     double uniform(std::uint64_t index, Stream stream, std::uint64_t element) const;
 
-    /// How many numbers a realization of a study of rare events has.
+    /// How many numbers a realization has, of a study whose realizations are given by their numbers.
     std::size_t size() const { return dimension_.size(); }
-    /// Of a study of rare events: one realization's numbers, in the order of the places.
+    /// Of such a study: one realization's numbers, in the order of the places.
     PointSet given(std::span<const double> numbers) const;
 
 private:
@@ -73,11 +73,8 @@ private:
 
     std::uint64_t seed_ = 0;
     std::uint64_t structure_seed_ = 0; ///< of what is not the motion's
-    std::uint64_t per_cell_ = 1;
-    std::uint64_t per_motion_ = 1; ///< of a survival study
-    std::uint64_t stripes_ = 0;    ///< of a fragility study, else 0
-    std::uint64_t contacts_ = 1, twins_ = 1;
-    std::optional<SensitivitySpec> design_;
+    std::uint64_t per_cell_ = 1;       ///< realizations, or rows of points
+    StudyDesign design_;
     std::unordered_map<std::uint64_t, std::uint64_t> factor_; ///< by key
     int digits_ = 0; ///< that distinguish the points of a cell; 0: all are independent
     std::unordered_map<std::uint64_t, std::uint64_t> dimension_; ///< by key

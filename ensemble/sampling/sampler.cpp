@@ -46,12 +46,11 @@ bool replaces(const Perturbation& perturbation)
 }
 
 /// The originals of a study with perturbed replicas, in another contact form.
-Study in_form(Study study, ContactForm form)
+Study in_form(const Study& study, ContactForm form)
 {
-    study.replicas.reset();
-    study.contact.form = form;
-
-    return study;
+    Study originals = study.without_replicas();
+    originals.contact.form = form;
+    return originals;
 }
 
 } // namespace
@@ -73,9 +72,10 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
       shaking_(study, record, vertical, std::move(motions))
 {
-    if (study.fragility && study.fragility->twins > 1) {
+    const StudyDesign design = study.design();
+    if (design.twin_m > 0) {
         Spread spread;
-        spread.sd = study.fragility->twin_m;
+        spread.sd = design.twin_m;
         twin_.emplace(spread, "fragility.twin_m", 0.0);
     }
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
@@ -114,7 +114,7 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
     std::vector<PointSet::Place> places;
     for (const Drawn& drawn : drawn_)
         for (std::uint64_t element = 0; element < drawn.draws; ++element)
-            places.push_back({drawn.stream, element, study.factor(to_string(drawn.quantity))});
+            places.push_back({drawn.stream, element, design.factor(to_string(drawn.quantity))});
     const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places(study);
     places.insert(places.end(), of_mechanisms.begin(), of_mechanisms.end());
     std::map<Stream, int> draws;
@@ -124,9 +124,9 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
                           [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
     points_ = PointSet(study, places);
 
-    if (!study.replicas)
+    if (design.replicas == nullptr)
         return;
-    for (const Replica& kind : study.replicas->kinds) {
+    for (const Replica& kind : design.replicas->kinds) {
         if (kind.by != ReplicaBy::form) {
             forms_.push_back(nullptr);
             continue;
@@ -141,7 +141,7 @@ Realization Sampler::realization(std::uint64_t index) const
     const Replica* replica = study_->replica(index);
     if (replica == nullptr)
         return build(index, points_);
-    const OtherForm* form = forms_[static_cast<std::size_t>(replica - study_->replicas->kinds.data())].get();
+    const OtherForm* form = forms_[static_cast<std::size_t>(index / study_->originals() - 1)].get();
     Realization realization = (form ? form->sampler : *this).realization(study_->original(index));
     realization.index = index;
     if (replica->by == ReplicaBy::move)
@@ -154,7 +154,7 @@ Realization Sampler::realization(std::uint64_t index) const
 /// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
 void Sampler::move(const Replica& replica, Realization& realization) const
 {
-    const int moved = study_->replicas->block;
+    const int moved = study_->design().replicas->block;
     realization.blocks[static_cast<std::size_t>(moved)].x_m += replica.size;
     for (int j = 0; j < realization.beds(); ++j) {
         const Joint& bed = realization.joints[static_cast<std::size_t>(j)];

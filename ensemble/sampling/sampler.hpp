@@ -31,7 +31,7 @@ class Sampler {
 public:
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
-    /// @param motions  those of a fragility study, else ignored
+    /// @param motions  those of a study with a set of motions, else ignored
     /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
     /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
     Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr,
@@ -45,7 +45,8 @@ public:
     ///                    explicitly, or if the drawn structure cannot be built: blocks that miss each other or overlap
     Realization realization(std::uint64_t index) const;
 
-    /// Of a study of rare events: one whose uniform numbers are given, in any order that is always the same.
+    /// Of a study whose realizations follow from each other: one whose uniform numbers are given, in any order that is
+    /// always the same.
     /// @param numbers (size()) each in (0, 1)
     Realization realization(std::uint64_t index, std::span<const double> numbers) const
     {
@@ -112,7 +113,7 @@ private:
     std::vector<std::string> input_names_;
     PointSet points_;
     std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of replicas) of another contact form, else null
-    std::optional<Distribution> twin_; ///< of a fragility study with twins: how far a drum is from its twin's place
+    std::optional<Distribution> twin_; ///< how far a drum is from its place in structures with the same contacts
 };
 
 } // namespace stylobate

@@ -166,14 +166,14 @@ inline const TableKey table("fragility", "the motions, their intensities and the
 
 namespace sensitivity_keys {
 
-inline const WordKey<SensitivityMethod> method("method", &SensitivitySpec::method, sensitivity_method_names,
+inline const WordKey<SensitivityMethod> method("method", &FactorDesign::method, sensitivity_method_names,
                                                "Sobol's indices, or Morris' screening");
-inline const WholeKey samples("samples", &SensitivitySpec::samples, {2, most_realizations}, "rows of the design",
+inline const WholeKey samples("samples", &FactorDesign::samples, {2, most_realizations}, "rows of the design",
                               {.needed = true, .example = "256"});
-inline const WholeKey inner("inner", &SensitivitySpec::inner, {1, 10000, "Realizations at each point of the design."},
+inline const WholeKey inner("inner", &FactorDesign::inner, {1, 10000, "Realizations at each point of the design."},
                             "realizations at each point of the design",
                             {.absent = "4; or 1 where every perturbed quantity is a factor"});
-inline const ListKey factors("factors", &SensitivitySpec::factors, {},
+inline const ListKey factors("factors", &FactorDesign::factors, {},
                              "perturbed quantities whose influence is estimated; of a mechanism MECHANISM_PARAMETER",
                              {.absent = "all of [perturbation]"});
 inline const TableKey table("sensitivity", "the design of a sensitivity study", {&method, &samples, &inner, &factors},

@@ -289,7 +289,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     if (study.run.precision == Precision::single)
         check_precision(top.table(run_keys::table), study);
     read_beside_surface(top, study, folder);
-    if (counts_residuals(study) && !top.table(excitation_keys::table).has(excitation_keys::tail))
+    if (study.design().residuals && !top.table(excitation_keys::table).has(excitation_keys::tail))
         study.excitation.tail = Tail::rest;
     return study;
 }

@@ -136,8 +136,9 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     // ranges that are narrower than those of the keys
     keys.read_up_to(contacts, structures);
     keys.read_up_to(twins, structures);
-    keys.read_fields(table, f,
-                     {{{"excitation.kind", motion}, {"fragility.method", word_for(fragility_method_names, f.method)}}});
+    const KeyUse use{{{"excitation.kind", motion}, {"fragility.method", word_for(fragility_method_names, f.method)}}};
+    keys.read_fields<MotionSetSpec>(table, f, use);
+    keys.read_fields(table, f, use);
     check_ascending(keys, periods, f.periods_s);
     if (f.method == FragilityMethod::stripes) {
         if (keys.has(scale))

@@ -144,14 +144,14 @@ std::vector<std::string> perturbed_names(const Study& study)
     return names;
 }
 
-SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study)
+FactorDesign read_sensitivity(const KeyReader& keys, const Study& study)
 {
     const std::vector<std::string> perturbed = perturbed_names(study);
     if (perturbed.empty())
         keys.refuse_all("study.kind = \"sensitivity\" needs perturbed quantities, and [perturbation] has none.\n  Give "
                         "distributions there, for example friction = { distribution = \"normal\", cov = "
                         "0.1 }.");
-    SensitivitySpec spec;
+    FactorDesign spec;
     spec.method = keys.read(sensitivity_keys::method);
     spec.factors = read_factors(keys, perturbed);
     const bool rest = spec.factors.size() < perturbed.size() || study.excitation.kind == ExcitationKind::noise;

@@ -59,7 +59,7 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
 void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, FragilitySpec& fragility);
 
 /// @param study with its perturbations
-SensitivitySpec read_sensitivity(const KeyReader& keys, const Study& study);
+FactorDesign read_sensitivity(const KeyReader& keys, const Study& study);
 /// @param study with its perturbations and its excitation
 RareSpec read_rare(const KeyReader& keys, const Study& study);
 /// @param study all else of it

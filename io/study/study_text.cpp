@@ -256,7 +256,8 @@ Entries entries_of(const FragilitySpec& f, const KeyUse& use)
 {
     using namespace fragility_keys;
     Entries out(table);
-    out.add_fields(table, f, f.records.empty() ? use : use.without({&motions}));
+    out.add_fields<MotionSetSpec>(table, f, f.records.empty() ? use : use.without({&motions}));
+    out.add_fields(table, f, use);
     std::vector<std::string> lines;
     for (const RecordSpec& record : f.records)
         lines.push_back(inline_fields(records, record));
@@ -264,7 +265,7 @@ Entries entries_of(const FragilitySpec& f, const KeyUse& use)
         out.add_text(records.name, list(lines));
     if (f.method == FragilityMethod::stripes) {
         Entries axis(intensity);
-        axis.add_fields(intensity, f, f.measure == IntensityMeasure::sa ? use : use.without({&period}));
+        axis.add_fields<MotionSetSpec>(intensity, f, f.measure == IntensityMeasure::sa ? use : use.without({&period}));
         out.add_text(intensity.name, axis.add_fields(intensity, f.intensity).inline_table());
     }
     return out;

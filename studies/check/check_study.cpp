@@ -49,13 +49,14 @@ std::string between_text(const Between& between, const char* format)
 
 std::string cells_text(const Study& study)
 {
+    const StudyDesign design = study.design();
     if (study.surface)
-        return fmt::format(" ({} frequencies x {} PGAs{}{})", study.surface->frequency_hz.count,
-                           study.surface->pga_m_s2.count,
-                           study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
-                           study.replicas ? fmt::format(", each with {} replicas", study.replicas->kinds.size()) : "");
-    if (study.fragility)
-        return fmt::format(" ({} motions x {} intensities x {})", study.fragility->motions, study.fragility->stripes(),
+        return fmt::format(
+            " ({} frequencies x {} PGAs{}{})", study.surface->frequency_hz.count, study.surface->pga_m_s2.count,
+            study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
+            design.replicas ? fmt::format(", each with {} replicas", design.replicas->kinds.size()) : "");
+    if (design.motions)
+        return fmt::format(" ({} motions x {} intensities x {})", design.motions->motions, design.columns,
                            study.realizations);
     return "";
 }
@@ -261,8 +262,7 @@ constexpr double most_trial_seconds = 3600, most_law_seconds = 86400;
 /// Why a part of the study cannot be run twice; empty: it can.
 std::string no_pilot(const Study& study)
 {
-    if (study.kind == StudyKind::single || study.kind == StudyKind::fragility || study.kind == StudyKind::survival ||
-        (study.kind == StudyKind::surface && !study.surface->adaptive))
+    if (const StudyDesign design = study.design(); !design.selected && design.factors == nullptr)
         return {}; // a realization is drawn by its index alone
     return fmt::format("the realizations of study.kind = \"{}\"{} are chosen by what others did. Check the same "
                        "structure and shaking as a surface.",
@@ -299,7 +299,7 @@ StudyCheck::StudyCheck(LoadedStudy loaded, std::string file, CheckPlan plan, con
     header_ = loaded_.result_header();
     kind_ = make_kind(loaded_.study(), header_);
     report_.notice = kind_->prepare(loaded_.experiment(), report_.file);
-    trajectories_ = trajectories_of_run(loaded_, report_.file);
+    trajectories_ = kind_->trajectories();
 }
 
 bool StudyCheck::draw_realizations(Observer& observer)
@@ -324,7 +324,7 @@ std::optional<CheckReport> StudyCheck::run(Observer& observer)
     if (observer.stop_requested())
         return std::nullopt;
     const Trial* trial = report.trial ? &*report.trial : nullptr;
-    report.size = size_of_run(loaded_, trajectories_, trial);
+    report.size = size_of_run(loaded_, *kind_, trial);
     if (trial && !trial->unfinished)
         report.time = time_of_run(loaded_, *trial, report.size, drawing_s_);
     else if (trial && trial->lane_s_per_step > 0)

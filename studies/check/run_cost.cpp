@@ -20,41 +20,13 @@ namespace stylobate {
 namespace {
 
 /// What a results file has beside its rows [bytes], measured on those of the ready studies: groups, attributes and
-/// names, with cells and without; of each data set, each trajectory, each cell of a fragility study, each replica that
-/// is followed.
-constexpr double frame_bytes = 20e3, cells_frame_bytes = 37e3, column_bytes = 500, trajectory_frame_bytes = 10e3,
-                 fragility_cell_bytes = 300, followed_bytes = 60;
+/// names, with cells and without; of each data set, each trajectory.
+constexpr double frame_bytes = 20e3, cells_frame_bytes = 37e3, column_bytes = 500, trajectory_frame_bytes = 10e3;
 /// Counts instead of rows: the frame, and each time of collapse with its count.
 constexpr double counts_frame_bytes = 37e3, time_bytes = 16;
 /// What a result costs while its file is written and finished: processor time over bytes [s], measured; of rows, of
 /// trajectories.
 constexpr double row_s_per_byte = 1.6e-8, trajectory_s_per_byte = 3.5e-8;
-
-/// Memory for each realization [bytes]: what the store and the kind keep of it until the end (`RowNumbers`,
-/// `Kind::take`), with the spare room of arrays that grow, and copies at the end. Measured on runs of two sizes each
-/// (docs/check.md).
-double row_memory(const Study& study, const ResultHeader& header, double blocks)
-{
-    if (!header.has_rows())
-        return 0;
-    const double outcome = sizeof(Outcome) + 8 * blocks + 32;
-    if (study.fragility)
-        return 4.5 * outcome;
-    if (study.rare)
-        return outcome + 200;
-    if (study.sensitivity)
-        return 80;
-    if (study.replicas)
-        return 50;
-    return header.selected ? 150 : 12;
-}
-
-/// Kinds of replicas that are followed.
-double moves_of(const ReplicasSpec& twins)
-{
-    return static_cast<double>(std::count_if(twins.kinds.begin(), twins.kinds.end(),
-                                             [](const Replica& twin) { return twin.by == ReplicaBy::move; }));
-}
 
 /// Of the trial; without one, all.
 double collapsed_share(const Trial* trial)
@@ -64,7 +36,7 @@ double collapsed_share(const Trial* trial)
     return static_cast<double>(trial->shares().collapsed) / static_cast<double>(trial->count());
 }
 
-double file_bytes(const Study& study, const ResultHeader& header, const Trial* trial)
+double file_bytes(const Study& study, const ResultHeader& header, const Kind& kind, const Trial* trial)
 {
     const auto text = static_cast<double>(header.study_toml.size());
     const auto cells = static_cast<double>(study.cells());
@@ -77,14 +49,9 @@ double file_bytes(const Study& study, const ResultHeader& header, const Trial* t
                time_bytes * times * (study.outcome.follow == Follow::rest ? 2 : 1);
     }
     const ResultLayout layout(header);
-    double bytes = (study.cells() > 1 ? cells_frame_bytes : frame_bytes) + text +
-                   column_bytes * static_cast<double>(layout.columns().size()) +
-                   static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total);
-    if (study.fragility)
-        bytes += fragility_cell_bytes * cells;
-    if (study.replicas)
-        bytes += followed_bytes * static_cast<double>(separated_originals(study)) * moves_of(*study.replicas);
-    return bytes;
+    return (study.cells() > 1 ? cells_frame_bytes : frame_bytes) + text +
+           column_bytes * static_cast<double>(layout.columns().size()) +
+           static_cast<double>(layout.row_bytes()) * static_cast<double>(header.total) + kind.table_bytes();
 }
 
 /// The most that realizations can cost which are chosen by what others did, over the mean of the trial. Of rare events
@@ -138,31 +105,24 @@ double samples_of(const Study& study, const Trial* trial, double longest_s)
 /// Replicas that are followed beside their originals, once more.
 double followed_again(const Study& study)
 {
-    if (!study.replicas)
-        return 0;
-    return static_cast<double>(separated_originals(study)) * (1 + moves_of(*study.replicas));
+    return static_cast<double>(separated_originals(study) * (1 + moves_of(study)));
 }
 
 } // namespace
 
-std::uint64_t trajectories_of_run(const LoadedStudy& loaded, const std::string& file)
-{
-    return loaded.study().kind == StudyKind::single ? plan_trajectories(loaded.experiment(), file).count : 0;
-}
-
-RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const Trial* trial)
+RunSize size_of_run(const LoadedStudy& loaded, const Kind& kind, const Trial* trial)
 {
     const Study& study = loaded.study();
     const ResultHeader header = loaded.result_header();
     RunSize size;
-    size.realizations = most_realizations(study);
+    size.realizations = study.design().most;
     size.at_most = header.selected;
     size.cells = study.cells();
     size.blocks = static_cast<int>(header.block_names.size());
     for (const PlacedBlock& block : lay_out(study.structure).blocks)
         size.free_blocks += !block.fixed;
     constexpr std::uint64_t looked_at = 64;
-    TrialOrder order(study, 0, study.rare ? study.rare->samples : study.originals());
+    TrialOrder order(study, 0, study.design().drawn_alone(study.originals()));
     size.step_s.low = size.longest_steps.low = std::numeric_limits<double>::infinity();
     double sum = 0, longest = 0;
     const std::vector<std::uint64_t> sample = order.next(looked_at);
@@ -176,12 +136,14 @@ RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const
     }
     size.most_block_steps = sum / static_cast<double>(sample.size()) * static_cast<double>(size.realizations) *
                             static_cast<double>(size.free_blocks);
-    size.trajectories = trajectories;
-    size.trajectory_bytes = static_cast<double>(trajectories) * samples_of(study, trial, longest) *
+    size.trajectories = kind.trajectories();
+    const auto trajectories = static_cast<double>(size.trajectories);
+    size.trajectory_bytes = trajectories * samples_of(study, trial, longest) *
                             static_cast<double>(trajectory_bytes(1, static_cast<std::uint64_t>(size.blocks)));
-    size.file_bytes = file_bytes(study, header, trial) + size.trajectory_bytes +
-                      trajectory_frame_bytes * static_cast<double>(trajectories);
-    size.row_bytes = row_memory(study, header, size.blocks);
+    size.file_bytes =
+        file_bytes(study, header, kind, trial) + size.trajectory_bytes + trajectory_frame_bytes * trajectories;
+    if (header.has_rows())
+        size.row_bytes = kind.row_memory(sizeof(Outcome) + 8 * static_cast<double>(size.blocks) + 32);
     return size;
 }
 
@@ -247,8 +209,8 @@ double memory_of_run(const Study& study, const RunSize& size, double peak_bytes)
     const double rows = size.row_bytes * static_cast<double>(size.realizations) + counts;
     // what that library keeps of data sets: measured from 100 trajectories to 6400, short ones and long ones
     constexpr double each = 33e3, cached = 165e3, cache = 50e6;
-    const auto n = static_cast<double>(study.kind == StudyKind::single ? size.trajectories : 0);
-    const auto followed = static_cast<double>(study.replicas ? separated_originals(study) : 0);
+    const auto n = static_cast<double>(size.trajectories);
+    const auto followed = static_cast<double>(separated_originals(study));
     const double pairs = followed > 0 ? 6e6 + 7.6e3 * followed : 0; // measured with 0, 512 and 2048 of them
     return peak_bytes + writer + rows + pairs + each * n + std::min(cache, cached * n);
 }

@@ -3,6 +3,7 @@
 
 #include "studies/check/study_trial.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/kinds/kind.hpp"
 
 #include <cstdint>
 #include <string>
@@ -29,13 +30,9 @@ struct RunSize {
     double row_bytes = 0;        ///< of memory for each realization
 };
 
-/// How many trajectories a run keeps. @param file of the study, for messages   @throws InputError as
-/// `plan_trajectories`
-std::uint64_t trajectories_of_run(const LoadedStudy& loaded, const std::string& file);
-
-/// @param trajectories so many are kept
+/// @param kind  of the study, prepared
 /// @param trial whose realizations tell how long trajectories are; null: as long as they can be
-RunSize size_of_run(const LoadedStudy& loaded, std::uint64_t trajectories, const Trial* trial);
+RunSize size_of_run(const LoadedStudy& loaded, const Kind& kind, const Trial* trial);
 
 /// What the trial makes of it.
 struct RunTime {

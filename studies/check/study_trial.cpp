@@ -52,8 +52,8 @@ public:
         const std::vector<std::uint64_t> indices = order_.next(count);
         const std::size_t before = part_.run.size();
         const double begin = processor_seconds();
-        const double occupancy = experiment_.study().kind == StudyKind::single ? follow(indices, trajectories, observer)
-                                                                               : step(indices, observer);
+        const double occupancy =
+            experiment_.study().design().traced ? follow(indices, trajectories, observer) : step(indices, observer);
         const double took = processor_seconds() - begin;
         processor_s_ += took;
         busy_s_ += took * occupancy;
@@ -185,12 +185,6 @@ double time_of_step(const Experiment& experiment, Isa isa, std::uint64_t realiza
     return took / steps;
 }
 
-/// Indices of the realizations of a rare event that are drawn before all others.
-std::uint64_t end_of_drawn(const Study& study)
-{
-    return study.rare ? study.rare->samples : study.total();
-}
-
 } // namespace
 
 TrialShares shares_of(const TrialPart& part)
@@ -234,11 +228,12 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
                 Observer& observer)
 {
     const Study& study = experiment.study();
+    const StudyDesign design = study.design();
     std::vector<ReplicaRange> ranges;
-    if (study.replicas)
+    if (design.replicas)
         ranges = replica_ranges(study);
     else
-        ranges.push_back({0, end_of_drawn(study), study});
+        ranges.push_back({0, design.drawn_alone(design.total()), study});
     const std::uint64_t lanes =
         static_cast<std::uint64_t>(kernels(options.isa).lanes) * static_cast<std::uint64_t>(options.threads);
     const double processor_begin = processor_seconds();
@@ -247,7 +242,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
     trial.threads = options.threads;
     trial.lanes = lanes;
     for (const ReplicaRange& range : ranges) {
-        PartTrial part(experiment, options, study.replicas ? &range.study : nullptr,
+        PartTrial part(experiment, options, design.replicas ? &range.study : nullptr,
                        TrialOrder(study, range.begin, range.end));
         trial.unfinished = trial.unfinished || !try_part(part, lanes, seconds / static_cast<double>(ranges.size()),
                                                          trajectories, observer, Clock::now());
@@ -256,8 +251,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
             break;
     }
     if (trial.unfinished && !observer.stop_requested())
-        trial.lane_s_per_step =
-            time_of_step(experiment, options.isa, study.rare ? study.rare->samples : study.originals());
+        trial.lane_s_per_step = time_of_step(experiment, options.isa, design.drawn_alone(design.originals()));
     trial.seconds = seconds_since(begin);
     trial.processor_s = processor_seconds() - processor_begin;
     return trial;
@@ -266,17 +260,11 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
 TrialOrder::TrialOrder(const Study& study, std::uint64_t begin, std::uint64_t end) : begin_(begin), end_(end)
 {
     const std::uint64_t total = end - begin;
-    if (study.surface)
-        counts_ = {static_cast<std::uint64_t>(study.surface->frequency_hz.count),
-                   static_cast<std::uint64_t>(study.surface->pga_m_s2.count), 1};
-    else if (study.fragility)
-        counts_ = {static_cast<std::uint64_t>(study.fragility->motions),
-                   static_cast<std::uint64_t>(study.fragility->stripes()), 1};
-    const std::uint64_t cells = counts_[0] * counts_[1];
-    if (total % cells != 0)
+    const StudyDesign design = study.design();
+    if (total % design.cells != 0)
         counts_ = {1, 1, total};
     else
-        counts_[2] = total / cells;
+        counts_ = {design.cells / design.columns, design.columns, total / design.cells};
     const auto dimensions = std::count_if(counts_.begin(), counts_.end(), [](std::uint64_t n) { return n > 1; });
     double g = 1.5; // a fixed point of g = (1 + g)^(1 / (d + 1))
     for (int i = 0; i < 64; ++i)

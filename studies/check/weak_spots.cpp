@@ -29,6 +29,13 @@ struct Subject {
     const FreeMotion* free;
     std::optional<StaticLimit> limit; ///< of the nominal structure
     const Study& study() const { return loaded.study(); }
+    StudyDesign design() const { return study().design(); }
+    /// The set of motions, where they are files; else null.
+    const MotionSet* recorded() const
+    {
+        const MotionSetSpec* set = design().motions;
+        return set && !set->records.empty() ? loaded.experiment().motions().drawn.get() : nullptr;
+    }
     bool implausible_by(std::string_view check) const
     {
         return std::any_of(implausibilities.begin(), implausibilities.end(),
@@ -37,7 +44,7 @@ struct Subject {
     /// A few realizations, spread over the study.
     std::vector<Realization> sample(std::uint64_t count) const
     {
-        TrialOrder order(study(), 0, study().rare ? study().rare->samples : study().originals());
+        TrialOrder order(study(), 0, design().drawn_alone(study().originals()));
         std::vector<Realization> all;
         for (const std::uint64_t index : order.next(count))
             all.push_back(loaded.sampler().realization(index));
@@ -69,7 +76,7 @@ double strongest_m_s2(const Subject& s)
     else
         for (const Realization& r : s.sample(64))
             pga = std::max(pga, r.pga_m_s2);
-    return pga * (s.study().fragility ? 1 : overshoot(s.study().excitation)); // scaled by the peak of its samples
+    return pga * (s.design().motions ? 1 : overshoot(s.study().excitation)); // scaled by the peak of its samples
 }
 
 /// Below the limit of statics no rigid block moves, whatever the history of the shaking. (A rare event is one of the
@@ -78,7 +85,7 @@ Found below_limit(const Subject& s)
 {
     const Study& study = s.study();
     if (study.excitation.kind == ExcitationKind::none || study.initial.tilt_rad != 0 || !study.mechanisms.empty() ||
-        study.vertical || study.rare)
+        study.vertical || s.design().chained())
         return std::nullopt;
     const std::optional<StaticLimit>& limit = s.limit;
     const double pga = strongest_m_s2(s);
@@ -111,9 +118,8 @@ Found slides_first(const Subject& s)
 
 Found one_outcome(const Subject& s)
 {
-    const Study& study = s.study();
     constexpr std::uint64_t enough = 60; // the rule of three: then a share of 0.05 would have been seen
-    if (!s.trial || !(study.surface || study.fragility || study.sensitivity))
+    if (!s.trial || s.design().traced || s.design().chained())
         return std::nullopt;
     const auto [valid, fell] = shares_of(s.trial->parts.front());
     if (valid < enough || (fell > 0 && fell < valid))
@@ -172,9 +178,9 @@ Found wide_interval(const Subject& s)
     const std::optional<std::uint64_t> n = counted_trials(s.loaded);
     if (!n || worst_half_width(*n) <= wide)
         return std::nullopt;
-    const char* more = !study.fragility                   ? "study.realizations = "
-                       : study.fragility->records.empty() ? "fragility.motions = "
-                                                          : "different ground motions: ";
+    const char* more = !s.design().motions ? "study.realizations = "
+                       : s.recorded()      ? "different ground motions: "
+                                           : "fragility.motions = ";
     return spot(width_text(study, *n) + ".",
                 fmt::format("For ±{} give {}{:.0f}; the width falls with the square root of the number.", wanted, more,
                             std::ceil(0.25 * std::pow(1.96 / wanted, 2))));
@@ -183,7 +189,7 @@ Found wide_interval(const Subject& s)
 Found same_realizations(const Subject& s)
 {
     const Study& study = s.study();
-    if (study.realizations < 2 || study.sensitivity || study.rare || !s.loaded.sampler().input_names().empty() ||
+    if (study.realizations < 2 || !s.loaded.sampler().input_names().empty() ||
         study.excitation.kind == ExcitationKind::noise)
         return std::nullopt;
     return spot(fmt::format("Nothing is drawn: the {} realizations{} are one and the same, and their share is 0 or 1. "
@@ -220,8 +226,8 @@ std::vector<const Motion*> motions_of(const Subject& s)
     std::vector<const Motion*> all;
     if (s.loaded.record())
         all.push_back(s.loaded.record());
-    else if (s.study().fragility && !s.study().fragility->records.empty())
-        for (const auto& motion : s.loaded.experiment().motions().drawn->motions)
+    else if (s.recorded())
+        for (const auto& motion : s.recorded()->motions)
             all.push_back(motion.get());
     return all;
 }
@@ -324,12 +330,10 @@ Found long_step(const Subject& s)
 Found unknown_direction(const Subject& s)
 {
     std::vector<std::string> unknown;
-    if (s.study().fragility && !s.study().fragility->records.empty()) {
-        const MotionSet& set = *s.loaded.experiment().motions().drawn;
-        for (std::size_t i = 0; i < set.size(); ++i)
-            if (!set.motions[i]->is_vertical)
-                unknown.push_back(set.names[i]);
-    }
+    if (const MotionSet* set = s.recorded())
+        for (std::size_t i = 0; i < set->size(); ++i)
+            if (!set->motions[i]->is_vertical)
+                unknown.push_back(set->names[i]);
     if (const auto& vertical = s.loaded.experiment().motions().vertical; vertical && !vertical->is_vertical)
         unknown.push_back(vertical->source);
     if (unknown.empty())
@@ -355,9 +359,10 @@ Found no_vertical_record(const Subject& s)
         return std::nullopt;
     return spot("The vertical motion is the horizontal one times mechanisms.vertical_motion.ratio: no vertical "
                 "component of a record is used. Real vertical components have higher frequencies and other phases.",
-                study.fragility ? "Compare with a study without vertical motion: a fragility study takes no vertical "
-                                  "records."
-                                : "Give mechanisms.vertical_motion.file.");
+                s.design().motions
+                    ? "Compare with a study without vertical motion: a fragility study takes no vertical "
+                      "records."
+                    : "Give mechanisms.vertical_motion.file.");
 }
 
 /// A structure that hardly loses energy while it rocks or sways.
@@ -390,7 +395,7 @@ Found hardly_damped(const Subject& s)
 Found still_moving(const Subject& s)
 {
     constexpr double many = 0.01;
-    if (!s.trial || (s.study().kind != StudyKind::single && !counts_residuals(s.study())))
+    if (!s.trial || !(s.design().traced || s.design().residuals))
         return std::nullopt;
     std::uint64_t standing = 0, moving = 0;
     for (const TrialPart& part : s.trial->parts)
@@ -513,10 +518,10 @@ double capacity_lost(const Study& study)
 std::optional<std::uint64_t> counted_trials(const LoadedStudy& loaded)
 {
     const Study& study = loaded.study();
-    if (study.fragility)
+    const StudyDesign design = study.design();
+    if (design.motions)
         return motion_groups(study, motion_table(*loaded.experiment().motions().drawn)).groups;
-    const bool cells = study.surface && !study.surface->adaptive;
-    if (!cells && (study.kind != StudyKind::single || study.realizations < 2))
+    if (design.selected || design.factors || (!study.surface && study.realizations < 2))
         return std::nullopt;
     return study.realizations;
 }
@@ -530,8 +535,8 @@ double worst_half_width(std::uint64_t realizations)
 std::string width_text(const Study& study, std::uint64_t trials)
 {
     return fmt::format("{}{} {} a probability near 0.5 to ±{:.2g} (95 %)",
-                       counted(trials, study.fragility ? "ground motion" : "run"), study.surface ? " of a cell" : "",
-                       trials == 1 ? "fixes" : "fix", worst_half_width(trials));
+                       counted(trials, study.design().motions ? "ground motion" : "run"),
+                       study.surface ? " of a cell" : "", trials == 1 ? "fixes" : "fix", worst_half_width(trials));
 }
 
 Jumps jumps_of(const std::vector<std::uint64_t>& valid, const std::vector<std::uint64_t>& collapsed,

@@ -297,13 +297,13 @@ void tell_risk(const std::string& file, Told& told)
 void tell_study(const CommonOptions& options, const std::string& file, Told& told)
 {
     const Study study = read_study(file, options.set);
+    const StudyDesign design = study.design();
     told.json.member("holds", "study")
         .member("kind", word_for(study_kind_names, study.kind))
         .member("seed", study.seed)
-        .member("realizations", most_realizations(study));
-    const bool at_most = study.rare || (study.surface && study.surface->adaptive);
+        .member("realizations", design.most);
     told.text = fmt::format("a study of kind {}, {}{}, seed {}\n", word_for(study_kind_names, study.kind),
-                            at_most ? "at most " : "", counted(most_realizations(study), "realization"), study.seed);
+                            design.selected ? "at most " : "", counted(design.most, "realization"), study.seed);
     for (const auto& [what, is] : study_facts(study)) {
         std::string key = what;
         std::transform(key.begin(), key.end(), key.begin(), [](char c) {

@@ -137,11 +137,10 @@ std::string reason_of(const InputError& error)
 }
 
 /// Checks the study under the law as one that a user gives.
-void complete(ContactLaw& law, Study study)
+void complete(ContactLaw& law, const Study& under)
 {
-    study.replicas.reset();
-    if (study.kind == StudyKind::single)
-        study.output.trajectories = 0;
+    Study study = under.without_replicas();
+    study.output.trajectories = 0;
     study.chosen.clear();
     try {
         study = parse_study(study_text(study), "law");

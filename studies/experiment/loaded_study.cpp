@@ -75,16 +75,16 @@ void add_record(const LoadedStudy& loaded, StudyFacts& facts)
         facts.vertical_motions.push_back(record.source);
 }
 
-/// The same of the motions of a fragility study.
+/// How the motions of a set are scaled, which ones are equal, and whether they are horizontal ones.
 void add_set(const LoadedStudy& loaded, const MotionTable& table, StudyFacts& facts)
 {
-    const FragilitySpec& fragility = *loaded.study().fragility;
+    const MotionSetSpec& spec = *loaded.study().design().motions;
     const MotionSet& set = *loaded.experiment().motions().drawn;
-    const int strongest = fragility.intensity.from > fragility.intensity.to ? 0 : fragility.stripes() - 1;
-    const bool recorded = !fragility.records.empty();
+    const int strongest = spec.intensity.from > spec.intensity.to ? 0 : spec.stripes() - 1;
+    const bool recorded = !spec.records.empty();
     for (std::size_t i = 0; i < set.size(); ++i) {
         const Motion& motion = *set.motions[i];
-        const double factor = motion_scale(fragility, set, i, strongest);
+        const double factor = motion_scale(spec, set, i, strongest);
         facts.pga_m_s2 = std::max(facts.pga_m_s2, motion.pga_m_s2);
         facts.scaled_pga_m_s2 = std::max(facts.scaled_pga_m_s2, factor * motion.pga_m_s2);
         if (recorded)
@@ -115,7 +115,7 @@ Motions motions_of(const Study& study, const Record* record)
     Motions motions;
     const ExcitationSpec& excitation = study.excitation;
     const PgaRange pga = pga_range(study);
-    if (study.fragility)
+    if (study.design().motions)
         motions.drawn = std::make_shared<const MotionSet>(load_motions(study));
     else if (excitation.kind == ExcitationKind::record) {
         if (!record)
@@ -135,7 +135,8 @@ void check_settings(const Study& study, const std::string& file, const std::vect
     if (settings.empty())
         return;
     const ExcitationKind kind = study.excitation.kind;
-    const bool has_record = (kind == ExcitationKind::record || kind == ExcitationKind::table) && !study.fragility;
+    const bool has_record =
+        (kind == ExcitationKind::record || kind == ExcitationKind::table) && !study.design().motions;
     for (const std::string& setting : settings) {
         const bool record = setting.starts_with(of_record);
         if (!record && !setting.starts_with(of_vertical))
@@ -219,7 +220,7 @@ std::vector<Implausibility> LoadedStudy::implausibilities() const
     StudyFacts facts;
     if (record())
         add_record(*this, facts);
-    if (study().fragility)
+    if (study().design().motions)
         add_set(*this, motions_, facts);
     if (const std::optional<Motion>& vertical = experiment_.motions().vertical)
         if (!vertical->is_vertical.value_or(true))
@@ -238,13 +239,14 @@ ResultHeader LoadedStudy::plain_header() const
     header.seed = study().seed;
     header.code_version = code_version();
     header.build = code_build();
-    header.total = most_realizations(study());
-    header.selected = (study().surface && study().surface->adaptive) || study().rare;
+    const StudyDesign design = study().design();
+    header.total = design.most;
+    header.selected = design.selected;
     if (study().kept == KeptRealizations::none)
         header.limit_states = limit_state_names();
     header.input_names = sampler().input_names();
     header.block_names = block_names(study());
-    if (study().survival)
+    if (design.end_state)
         header.bed_names = bed_names(study());
     if (study().surface) {
         const auto values = [](const Axis& axis) {
@@ -257,14 +259,6 @@ ResultHeader LoadedStudy::plain_header() const
         header.pga_m_s2 = values(study().surface->pga_m_s2);
     }
     return header;
-}
-
-std::uint64_t most_realizations(const Study& study)
-{
-    if (study.rare)
-        return study.rare->most();
-    return study.surface && study.surface->adaptive ? std::min(study.total(), study.surface->adaptive->budget)
-                                                    : study.total();
 }
 
 std::uint64_t realizations_end(const ResultHeader& header, const Study& study)

@@ -55,12 +55,9 @@ private:
     ResultHeader plain_header() const;
 
     Experiment experiment_;
-    MotionTable motions_; ///< of a fragility study
+    MotionTable motions_; ///< of a set of motions
     std::string text_;    ///< of the study, and what identifies its motions
 };
-
-/// How many realizations a study has; of an adaptive surface or a rare event at most.
-std::uint64_t most_realizations(const Study& study);
 
 /// The study of results is fixed: all that may be set is where its record lies now. For verbs that may not even need
 /// it.

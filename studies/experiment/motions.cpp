@@ -34,7 +34,7 @@ MotionSet read_motions(const Study& study)
     const ExcitationSpec& excitation = study.excitation;
     const PgaRange pga = pga_range(study);
     MotionSet set;
-    for (const RecordSpec& record : study.fragility->records) {
+    for (const RecordSpec& record : study.design().motions->records) {
         Motion motion = make_motion(read_record(record.file, record.component, record.unit, pga), excitation.baseline,
                                     excitation.band_pass);
         if (excitation.time_scale != 1)
@@ -66,10 +66,10 @@ void check_differ(const Study& study, const MotionSet& set)
         fmt::format("fragility.motions = {}: all motions are identical because no parameter of the excitation is "
                     "random.\n  Perturb pulse_frequency, pulse_gamma or phase in [perturbation], or give "
                     "excitation.kind = \"noise\".",
-                    study.fragility->motions));
+                    study.design().motions->motions));
 }
 
-void measure(const FragilitySpec& fragility, MotionSet& set)
+void measure(const MotionSetSpec& spec, MotionSet& set)
 {
     const auto add = [&set](const std::string& name, double exponent) -> std::vector<double>& {
         set.measures.push_back({name, exponent, {}});
@@ -88,10 +88,10 @@ void measure(const FragilitySpec& fragility, MotionSet& set)
     field("pgd_m", 1, &IntensityMeasures::pgd_m);
     field("arias_m_s", 2, &IntensityMeasures::arias_m_s);
     field("cav_m_s", 1, &IntensityMeasures::cav_m_s);
-    std::vector<double> periods = fragility.periods_s;
-    if (fragility.measure == IntensityMeasure::sa &&
-        std::find(periods.begin(), periods.end(), fragility.period_s) == periods.end())
-        periods.push_back(fragility.period_s);
+    std::vector<double> periods = spec.periods_s;
+    if (spec.measure == IntensityMeasure::sa &&
+        std::find(periods.begin(), periods.end(), spec.period_s) == periods.end())
+        periods.push_back(spec.period_s);
     for (const double period : periods) {
         std::vector<double>& values = add(measure_name(IntensityMeasure::sa, period), 1);
         for (const auto& motion : set.motions)
@@ -106,20 +106,21 @@ void measure(const FragilitySpec& fragility, MotionSet& set)
 
 MotionSet load_motions(const Study& study)
 {
+    const MotionSetSpec& spec = *study.design().motions;
     MotionSet set;
-    if (study.fragility->records.empty()) {
+    if (spec.records.empty()) {
         set = drawn_motions(study);
         check_differ(study, set);
     } else {
         set = read_motions(study);
     }
-    if (!study.fragility->records.empty() && study.fragility->shakings > study.fragility->motions)
+    if (!spec.records.empty() && spec.shakings > spec.motions)
         throw InputError(fmt::format(
             "fragility.shakings = {}: there are {} records, and a sequence contains each record at most once.\n  "
             "Give fewer shakings or more records.",
-            study.fragility->shakings, study.fragility->motions));
-    measure(*study.fragility, set);
-    return study.fragility->shakings > 1 ? in_sequence(study, set) : set;
+            spec.shakings, spec.motions));
+    measure(spec, set);
+    return spec.shakings > 1 ? in_sequence(study, set) : set;
 }
 
 MotionTable motion_table(const MotionSet& set)
@@ -181,16 +182,17 @@ std::vector<std::size_t> first_equal(const MotionTable& motions, double toleranc
 MotionGroups motion_groups(const Study& study, const MotionTable& motions)
 {
     MotionGroups all;
-    if (!study.fragility)
+    const StudyDesign design = study.design();
+    if (!design.motions)
         return all;
-    all.cells = static_cast<std::size_t>(study.fragility->stripes());
-    all.group.resize(static_cast<std::size_t>(study.fragility->motions));
+    all.cells = design.columns;
+    all.group.resize(static_cast<std::size_t>(design.motions->motions));
     std::iota(all.group.begin(), all.group.end(), std::size_t{0});
     all.groups = all.group.size();
     if (motions.names.size() != all.group.size())
         return all;
     // files round their samples; of motions that are drawn, parameters that nearly agree are no copies
-    const double tolerance = study.fragility->records.empty() ? 1e-12 : 1e-4;
+    const double tolerance = design.motions->records.empty() ? 1e-12 : 1e-4;
     all.groups = 0;
     const std::vector<std::size_t> first = first_equal(motions, tolerance);
     for (std::size_t i = 0; i < first.size(); ++i)

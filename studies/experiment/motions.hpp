@@ -1,5 +1,5 @@
 #pragma once
-/// The ground motions of a fragility study: read from their files or drawn from the seed, and measured.
+/// The set of ground motions of a study: read from their files or drawn from the seed, and measured.
 
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/study.hpp"
@@ -17,7 +17,7 @@ MotionSet load_motions(const Study& study);
 /// What results keep of them.
 MotionTable motion_table(const MotionSet& set);
 
-/// The motions of a fragility study by ground motion. Runs under equal motions are not independent, and count as runs
+/// The motions of a set by ground motion. Runs under equal motions are not independent, and count as runs
 /// under one.
 struct MotionGroups {
     std::size_t cells = 0;               ///< of one motion: its stripes; 0: the study has no motions

@@ -84,6 +84,14 @@ public:
     /// Looks at the study before its run. @param file of the study, for messages
     /// @returns what the user should know, or nothing   @throws InputError if it cannot be run so
     virtual std::string prepare(const Experiment&, const std::string& file);
+    /// How many trajectories the results file keeps, after `prepare`.
+    virtual std::uint64_t trajectories() const { return 0; }
+    /// Memory of each realization [bytes]: what the store and the kind keep of it until the end (`RowNumbers`, `take`),
+    /// with the spare room of arrays that grow, and copies at the end. Measured on runs of two sizes each
+    /// (docs/check.md). @param outcome that of an outcome with its lists
+    virtual double row_memory([[maybe_unused]] double outcome) const { return header_.selected ? 150 : 12; }
+    /// What the results file has beside its rows and its surface [bytes], measured likewise.
+    virtual double table_bytes() const { return 0; }
     /// Whether `prepare` plans what the results file keeps and nothing else; a run in memory does without it.
     virtual bool prepares_file_alone() const { return false; }
 

@@ -110,8 +110,9 @@ std::string excitation_text(const Study& study, const ResultRow* one)
 {
     const ExcitationSpec& e = study.excitation;
     std::string text = excitation_name(e.kind);
-    if (const std::optional<FragilitySpec>& f = study.fragility; f && one) {
-        const auto stripes = static_cast<std::uint64_t>(f->stripes());
+    const StudyDesign design = study.design();
+    if (const MotionSetSpec* f = design.motions; f && one) {
+        const std::uint64_t stripes = design.columns;
         text += fmt::format(": motion {} (counted from 0) of {}", one->cell / stripes, f->motions);
         if (f->method == FragilityMethod::stripes)
             text += fmt::format(", {} {:.4g}", measure_name(f->measure, f->period_s),

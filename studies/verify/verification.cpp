@@ -283,7 +283,7 @@ private:
             if (std::ranges::binary_search(moving, again.index))
                 compare_trajectories(reader_.trajectory(again.index), again, replay);
         };
-        if (study_.kind == StudyKind::single || header_.kind == "replay") {
+        if (study_.design().traced || header_.kind == "replay") {
             recorded.followed.resize(header_.total);
             std::iota(recorded.followed.begin(), recorded.followed.end(), header_.first);
         }
@@ -338,7 +338,7 @@ private:
         }
         tables.text = names.empty() ? "the study has none beside its realizations"
                                     : names + ", computed again from what is stored of the realizations";
-        if (study_.replicas)
+        if (study_.design().replicas)
             tables.text += "; not the pairs that were followed (/twins)";
     }
 

@@ -1,6 +1,7 @@
 #include "studies/workflow/past.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "studies/kinds/survival/survival_kind.hpp"
 #include "studies/kinds/survival/survival_picture.hpp"
 #include "studies/results/results.hpp"
 #include "studies/workflow/file_kind.hpp"
@@ -24,7 +25,7 @@ struct ReadStructure {
 
     explicit ReadStructure(const std::string& file) : results(file)
     {
-        if (!results.study().survival || results.header().kind == "replay")
+        if (!dynamic_cast<const SurvivalKind*>(&results.kind()))
             throw InputError(fmt::format("{} is a result of kind '{}', which has no likelihood of a past.\n  Give "
                                          "results of study.kind = \"survival\".",
                                          file, results.header().kind));

@@ -75,7 +75,7 @@ std::optional<Risk> risk_of_study(const RiskRequest& request, const RiskOptions&
     const RunOptions run = machine.run_options();
     const Results results(request.file, request.settings);
     check_fragility(results);
-    const HazardModel hazard = read_hazard(request.hazard, measure_of(*results.study().fragility), request.site);
+    const HazardModel hazard = read_hazard(request.hazard, measure_of(*results.study().design().motions), request.site);
     if (request.sequences > 0)
         check_sequences(results);
     if (request.output)

@@ -37,7 +37,7 @@ bool same(double a, double b)
 std::string factor_of(const Study& study, const std::string& input)
 {
     const std::string name = input.substr(0, input.find('['));
-    return study.factor(name) >= 0 ? name : "";
+    return study.design().factor(name) >= 0 ? name : "";
 }
 
 TEST(SensitivityDesign, APointDiffersInItsFactorAlone)
@@ -46,7 +46,7 @@ TEST(SensitivityDesign, APointDiffersInItsFactorAlone)
         const Study study = read_study(sensitivity_study,
                                        with(quick, {std::string("study.sampling=") + sampling, "sensitivity.inner=3"}));
         const Sampler sampler(study, nullptr);
-        const SensitivitySpec& spec = *study.sensitivity;
+        const FactorDesign& spec = *study.sensitivity;
         ASSERT_EQ(spec.points(), 8U);
         ASSERT_EQ(study.total(), 60U * 8 * 3);
         const auto inputs = [&](std::uint64_t row, std::uint64_t point, std::uint64_t draw) {
@@ -68,7 +68,8 @@ TEST(SensitivityDesign, APointDiffersInItsFactorAlone)
                             }
                             continue;
                         }
-                        const bool of_b = point == 1 || point == 2 + static_cast<std::uint64_t>(study.factor(factor));
+                        const bool of_b =
+                            point == 1 || point == 2 + static_cast<std::uint64_t>(study.design().factor(factor));
                         EXPECT_EQ(here[i], of_b ? b[i] : a[i]) << names[i] << ", point " << point;
                         EXPECT_NE(a[i], b[i]);
                     }
@@ -96,13 +97,14 @@ TEST(SensitivityDesign, MorrisMovesAFactorByHalfItsRange)
 {
     const Study study = read_study(sensitivity_study, with(quick, {"sensitivity.method=morris"}));
     const Sampler sampler(study, nullptr);
-    const SensitivitySpec& spec = *study.sensitivity;
+    const FactorDesign& spec = *study.sensitivity;
     ASSERT_EQ(spec.points(), 7U);
     const std::vector<std::string>& names = sampler.input_names();
     const auto phase = static_cast<std::size_t>(std::find(names.begin(), names.end(), "phase") - names.begin());
     for (std::uint64_t row = 0; row < 60; ++row) {
         const auto a = sampler.realization(row * 14).inputs;
-        const auto moved = sampler.realization(row * 14 + 2 * (1 + std::uint64_t(study.factor("phase")))).inputs;
+        const auto moved =
+            sampler.realization(row * 14 + 2 * (1 + std::uint64_t(study.design().factor("phase")))).inputs;
         EXPECT_NEAR(std::abs(moved[phase] - a[phase]), 3.141592653589793, 1e-12); // uniform from 0 to 2 pi
         for (std::size_t i = 0; i < names.size(); ++i)
             if (i != phase) {

@@ -298,11 +298,11 @@ Comparison comparison_facts(const Study& base, const ResultHeader& header, const
     comparison.frequency_hz = header.frequency_hz;
     comparison.pga_m_s2 = header.pga_m_s2;
     comparison.motions = layout.groups;
-    if (const auto& fragility = base.fragility) {
-        comparison.measure = measure_name(fragility->measure, fragility->period_s);
-        if (fragility->method == FragilityMethod::stripes)
-            for (int i = 0; i < fragility->intensity.count; ++i)
-                comparison.intensity.push_back(fragility->intensity.value(i));
+    if (const MotionSetSpec* motions = base.design().motions) {
+        comparison.measure = measure_name(motions->measure, motions->period_s);
+        if (motions->method == FragilityMethod::stripes)
+            for (int i = 0; i < motions->intensity.count; ++i)
+                comparison.intensity.push_back(motions->intensity.value(i));
     }
     return comparison;
 }

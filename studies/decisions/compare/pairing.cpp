@@ -21,7 +21,7 @@ namespace {
 /// When the shaking of a sequence that a damage state belongs to is over, and the next one begins.
 double until_s(const Study& study, const ResultHeader& header, std::uint64_t motion, int shaking)
 {
-    const auto shakings = static_cast<std::size_t>(study.fragility->shakings);
+    const auto shakings = static_cast<std::size_t>(study.design().motions->shakings);
     if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
         return std::numeric_limits<double>::infinity();
     return header.motions.shaking_end_s.at(motion * shakings + static_cast<std::size_t>(shaking) - 1) +
@@ -32,7 +32,7 @@ std::vector<LimitDefinition> damage_definitions(const Study& study, const Result
 {
     std::vector<LimitDefinition> all;
     const double width = base_width_m(study.structure);
-    const auto stripes = static_cast<std::uint64_t>(study.fragility->stripes());
+    const std::uint64_t stripes = study.design().columns;
     for (const DamageState& state : damage_states(study))
         all.push_back(
             {state.name, state.describe, true, [&study, &header, state, width, stripes](const ResultRow& row) {
@@ -46,7 +46,7 @@ std::vector<LimitDefinition> damage_definitions(const Study& study, const Result
 
 std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultHeader& header)
 {
-    if (study.fragility)
+    if (study.design().motions)
         return damage_definitions(study, header);
     std::vector<LimitDefinition> all;
     for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
@@ -181,14 +181,15 @@ double p_at_a_look(const PlaceComparison& place, const PairLayout& layout)
 PairLayout pair_layout(const Study& study, const MotionTable& motions, double level)
 {
     PairLayout layout{.per_cell = study.realizations, .level = level};
+    const StudyDesign design = study.design();
     if (study.surface)
-        layout.cells = static_cast<std::size_t>(study.surface->cells());
-    if (study.fragility) {
-        layout.cells = static_cast<std::size_t>(study.fragility->stripes());
+        layout.cells = design.cells;
+    if (design.motions) {
+        layout.cells = design.columns;
         layout.motions = motion_groups(study, motions);
         layout.groups = layout.motions.groups;
     }
-    if (!study.surface && !study.fragility)
+    if (!study.surface && !design.motions)
         layout.per_cell = study.originals();
     return layout;
 }

@@ -7,6 +7,7 @@
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "studies/decisions/risk/risk.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
 
@@ -46,8 +47,8 @@ public:
         : options_(options), hazard_(best_curve(hazard)), threshold_(threshold),
           experiment_(widened(results, options.histories), results.experiment().motions())
     {
-        const FragilitySpec& f = *study().fragility;
-        measure_ = &motions().measure(measure_name(f.measure, f.period_s));
+        const MotionSetSpec& set = *study().design().motions;
+        measure_ = &motions().measure(measure_name(set.measure, set.period_s));
     }
 
     const Experiment& experiment() const { return experiment_; }
@@ -69,7 +70,7 @@ public:
     Realization realization(std::uint64_t history, std::span<const Event> events) const
     {
         const auto set = static_cast<std::uint64_t>(motions().size());
-        const auto stripes = static_cast<std::uint64_t>(study().fragility->stripes());
+        const std::uint64_t stripes = study().design().columns;
         // motion x structure of the study numbers the structures
         const std::uint64_t index = history % set * stripes * study().realizations + history / set;
         Realization r = experiment_.sampler().realization(index);
@@ -100,10 +101,8 @@ private:
     /// contacts.
     static Study widened(const Results& results, std::uint64_t histories)
     {
-        Study study = results.study();
-        const auto motions = static_cast<std::uint64_t>(study.fragility->motions);
-        study.realizations = (histories + motions - 1) / motions;
-        study.fragility->contacts = study.fragility->twins = 1;
+        const auto motions = static_cast<std::uint64_t>(results.study().design().motions->motions);
+        Study study = with_structures(results.study(), (histories + motions - 1) / motions);
         study.outcome.follow = Follow::collapse;
         study.excitation.tail = Tail::structure; // only falls are counted
         return study;
@@ -112,7 +111,7 @@ private:
     const Study& study() const { return experiment_.study(); }
     double pause_s(const Realization& r) const
     {
-        return options_.pause_s.value_or(std::max(study().fragility->pause_s.value_or(0), pause_until_rest(r)));
+        return options_.pause_s.value_or(std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(r)));
     }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 
@@ -238,7 +237,7 @@ const StateRisk& collapse_of(const Risk& risk)
 
 void check_sequences(const Results& results)
 {
-    const FragilitySpec& f = *results.study().fragility;
+    const MotionSetSpec& f = *results.study().design().motions;
     if (f.shakings > 1)
         throw InputError(fmt::format("--sequences: {} is a study of sequences (fragility.shakings = {}) itself.\n  Run "
                                      "the study with fragility.shakings = 1.",
@@ -252,7 +251,7 @@ void check_sequences(const Results& results)
 
 Threshold harmless_intensity(const Results& results)
 {
-    const FragilitySpec& f = *results.study().fragility;
+    const MotionSetSpec& f = *results.study().design().motions;
     const auto stripes = static_cast<std::size_t>(f.stripes());
     std::vector<std::uint64_t> trials(stripes), moved(stripes), fallen(stripes);
     for (const ResultRow& row : results.trials()) {

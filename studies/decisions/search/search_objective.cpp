@@ -16,16 +16,17 @@ namespace {
 
 HazardModel hazard_of(const OptimiseSpec& spec, const std::string& file, const Study& study)
 {
-    if (!study.fragility)
+    const MotionSetSpec* motions = study.design().motions;
+    if (!motions)
         throw InputError(file, 0,
                          "optimise.hazard: a frequency is of a study of kind \"fragility\", and this one has no "
                          "intensities of a hazard.\n  Omit optimise.hazard, or search a fragility study.");
-    if (study.fragility->method != FragilityMethod::stripes || study.fragility->stripes() < 2)
+    if (motions->method != FragilityMethod::stripes || motions->stripes() < 2)
         throw InputError(file, 0,
                          "optimise.hazard: the frequency is by the shares of stripes.\n  Give fragility.method = "
                          "\"stripes\" with two intensities at least, or omit optimise.hazard.");
     try {
-        return read_hazard({spec.hazard}, measure_of(*study.fragility));
+        return read_hazard({spec.hazard}, measure_of(*motions));
     } catch (const InputError& error) {
         const std::string text = error.what(), option = "--hazard ";
         throw InputError(file, 0, "optimise.hazard: " + (text.starts_with(option) ? text.substr(option.size()) : text));
@@ -96,8 +97,9 @@ SearchObjective::SearchObjective(const OptimiseSpec& spec, const std::string& fi
     if (spec.hazard.empty())
         return;
     hazard_ = hazard_of(spec, file, study);
-    for (int j = 0; j < study.fragility->stripes(); ++j)
-        intensity_.push_back(study.fragility->intensity.value(j));
+    const MotionSetSpec& motions = *study.design().motions;
+    for (int j = 0; j < motions.stripes(); ++j)
+        intensity_.push_back(motions.intensity.value(j));
     weight_ = stripe_weights(intensity_, *hazard_);
 }
 

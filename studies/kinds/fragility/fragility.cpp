@@ -438,7 +438,14 @@ FragilityTable stored(const Fragility& f)
     return table;
 }
 
-std::string measure_of(const FragilitySpec& spec)
+Study with_structures(Study study, std::uint64_t structures)
+{
+    study.realizations = structures;
+    study.fragility->contacts = study.fragility->twins = 1;
+    return study;
+}
+
+std::string measure_of(const MotionSetSpec& spec)
 {
     return spec.method == FragilityMethod::stripes ? measure_name(spec.measure, spec.period_s) : "pga_m_s2";
 }

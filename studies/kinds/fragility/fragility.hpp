@@ -68,7 +68,9 @@ Fragility fragility_of(const Study& study, const ResultHeader& header, std::vect
 FragilityTable stored(const Fragility& fragility);
 
 /// The measure of its curves, "pgv_m_s"; of a cloud the PGA.
-std::string measure_of(const FragilitySpec& spec);
+std::string measure_of(const MotionSetSpec& spec);
+/// So many structures under each motion, each with its own imperfections and contacts.
+Study with_structures(Study study, std::uint64_t structures);
 
 /// "peak ground velocity [m/s]" of "pgv_m_s".
 std::string describe_measure(const std::string& name);

@@ -10,6 +10,8 @@ class FragilityKind : public Kind {
 public:
     using Kind::Kind;
 
+    double row_memory(double outcome) const override { return 4.5 * outcome; }
+    double table_bytes() const override { return 300 * static_cast<double>(study_.cells()); }
     void conclude() override { fragility_ = fragility_of(study_, header_, std::move(rows_)); }
     std::vector<Table> tables() const override { return {to_table(stored(fragility_))}; }
     std::string text() const override;

@@ -27,6 +27,7 @@ public:
     {
         return "is of kind \"rare\", whose realizations are chosen by what others did";
     }
+    double row_memory(double outcome) const override { return outcome + 200; }
     bool plan(Rounds& rounds) override;
     void restore(const ResultReader& reader) override { table_ = rare_table(reader.table("rare")); }
     void share(Progress&) const override {}

@@ -16,6 +16,11 @@ std::uint64_t ReplicasKind::size_of(const Shard& shard) const
     return size;
 }
 
+double ReplicasKind::table_bytes() const
+{
+    return 60 * static_cast<double>(separated_originals(study_) * moves_of(study_));
+}
+
 bool ReplicasKind::plan(Rounds& rounds)
 {
     rounds.progress.total = size_of(rounds.shard);
@@ -75,8 +80,9 @@ Picture ReplicasKind::picture(const ResultReader& reader, const std::string& res
                 [this](const std::string& title, const std::filesystem::path& file) {
                     plot_discordance(replicas_, title, file);
                 }};
-    return {"predictability", "Predictability horizon of the motion", "",
-            [this](const std::string& title, const std::filesystem::path& file) { plot_growth(replicas_, title, file); }};
+    return {
+        "predictability", "Predictability horizon of the motion", "",
+        [this](const std::string& title, const std::filesystem::path& file) { plot_growth(replicas_, title, file); }};
 }
 
 std::vector<std::pair<std::string, std::string>> ReplicasKind::files(const std::string& format,

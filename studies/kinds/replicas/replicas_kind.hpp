@@ -16,6 +16,8 @@ public:
         return "has [twins], whose pairs are followed step by step on the processor";
     }
     std::uint64_t size_of(const Shard& shard) const override;
+    double row_memory(double) const override { return 50; }
+    double table_bytes() const override;
     /// Kind by kind of replica: each bundle has one contact form and one precision. Pairs are followed at the end, and
     /// again if that was interrupted.
     bool plan(Rounds& rounds) override;

@@ -79,7 +79,7 @@ void SensitivityOutcomes::add(const ResultRow& row)
     const Outcome& o = row.outcome;
     kept_.at(row.index) = {o.state, o.collapse_time_s, o.end_time_s, o.peak_top_displacement_m,
                            std::abs(o.residual_top_displacement_m)};
-    const SensitivitySpec::Place place = spec_.place(row.index);
+    const FactorDesign::Place place = spec_.place(row.index);
     for (std::size_t k = 0; k < input_.size(); ++k)
         drawn_[(place.row * spec_.points() + place.point) * input_.size() + k] =
             input_[k] == none ? std::nan("") : row.inputs.at(input_[k]);

@@ -49,7 +49,7 @@ private:
     std::vector<std::size_t> usable(std::size_t outcome) const;
     std::vector<double> directions(const std::vector<std::size_t>& rows) const;
 
-    SensitivitySpec spec_;
+    FactorDesign spec_;
     std::uint64_t seed_;
     double width_m_; ///< of the widest drum
     std::vector<Kept> kept_;

@@ -10,6 +10,7 @@ class SensitivityKind : public Kind {
 public:
     SensitivityKind(const Study& study, const ResultHeader& header);
 
+    double row_memory(double) const override { return 80; }
     void conclude() override { table_ = outcomes_.table(); }
     void restore(const ResultReader& reader) override { table_ = sensitivity_table(reader.table("sensitivity")); }
     std::vector<Table> tables() const override { return {to_table(table_)}; }

@@ -24,6 +24,7 @@ public:
         kept_ = plan_trajectories(experiment, file);
         return kept_.words;
     }
+    std::uint64_t trajectories() const override { return kept_.count; }
     bool prepares_file_alone() const override { return true; }
     bool plan(Rounds& rounds) override { return rounds.trace(kept_.count); }
     /// A copy of a trial, run again, stands alone.

@@ -115,11 +115,7 @@ public:
         for (const Study& candidate : candidates) {
             std::vector<double> share; // of falls, by shaking
             for (const TestShaking& shaking : tests_.shakings) {
-                Study study = candidate;
-                study.kind = StudyKind::single;
-                study.surface.reset();
-                study.survival.reset();
-                study.realizations = ensemble_;
+                Study study = candidate.as_single(ensemble_);
                 study.perturbations = perturbations_;
                 study.excitation = shaking.excitation;
                 study.outcome.follow = Follow::collapse;

@@ -83,11 +83,7 @@ TrackingReport WindowComparison::tracked(const std::vector<TrackingJob>& jobs, c
 
 Realization nominal_realization(const Study& variant, const StructureSpec& structure)
 {
-    Study study = variant;
-    study.kind = StudyKind::single;
-    study.surface.reset();
-    study.survival.reset();
-    study.realizations = 1;
+    Study study = variant.as_single(1);
     study.perturbations.clear();
     study.structure = structure;
     study.excitation = ExcitationSpec{};

@@ -3,6 +3,7 @@
 
 #include "studies/check/run_cost.hpp"
 #include "studies/check/study_trial.hpp"
+#include "studies/results/kinds.hpp"
 #include "tests/studies/check/ready_study.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +15,13 @@
 
 namespace stylobate {
 namespace {
+
+/// Of a run that keeps no trajectories.
+RunSize size_of(const LoadedStudy& loaded)
+{
+    const ResultHeader header = loaded.result_header();
+    return size_of_run(loaded, *make_kind(loaded.study(), header), nullptr);
+}
 
 TEST(TrialOrder, TakesEachOnceAndEvenly)
 {
@@ -58,7 +66,7 @@ TEST(StudyTrial, TheTimeOfALongRealizationIsThatOfItsSteps)
     const Trial trial = try_study(loaded.experiment(), {best_isa(), 1}, 0.01, 0, nobody);
     ASSERT_TRUE(trial.unfinished);
     ASSERT_GT(trial.lane_s_per_step, 0);
-    const RunSize size = size_of_run(loaded, 0, nullptr);
+    const RunSize size = size_of(loaded);
     const RunTime time = longest_time_of_run(trial, size);
     EXPECT_TRUE(time.at_most);
     EXPECT_EQ(time.threads, 1);
@@ -119,7 +127,7 @@ TEST(StudyTrial, EndsWhenItIsAskedTo)
 TEST(RunTime, IsThatOfTheTrialTimesWhatThereIs)
 {
     const LoadedStudy loaded = ready("small_scale_monolith"); // 8192 realizations of one block
-    const RunSize size = size_of_run(loaded, 0, nullptr);
+    const RunSize size = size_of(loaded);
     EXPECT_EQ(size.realizations, 8192U);
     EXPECT_EQ(size.free_blocks, 1);
     Trial trial;
@@ -149,7 +157,7 @@ TEST(RunTime, OfAnAdaptiveSurfaceIsBoundedByItsDearestCells)
     for (std::uint64_t cell = 0; cell < 4; ++cell)
         part.run.push_back({.index = 100 * cell, .cell = cell, .steps = 1000 * (cell + 1)});
     trial.parts.push_back(part);
-    const RunSize size = size_of_run(loaded, 0, nullptr);
+    const RunSize size = size_of(loaded);
     const RunTime time = time_of_run(loaded, trial, size, 0);
     EXPECT_TRUE(time.at_most);
     EXPECT_EQ(size.realizations, 250U);
