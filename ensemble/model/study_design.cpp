@@ -69,7 +69,7 @@ StudyDesign Study::design() const
     if (survival)
         design_survival(*survival, design);
     if (replicas) {
-        design.replicas = &*replicas;
+        design.replica_set = &*replicas;
         design.layers += replicas->kinds.size();
     }
     design.most = rare                           ? rare->most()

@@ -23,7 +23,7 @@ struct StudyDesign {
     std::uint64_t per_cell = 1; ///< originals of a cell
     std::uint64_t layers = 1;   ///< times that all originals are there
     int events = 1;             ///< most shakings in succession, all with the strength of the cell; layer k has k + 1
-    const ReplicasSpec* replicas = nullptr; ///< layer k > 0 is its kind k - 1; null: there are none
+    const ReplicasSpec* replica_set = nullptr; ///< layer k > 0 is its kind k - 1; null: there are none
     /// From this index on the numbers of a realization follow from those of others: it cannot be drawn alone.
     std::uint64_t chained_from = ~std::uint64_t{0};
     std::uint64_t most = 1; ///< upper bound of the realizations that are run
@@ -63,7 +63,7 @@ struct StudyDesign {
     /// Its kind; null of an original.
     const Replica* replica(std::uint64_t index) const
     {
-        return replicas != nullptr && index >= originals() ? &replicas->kinds[index / originals() - 1] : nullptr;
+        return replica_set != nullptr && index >= originals() ? &replica_set->kinds[index / originals() - 1] : nullptr;
     }
     std::uint64_t cell(std::uint64_t index) const { return cells > 1 ? original(index) / per_cell : 0; }
     /// How many events shake a realization.

@@ -110,7 +110,7 @@ private:
     /// The next displaced replica, if there is one. One that begins beyond the tolerance is done at once.
     bool next(LaneSet& lanes, int lane)
     {
-        const ReplicasSpec& replicas = *study_.design().replicas;
+        const ReplicasSpec& replicas = *study_.design().replica_set;
         const std::vector<Replica>& kinds = replicas.kinds;
         while (++kind_ < static_cast<int>(kinds.size())) {
             if (kinds[static_cast<std::size_t>(kind_)].by != ReplicaBy::move)
@@ -138,7 +138,7 @@ private:
         ReplicaSeparation& pair = pairs_.back();
         const double s = history_.separation(lanes.snapshot(lane), ++check_);
         pair.followed_s = time(check_);
-        if (s < study_.design().replicas->tolerance) {
+        if (s < study_.design().replica_set->tolerance) {
             if (left_at_ > 0 && check_ >= left_at_ && time(check_) <= shaking_s_ && s > 0)
                 growth_.add(time(check_), std::log(s));
             if (check_ + 1 < history_.checks() && !lanes.done(lane))
@@ -236,7 +236,7 @@ std::vector<ReplicaRange> replica_ranges(const Study& study)
 
 std::uint64_t moves_of(const Study& study)
 {
-    const ReplicasSpec* replicas = study.design().replicas;
+    const ReplicasSpec* replicas = study.design().replica_set;
     return replicas == nullptr
                ? 0
                : static_cast<std::uint64_t>(std::ranges::count(replicas->kinds, ReplicaBy::move, &Replica::by));
@@ -244,7 +244,7 @@ std::uint64_t moves_of(const Study& study)
 
 std::uint64_t separated_originals(const Study& study)
 {
-    return moves_of(study) > 0 ? study.cells() * std::min(study.design().replicas->followed, study.realizations) : 0;
+    return moves_of(study) > 0 ? study.cells() * std::min(study.design().replica_set->followed, study.realizations) : 0;
 }
 
 std::vector<ReplicaSeparation> replica_separations(const Experiment& experiment, const RunOptions& options,

@@ -124,9 +124,9 @@ Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertica
                           [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
     points_ = PointSet(study, places);
 
-    if (design.replicas == nullptr)
+    if (design.replica_set == nullptr)
         return;
-    for (const Replica& kind : design.replicas->kinds) {
+    for (const Replica& kind : design.replica_set->kinds) {
         if (kind.by != ReplicaBy::form) {
             forms_.push_back(nullptr);
             continue;
@@ -154,7 +154,7 @@ Realization Sampler::realization(std::uint64_t index) const
 /// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
 void Sampler::move(const Replica& replica, Realization& realization) const
 {
-    const int moved = study_->design().replicas->block;
+    const int moved = study_->design().replica_set->block;
     realization.blocks[static_cast<std::size_t>(moved)].x_m += replica.size;
     for (int j = 0; j < realization.beds(); ++j) {
         const Joint& bed = realization.joints[static_cast<std::size_t>(j)];

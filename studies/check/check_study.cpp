@@ -54,7 +54,7 @@ std::string cells_text(const Study& study)
         return fmt::format(
             " ({} frequencies x {} PGAs{}{})", study.surface->frequency_hz.count, study.surface->pga_m_s2.count,
             study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
-            design.replicas ? fmt::format(", each with {} replicas", design.replicas->kinds.size()) : "");
+            design.replica_set ? fmt::format(", each with {} replicas", design.replica_set->kinds.size()) : "");
     if (design.motions)
         return fmt::format(" ({} motions x {} intensities x {})", design.motions->motions, design.columns,
                            study.realizations);

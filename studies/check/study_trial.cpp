@@ -230,7 +230,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
     const Study& study = experiment.study();
     const StudyDesign design = study.design();
     std::vector<ReplicaRange> ranges;
-    if (design.replicas)
+    if (design.replica_set)
         ranges = replica_ranges(study);
     else
         ranges.push_back({0, design.drawn_alone(design.total()), study});
@@ -242,7 +242,7 @@ Trial try_study(const Experiment& experiment, const RunOptions& options, double 
     trial.threads = options.threads;
     trial.lanes = lanes;
     for (const ReplicaRange& range : ranges) {
-        PartTrial part(experiment, options, design.replicas ? &range.study : nullptr,
+        PartTrial part(experiment, options, design.replica_set ? &range.study : nullptr,
                        TrialOrder(study, range.begin, range.end));
         trial.unfinished = trial.unfinished || !try_part(part, lanes, seconds / static_cast<double>(ranges.size()),
                                                          trajectories, observer, Clock::now());

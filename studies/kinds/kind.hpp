@@ -1,7 +1,7 @@
 #pragma once
-/// The contract of a kind of study: the realizations that it requests, the evaluation of their rows, and how it is
-/// reported as text, JSON, tables, pictures and sections of a page. A kind is a folder here and a line in
-/// `studies/results/kinds.cpp`; `run`, `replay`, `export` and `report` know no kind by name.
+/// The contract of a kind of study: which studies it fits, the realizations that it requests, the evaluation of their
+/// rows, and how it is reported as text, JSON, tables, pictures and sections of a page. A kind is a folder here and a
+/// line in `studies/results/kinds.cpp`; `run`, `replay`, `export` and `report` know no kind by name.
 ///
 ///   run:       add(rows of an earlier part) -> plan(rounds), which adds the rest -> conclude() -> surface(), tables()
 ///   afterwards: add(all rows of the file) -> restore(file)
@@ -67,6 +67,8 @@ public:
     virtual ~Kind() = default;
     Kind(const Kind&) = delete;
     Kind& operator=(const Kind&) = delete;
+
+    static constexpr std::span<const PictureKind> own_pictures = {};
 
     // ---- before a run ----------------------------------------------------------------------------------------------
 

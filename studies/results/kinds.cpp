@@ -17,9 +17,9 @@ namespace stylobate {
 namespace {
 
 struct Entry {
-    bool (*fits)(const Study& study, const ResultHeader& header);
+    bool (*fits)(const Study& study);
     std::unique_ptr<Kind> (*make)(const Study& study, const ResultHeader& header);
-    std::span<const PictureKind> pictures = {};
+    std::span<const PictureKind> pictures;
 };
 
 template <class OfKind>
@@ -28,31 +28,21 @@ std::unique_ptr<Kind> make(const Study& study, const ResultHeader& header)
     return std::make_unique<OfKind>(study, header);
 }
 
+template <class OfKind>
+constexpr Entry entry{OfKind::fits, make<OfKind>, OfKind::own_pictures};
+
 /// The first that fits.
-const Entry kinds[] = {
-    {[](const Study&, const ResultHeader& h) { return h.kind == "replay"; }, make<SingleKind>},
-    {[](const Study& s, const ResultHeader&) { return s.kind == StudyKind::single; }, make<SingleKind>},
-    {[](const Study& s, const ResultHeader&) { return s.fragility.has_value(); }, make<FragilityKind>,
-     FragilityKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.sensitivity.has_value(); }, make<SensitivityKind>,
-     SensitivityKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.rare.has_value(); }, make<RareKind>, RareKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.surface && s.survival; }, make<SurvivalKind>,
-     SurvivalKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.surface && s.replicas; }, make<ReplicasKind>,
-     ReplicasKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.surface && s.surface->adaptive; }, make<AdaptiveKind>,
-     AdaptiveKind::own_pictures},
-    {[](const Study& s, const ResultHeader&) { return s.surface.has_value(); }, make<SurfaceKind>,
-     SurfaceKind::own_pictures},
-};
+constexpr Entry kinds[] = {entry<SingleKind>,   entry<FragilityKind>, entry<SensitivityKind>, entry<RareKind>,
+                           entry<SurvivalKind>, entry<ReplicasKind>,  entry<AdaptiveKind>,    entry<SurfaceKind>};
 
 } // namespace
 
 std::unique_ptr<Kind> make_kind(const Study& study, const ResultHeader& header)
 {
+    if (header.kind == "replay")
+        return make<SingleKind>(study, header);
     for (const Entry& kind : kinds)
-        if (kind.fits(study, header))
+        if (kind.fits(study))
             return kind.make(study, header);
     throw std::logic_error("a study is of some kind");
 }

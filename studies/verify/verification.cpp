@@ -338,7 +338,7 @@ private:
         }
         tables.text = names.empty() ? "the study has none beside its realizations"
                                     : names + ", computed again from what is stored of the realizations";
-        if (study_.design().replicas)
+        if (study_.design().replica_set)
             tables.text += "; not the pairs that were followed (/twins)";
     }
 

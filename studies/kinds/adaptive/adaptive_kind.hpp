@@ -43,6 +43,7 @@ class AdaptiveKind : public SurfaceKind {
 public:
     AdaptiveKind(const Study& study, const ResultHeader& header);
 
+    static bool fits(const Study& study) { return study.surface && study.surface->adaptive; }
     /// Rounds that have been run are gone through again, by the outcomes that are there: the next ones are the same as
     /// without an interruption.
     std::string why_no_shards() const override

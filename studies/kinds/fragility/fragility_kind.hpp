@@ -10,6 +10,7 @@ class FragilityKind : public Kind {
 public:
     using Kind::Kind;
 
+    static bool fits(const Study& study) { return study.fragility.has_value(); }
     double row_memory(double outcome) const override { return 4.5 * outcome; }
     double table_bytes() const override { return 300 * static_cast<double>(study_.cells()); }
     void conclude() override { fragility_ = fragility_of(study_, header_, std::move(rows_)); }

@@ -20,6 +20,7 @@ class RareKind : public Kind {
 public:
     using Kind::Kind;
 
+    static bool fits(const Study& study) { return study.rare.has_value(); }
     /// Independent draws: the states of the chains are not known in advance.
     std::uint64_t drawn_first() const override;
     /// Chains are gone through again by the outcomes that are there.

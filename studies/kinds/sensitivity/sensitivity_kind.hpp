@@ -10,6 +10,7 @@ class SensitivityKind : public Kind {
 public:
     SensitivityKind(const Study& study, const ResultHeader& header);
 
+    static bool fits(const Study& study) { return study.sensitivity.has_value(); }
     double row_memory(double) const override { return 80; }
     void conclude() override { table_ = outcomes_.table(); }
     void restore(const ResultReader& reader) override { table_ = sensitivity_table(reader.table("sensitivity")); }

@@ -11,6 +11,7 @@ class SingleKind : public Kind {
 public:
     using Kind::Kind;
 
+    static bool fits(const Study& study) { return study.kind == StudyKind::single; }
     std::string needs_processor() const override
     {
         return "is of kind \"single\", whose realizations are followed step by step on the processor";

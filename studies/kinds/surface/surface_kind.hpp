@@ -10,6 +10,7 @@ class SurfaceKind : public Kind {
 public:
     SurfaceKind(const Study& study, const ResultHeader& header);
 
+    static bool fits(const Study& study) { return study.surface.has_value(); }
     std::optional<SurfaceTable> surface() const override { return counts_by_cell_.table(); }
 
     ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
