@@ -84,7 +84,8 @@ void SurvivalCounts::add(const ResultRow& row)
     if (o.state == State::collapsed)
         return;
     ++motion.stand;
-    const std::size_t cell = static_cast<std::size_t>(study_.events(row.index) - 1) * axes_.cells_of_one() + row.cell;
+    const std::size_t cell =
+        static_cast<std::size_t>(study_.design().events_of(row.index) - 1) * axes_.cells_of_one() + row.cell;
     Standing state{row.index, cell, {}};
     for (const Place& place : places_)
         state.value.push_back((place.rotation ? o.rotation_rad : o.bed_offset_m).at(place.number));

@@ -42,7 +42,7 @@ TEST(Survival, SeveralEventsAreOneAfterTheOther)
         ASSERT_EQ(study.originals(), 12U);
         const Sampler sampler(study, nullptr);
         const std::uint64_t index = 7, later = index + 2 * study.originals();
-        EXPECT_EQ(study.events(index), 1);
+        EXPECT_EQ(study.design().events_of(index), 1);
         EXPECT_EQ(study.events(later), 3);
         EXPECT_EQ(study.cell(later), study.cell(index));
         const Realization one = sampler.realization(index), three = sampler.realization(later);
