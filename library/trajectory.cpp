@@ -1,14 +1,16 @@
-#include "studies/experiment/trajectory.hpp"
+#include "library/trajectory.hpp"
+
 #include "io/files/atomic_file.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "library/inside.hpp"
 #include "library/result.hpp"
+#include "studies/experiment/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace stylobate::api {
 
@@ -18,13 +20,6 @@ namespace {
 {
     throw InputError(
         "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
-}
-
-/// The lists of numbers of a trajectory of the engine or of the library.
-template <class From, class To>
-void copy_lists(const From& from, To& to)
-{
-    inner::visit_lists<From, To>([&](auto, auto, auto, auto field, auto its_field) { to.*its_field = from.*field; });
 }
 
 Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
@@ -37,7 +32,9 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
     inner::TracedRealization f = inner::trace(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
-    copy_lists(f.trajectory, t);
+    visit_channels(t, [&](const inner::Channel& channel, std::vector<double>& list) {
+        list = std::move(f.trajectory[channel.name]);
+    });
     for (std::size_t i = 0; i < t.blocks(); ++i) {
         t.fixed.push_back(f.realization.blocks[i].fixed);
         t.epistyle.push_back(f.trajectory.role[i] == inner::BlockRole::epistyle);
@@ -47,13 +44,21 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
     return t;
 }
 
-/// @throws InputError if the arrays of a trajectory do not fit each other
-void check(const Trajectory& t)
+/// The engine's trajectory.
+/// @throws InputError if the arrays do not fit each other
+inner::Trajectory drawn_from(const Trajectory& t)
 {
-    const std::size_t n = t.blocks();
-    if (t.time_s.empty() || n == 0 || !inner::lists_fit(t) || t.fixed.size() != n || t.epistyle.size() != n ||
-        t.column.size() != n)
+    inner::Trajectory drawn(inner::planar_channels);
+    drawn.index = t.outcome.index;
+    visit_channels(t,
+                   [&](const inner::Channel& channel, const std::vector<double>& list) { drawn[channel.name] = list; });
+    for (const bool epistyle : t.epistyle)
+        drawn.role.push_back(epistyle ? inner::BlockRole::epistyle : inner::BlockRole::drum);
+    drawn.column = t.column;
+    drawn.name = t.name;
+    if (t.time_s.empty() || t.blocks() == 0 || !inner::lists_fit(drawn) || t.fixed.size() != t.blocks())
         throw InputError("a trajectory with arrays of inconsistent sizes");
+    return drawn;
 }
 
 } // namespace
@@ -88,19 +93,17 @@ Trajectory replay(const Result& result, std::uint64_t index, const std::vector<s
 
 void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& file)
 {
-    check(t);
+    const inner::Trajectory drawn = drawn_from(t);
     const std::size_t n = t.blocks(), sample = t.sample_at(time_s);
-    const double* x = &t.x_m[sample * n];
-    const double* y = &t.y_m[sample * n];
-    const double* theta = &t.theta_rad[sample * n];
     // the frame holds the structure as it stood and as it is
     double left = 0, right = 0, top = 0, bottom = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double reach = std::hypot(t.half_width_m[i], t.half_height_m[i]);
-        left = std::min({left, x[i] - reach, t.rest_x_m[i] - reach});
-        right = std::max({right, x[i] + reach, t.rest_x_m[i] + reach});
-        top = std::max({top, y[i] + reach, t.rest_y_m[i] + reach});
-        bottom = std::min(bottom, y[i] - reach);
+        const inner::Rectangle block = rectangle_of(drawn, sample, i);
+        const double reach = block.reach();
+        left = std::min({left, block.x - reach, t.rest_x_m[i] - reach});
+        right = std::max({right, block.x + reach, t.rest_x_m[i] + reach});
+        top = std::max({top, block.y + reach, t.rest_y_m[i] + reach});
+        bottom = std::min(bottom, block.y - reach);
     }
     const double margin = 0.05 * std::max(right - left, top - bottom);
     const double scale = 600 / (std::max(right - left, top - bottom) + 2 * margin); // pixels per metre
@@ -113,12 +116,9 @@ void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& 
                                   width, height + 24, t.outcome.index, t.time_s[sample]);
     svg += fmt::format("<line x1=\"0\" y1=\"{0:.2f}\" x2=\"{1:.0f}\" y2=\"{0:.2f}\" stroke=\"#555\"/>\n", py(0), width);
     for (std::size_t i = 0; i < n; ++i) {
-        const double c = std::cos(theta[i]), s = std::sin(theta[i]);
         std::string points;
-        for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-            const double u = a * t.half_width_m[i], v = b * t.half_height_m[i];
-            points += fmt::format("{:.2f},{:.2f} ", px(x[i] + c * u - s * v), py(y[i] + s * u + c * v));
-        }
+        for (const auto& [x, y] : rectangle_of(drawn, sample, i).corners())
+            points += fmt::format("{:.2f},{:.2f} ", px(x), py(y));
         points.pop_back();
         svg += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#333\"/>\n", points,
                            t.fixed[i]      ? "#a89878"
@@ -133,16 +133,9 @@ void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& 
 
 void write_strip(const Trajectory& t, const std::filesystem::path& png, const std::string& title)
 {
-    check(t);
-    inner::Trajectory strip;
-    strip.index = t.outcome.index;
-    copy_lists(t, strip);
-    strip.name = t.name;
-    strip.column = t.column;
-    for (const bool epistyle : t.epistyle)
-        strip.role.push_back(epistyle ? inner::BlockRole::epistyle : inner::BlockRole::drum);
+    const inner::Trajectory drawn = drawn_from(t);
     translated([&] {
-        inner::plot_strip(strip, t.outcome.fall_time_s,
+        inner::plot_strip(drawn, t.outcome.fall_time_s,
                           title.empty() ? fmt::format("realization {}", t.outcome.index) : title, png);
     });
 }

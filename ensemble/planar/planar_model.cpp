@@ -420,6 +420,23 @@ Snapshot PlanarModel::snapshot(int lane, const Place& place) const
     return s;
 }
 
+Trajectory PlanarModel::trajectory_of(const Realization& realization, std::vector<std::string> names)
+{
+    Trajectory t(planar_channels);
+    t.index = realization.index;
+    t.name = std::move(names);
+    for (std::size_t i = 0; i < t.name.size(); ++i) {
+        const Block& block = realization.blocks[i];
+        t["rest_x_m"].push_back(block.x_m);
+        t["rest_y_m"].push_back(block.y_m);
+        t["half_width_m"].push_back(block.half_width_m);
+        t["half_height_m"].push_back(block.half_height_m);
+        t.role.push_back(block.role);
+        t.column.push_back(block.column);
+    }
+    return t;
+}
+
 void nudge(LaneSet& set, int lane, int block, double x_m_s2, double y_m_s2, double theta_rad_s2)
 {
     const Topology& topology = set.model().topology();

@@ -5,6 +5,7 @@
 #include "ensemble/model/realization.hpp"
 #include "ensemble/numerics/aligned.hpp"
 #include "ensemble/planar/limit_states.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "ensemble/planar/planar_watch.hpp"
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/planar/single_bundle.hpp"
@@ -13,17 +14,13 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace stylobate {
 
 class PlanarModel;
 using LaneSet = LaneSetOf<PlanarModel>;
-
-/// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
-struct Snapshot {
-    std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
-};
 
 /// What the planar model keeps of a lane from check to check.
 struct PlanarMeasured {
@@ -93,6 +90,8 @@ public:
     /// Of what stood: `State::stood`, `rocked` or `slid`.
     State motion_of(const Place& place, const Outcome& outcome) const;
     Snapshot snapshot(int lane, const Place& place) const;
+    /// The trajectory of a realization before its first sample. @param names of its blocks without the ground
+    static Trajectory trajectory_of(const Realization& realization, std::vector<std::string> names);
 
     // ---- the state, for what steps or moves lanes in other ways ----
 

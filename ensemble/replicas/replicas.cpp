@@ -1,6 +1,7 @@
 #include "ensemble/replicas/replicas.hpp"
 
 #include "ensemble/engine/drive.hpp"
+#include "ensemble/model/fields.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/statics/scales.hpp"
@@ -22,8 +23,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Positions of the free blocks, sample by sample.
 class History {
 public:
-    explicit History(const Realization& r) : width_m_(scales_of(r).width_m)
+    explicit History(const Realization& r)
     {
+        for (const Channel& channel : planar_channels)
+            if (channel.of == ListOf::poses)
+                per_.push_back(unit_of(channel.name) == "m" ? scales_of(r).width_m : 1);
         for (std::size_t i = 0; i < r.blocks.size(); ++i)
             if (!r.blocks[i].fixed)
                 free_.push_back(i);
@@ -31,10 +35,10 @@ public:
     void add(const Snapshot& s)
     {
         for (const std::size_t i : free_)
-            for (const double value : {s.x_m[i] / width_m_, s.y_m[i] / width_m_, s.theta_rad[i]})
-                values_.push_back(value);
+            for (std::size_t c = 0; c < per_.size(); ++c)
+                values_.push_back(s.pose(c)[i] / per_[c]);
     }
-    std::size_t checks() const { return values_.size() / (3 * free_.size()); }
+    std::size_t checks() const { return values_.size() / (per_.size() * free_.size()); }
 
     double separation(const Snapshot& replica, std::size_t check) const
     {
@@ -54,18 +58,15 @@ private:
     template <class F>
     void visit(std::size_t check, const Snapshot& s, const F& f) const
     {
-        const double* before = &values_[check * 3 * free_.size()];
-        for (const std::size_t i : free_) {
-            f(s.x_m[i] / width_m_ - before[0]);
-            f(s.y_m[i] / width_m_ - before[1]);
-            f(s.theta_rad[i] - before[2]);
-            before += 3;
-        }
+        const double* before = &values_[check * per_.size() * free_.size()];
+        for (const std::size_t i : free_)
+            for (std::size_t c = 0; c < per_.size(); ++c)
+                f(s.pose(c)[i] / per_[c] - *before++);
     }
 
-    double width_m_;
+    std::vector<double> per_; ///< (channels of a pose) the mean width of the drums, of a length; else 1
     std::vector<std::size_t> free_;
-    std::vector<double> values_; ///< (checks x free blocks x 3)
+    std::vector<double> values_; ///< (checks x free blocks x channels)
 };
 
 /// One original and its displaced replicas, one after the other in the same lane.

@@ -1,6 +1,7 @@
 #include "io/plots/plot_strip.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/gnuplot.hpp"
 
@@ -49,31 +50,35 @@ std::size_t finite_samples(const Trajectory& t)
 {
     const std::size_t blocks = t.blocks();
     const std::size_t samples = t.time_s.size();
-    if (t.half_height_m.size() != blocks || t.rest_x_m.size() != blocks || t.role.size() != blocks ||
-        t.name.size() != blocks || t.base_x_m.size() != samples || t.x_m.size() != samples * blocks ||
-        t.y_m.size() != samples * blocks || t.theta_rad.size() != samples * blocks)
+    if (!lists_fit(t))
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",
                                      t.index));
+    const auto refuse_empty = [&] {
+        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
+                                     "realization with a sufficiently high output.trajectory_rate_hz.",
+                                     t.index));
+    };
+    if (samples == 0 || blocks == 0)
+        refuse_empty();
     for (std::size_t i = 0; i < blocks; ++i)
-        if (!(t.half_width_m[i] > 0 && t.half_height_m[i] > 0) ||
-            !std::isfinite(t.half_width_m[i] * t.half_height_m[i]))
+        if (const Rectangle at = rectangle_of(t, 0, i);
+            !(at.half_width > 0 && at.half_height > 0) || !std::isfinite(at.half_width * at.half_height))
             throw InputError(fmt::format("block {} of realization {} is {} m by {} m: the trajectory is damaged.\n"
                                          "  Replay the realization into a new file.",
-                                         i, t.index, 2 * t.half_width_m[i], 2 * t.half_height_m[i]));
+                                         i, t.index, 2 * at.half_width, 2 * at.half_height));
     std::size_t good = 0;
+    const std::vector<double>& base_m = t["base_x_m"];
     const auto finite = [&](std::size_t s) {
-        bool all = std::isfinite(t.time_s[s]) && std::isfinite(t.base_x_m[s]);
-        for (std::size_t k = s * blocks; k < (s + 1) * blocks; ++k)
-            all = all && std::isfinite(t.x_m[k]) && std::isfinite(t.y_m[k]) && std::isfinite(t.theta_rad[k]);
+        bool all = std::isfinite(t.time_s[s]) && std::isfinite(base_m[s]);
+        for (std::size_t i = 0; i < blocks; ++i)
+            all = all && rectangle_of(t, s, i).is_finite();
         return all;
     };
     while (good < samples && finite(good))
         ++good;
-    if (good == 0 || blocks == 0)
-        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
-                                     "realization with a sufficiently high output.trajectory_rate_hz.",
-                                     t.index));
+    if (good == 0)
+        refuse_empty();
     return good;
 }
 
@@ -91,13 +96,12 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
     const std::size_t blocks = t.blocks();
     Drawn drawn;
     for (std::size_t i = 0; i < blocks; ++i) {
-        const double top = t.y_m[i] + t.half_height_m[i];
-        if (t.role[i] == BlockRole::ground || top <= 1e-6 * t.half_height_m[i])
+        const Rectangle start = rectangle_of(t, 0, i);
+        if (t.role[i] == BlockRole::ground || start.y + start.half_height <= 1e-6 * start.half_height)
             continue;
         bool moves = false;
         for (std::size_t s = 1; s < samples && !moves; ++s)
-            moves = t.x_m[s * blocks + i] != t.x_m[i] || t.y_m[s * blocks + i] != t.y_m[i] ||
-                    t.theta_rad[s * blocks + i] != t.theta_rad[i];
+            moves = rectangle_of(t, s, i) != start;
         drawn.blocks.push_back(i);
         drawn.fixed.push_back(!moves);
         drawn.epistyles += t.role[i] == BlockRole::epistyle;
@@ -117,36 +121,13 @@ Drawn find_blocks(const Trajectory& t, std::size_t samples)
     return drawn;
 }
 
-struct Corner {
-    double x;
-    double y;
-};
-
-std::array<Corner, 4> corners(const Trajectory& t, std::size_t sample, std::size_t block)
-{
-    const std::size_t k = sample * t.blocks() + block;
-    const double c = std::cos(t.theta_rad[k]);
-    const double s = std::sin(t.theta_rad[k]);
-    std::array<Corner, 4> found{};
-    constexpr std::array<std::array<int, 2>, 4> signs{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double u = signs[i][0] * t.half_width_m[block];
-        const double v = signs[i][1] * t.half_height_m[block];
-        found[i] = {t.x_m[k] + c * u - s * v, t.y_m[k] + s * u + c * v};
-    }
-    return found;
-}
-
 /// How far the blocks are from where they started, in all.
 double departure(const Trajectory& t, std::size_t sample, std::size_t from)
 {
-    const std::size_t blocks = t.blocks();
     double sum = 0;
-    for (std::size_t i = 0; i < blocks; ++i) {
-        const std::size_t a = sample * blocks + i;
-        const std::size_t b = from * blocks + i;
-        sum += std::hypot(t.x_m[a] - t.x_m[b], t.y_m[a] - t.y_m[b]) +
-               std::abs(t.theta_rad[a] - t.theta_rad[b]) * t.half_height_m[i];
+    for (std::size_t i = 0; i < t.blocks(); ++i) {
+        const Rectangle a = rectangle_of(t, sample, i), b = rectangle_of(t, from, i);
+        sum += std::hypot(a.x - b.x, a.y - b.y) + std::abs(a.turned_rad - b.turned_rad) * a.half_height;
     }
     return sum;
 }
@@ -293,8 +274,9 @@ StripLayout make_layout(const Trajectory& t, const Drawn& drawn, const std::vect
     double tallest = 0;
     for (std::size_t n = 0; n < chosen.size(); ++n) {
         for (const std::size_t block : drawn.blocks) {
-            widest = std::max(widest, 2 * t.half_width_m[block]);
-            for (const Corner& c : corners(t, chosen[n], block)) {
+            const Rectangle at = rectangle_of(t, chosen[n], block);
+            widest = std::max(widest, 2 * at.half_width);
+            for (const Rectangle::Corner& c : at.corners()) {
                 extents[n].left = std::min(extents[n].left, c.x);
                 extents[n].right = std::max(extents[n].right, c.x);
                 extents[n].low = std::min(extents[n].low, c.y);
@@ -327,7 +309,7 @@ struct Shapes {
     const char* line;
     std::string data;
 
-    void add(const std::array<Corner, 4>& c, double dx, double dy, double per_metre)
+    void add(const std::array<Rectangle::Corner, 4>& c, double dx, double dy, double per_metre)
     {
         for (std::size_t i = 0; i <= 4; ++i)
             fmt::format_to(std::back_inserter(data), "{} {}\n", (c[i % 4].x + dx) * per_metre,
@@ -370,7 +352,7 @@ std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vec
         const double time = t.time_s[chosen[n]];
         for (std::size_t d = 0; d < drawn.blocks.size(); ++d) {
             const std::size_t block = drawn.blocks[d];
-            const std::array<Corner, 4> c = corners(t, chosen[n], block);
+            const std::array c = rectangle_of(t, chosen[n], block).corners();
             Shapes& kind = drawn.fixed[d] ? fixed : t.role[block] == BlockRole::epistyle ? epistyles : drums;
             kind.add(c, cell.shift_x, cell.ground, unit.per_metre);
             if (has_fallen(fall_time_s, block, time))
@@ -558,9 +540,9 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
 
     std::vector<double> top_m(samples);
     for (std::size_t s = 0; s < samples; ++s)
-        top_m[s] = trajectory.x_m[s * blocks + drawn.top] - trajectory.rest_x_m[drawn.top];
-    const std::vector<double> base_m(trajectory.base_x_m.begin(),
-                                     trajectory.base_x_m.begin() + static_cast<std::ptrdiff_t>(samples));
+        top_m[s] = trajectory["x_m"][s * blocks + drawn.top] - trajectory["rest_x_m"][drawn.top];
+    std::vector<double> base_m = trajectory["base_x_m"];
+    base_m.resize(samples);
 
     std::string script = "set multiplot\nunset key\n" +
                          gnuplot_heading(title, subtitle(trajectory, drawn, samples, !falls.empty()), page.size) +

@@ -26,9 +26,8 @@ void write_csv(const std::filesystem::path& folder, const ResultHeader& header, 
 void write_counts_csv(const std::filesystem::path& folder, const ResultHeader& header, const Tally& tally,
                       const SurfaceTable& surface);
 
-/// Writes a trajectory as one line per time: time_s, base_x_m, then x_m[i], y_m[i], theta_rad[i] for each block i,
-/// from the bottom. Where the blocks stand at rest and their sizes follow as rest_x_m[i], rest_y_m[i], half_width_m[i],
-/// half_height_m[i], the same in every line.
+/// Writes a trajectory as one line per time: time_s, base_x_m, then the channels of the pose of each block i from the
+/// bottom, as x_m[i]. Where the blocks stand at rest and their sizes follow, as rest_x_m[i], the same in every line.
 ///
 /// @throws InputError if the file cannot be written, or if the trajectory's arrays do not fit each other
 void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& trajectory);

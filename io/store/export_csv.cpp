@@ -172,14 +172,12 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
                                      trajectory.index));
     const std::size_t blocks = trajectory.blocks(), samples = trajectory.time_s.size();
     Table table("trajectory");
-    const auto add_lists = [&](ListOf wanted, std::size_t block) {
-        visit_lists<Trajectory>([&](const std::string& name, ListOf of, const char*, auto field) {
-            if (of == wanted)
-                add(table, of == ListOf::times ? name : fmt::format("{}[{}]", name, block), samples,
+    const auto add_lists = [&](ListOf of, std::size_t block) {
+        visit_lists(trajectory, [&](const Channel& channel, const std::vector<double>& list) {
+            if (channel.of == of)
+                add(table, of == ListOf::times ? channel.name : fmt::format("{}[{}]", channel.name, block), samples,
                     [&](std::size_t t) {
-                        return (trajectory.*field)[of == ListOf::times    ? t
-                                                   : of == ListOf::blocks ? block
-                                                                          : t * blocks + block];
+                        return list[of == ListOf::times ? t : of == ListOf::blocks ? block : t * blocks + block];
                     });
         });
     };

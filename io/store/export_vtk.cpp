@@ -1,13 +1,13 @@
 #include "io/store/export.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/files/atomic_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -36,11 +36,12 @@ struct Slab {
 Slab slab_of(const Trajectory& t)
 {
     Slab slab;
-    for (std::size_t i = 0; i < t.x_m.size(); ++i) {
-        const double reach = std::hypot(t.half_width_m[i % t.blocks()], t.half_height_m[i % t.blocks()]);
-        slab.left = std::min(slab.left, t.x_m[i] - reach);
-        slab.right = std::max(slab.right, t.x_m[i] + reach);
-    }
+    for (std::size_t k = 0; k < t.time_s.size(); ++k)
+        for (std::size_t i = 0; i < t.blocks(); ++i) {
+            const Rectangle block = rectangle_of(t, k, i);
+            slab.left = std::min(slab.left, block.x - block.reach());
+            slab.right = std::max(slab.right, block.x + block.reach());
+        }
     slab.height = 0.05 * (slab.right - slab.left);
     slab.left -= slab.height;
     slab.right += slab.height;
@@ -50,8 +51,7 @@ Slab slab_of(const Trajectory& t)
 /// The text of one time.
 class Polygons {
 public:
-    void add(const std::array<std::array<double, 2>, 4>& corners, std::int64_t id, double rotation, double vx,
-             double vy)
+    void add(const std::array<Rectangle::Corner, 4>& corners, std::int64_t id, double rotation, double vx, double vy)
     {
         for (const auto& [x, y] : corners)
             fmt::format_to(std::back_inserter(points_), "{:.10g} {:.10g} 0\n", x, y);
@@ -110,16 +110,12 @@ std::string polygons_at(const Trajectory& t, std::size_t k, const Slab& slab)
     Polygons polygons;
     const std::size_t n = t.blocks();
     const Difference rate(t.time_s, k);
-    const double base = t.base_x_m[k], base_velocity = rate.of(t.base_x_m, 1, 0);
+    const double base = t["base_x_m"][k], base_velocity = rate.of(t["base_x_m"], 1, 0);
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t at = k * n + i;
-        const double c = std::cos(t.theta_rad[at]), s = std::sin(t.theta_rad[at]);
-        const auto corner = [&](double a, double b) {
-            const double u = a * t.half_width_m[i], v = b * t.half_height_m[i];
-            return std::array{base + t.x_m[at] + c * u - s * v, t.y_m[at] + s * u + c * v};
-        };
-        polygons.add({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, static_cast<std::int64_t>(i),
-                     t.theta_rad[at], base_velocity + rate.of(t.x_m, n, i), rate.of(t.y_m, n, i));
+        Rectangle block = rectangle_of(t, k, i);
+        block.x = base + block.x;
+        polygons.add(block.corners(), static_cast<std::int64_t>(i), block.turned_rad,
+                     base_velocity + rate.of(t["x_m"], n, i), rate.of(t["y_m"], n, i));
     }
     const double left = base + slab.left, right = base + slab.right;
     polygons.add({{{left, -slab.height}, {right, -slab.height}, {right, 0}, {left, 0}}}, -1, 0, base_velocity, 0);

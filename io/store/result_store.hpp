@@ -2,7 +2,7 @@
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
 #include "ensemble/model/outcome.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/model/trajectory.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/run_order.hpp"
 #include "io/store/tally.hpp"
@@ -114,54 +114,6 @@ void visit_fields(std::type_identity<SurfaceTable>, F&& f)
 
 /// Whether each cell has all its values.
 bool has_all_cells(const SurfaceTable& surface);
-
-struct Trajectory {
-    std::uint64_t index = 0;
-    std::vector<double> time_s;        ///< (nt)
-    std::vector<double> x_m;           ///< (nt x n_block), row by row: centre in the frame of the base
-    std::vector<double> y_m;           ///< (nt x n_block)
-    std::vector<double> theta_rad;     ///< (nt x n_block)
-    std::vector<double> base_x_m;      ///< (nt) displacement of the base
-    std::vector<double> rest_x_m;      ///< (n_block) centre in the reference stack: upright, before it settles or leans
-    std::vector<double> rest_y_m;      ///< (n_block)
-    std::vector<double> half_width_m;  ///< (n_block)
-    std::vector<double> half_height_m; ///< (n_block)
-    std::vector<BlockRole> role;       ///< (n_block)
-    std::vector<std::int32_t> column;  ///< (n_block) of a drum, from the left; -1 for all else
-    std::vector<std::string> name;     ///< (n_block) as in `ResultHeader::block_names`
-    std::size_t blocks() const { return half_width_m.size(); }
-};
-
-/// What a list of a trajectory has values of.
-enum class ListOf { times, blocks, poses };
-
-/// The lists of numbers of a trajectory, be it this one or the library's: f(name, per, meaning, &T::field...). Those
-/// per time and block are the channels of the blocks' poses.
-template <class... T, class F>
-void visit_lists(F&& f)
-{
-    f("time_s", ListOf::times, "time", &T::time_s...);
-    f("x_m", ListOf::poses, "horizontal place of the centre, in the frame of the base", &T::x_m...);
-    f("y_m", ListOf::poses, "height of the centre, in the frame of the base", &T::y_m...);
-    f("theta_rad", ListOf::poses, "rotation, counter-clockwise from upright", &T::theta_rad...);
-    f("base_x_m", ListOf::times, "displacement of the base", &T::base_x_m...);
-    f("rest_x_m", ListOf::blocks, "horizontal place of the centre as built", &T::rest_x_m...);
-    f("rest_y_m", ListOf::blocks, "height of the centre as built", &T::rest_y_m...);
-    f("half_width_m", ListOf::blocks, "half width of the block", &T::half_width_m...);
-    f("half_height_m", ListOf::blocks, "half height of the block", &T::half_height_m...);
-}
-
-/// Whether its lists of numbers fit each other.
-template <class T>
-bool lists_fit(const T& trajectory)
-{
-    bool fit = true;
-    visit_lists<T>([&](const char*, ListOf of, const char*, auto field) {
-        fit = fit && (trajectory.*field).size() == (of == ListOf::blocks ? 1 : trajectory.time_s.size()) *
-                                                       (of == ListOf::times ? 1 : trajectory.blocks());
-    });
-    return fit;
-}
 
 /// A results file that is being written. Rows may come in any order; each is written, with its checksum, as it comes,
 /// behind the rest of the file. A process that is killed at any moment leaves a file that `resume` continues with every

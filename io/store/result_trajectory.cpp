@@ -1,3 +1,4 @@
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/store/result_file.hpp"
 
 #include <cstring>
@@ -10,9 +11,7 @@ namespace names = result_names;
 
 void check_trajectory(const Trajectory& trajectory)
 {
-    const std::size_t blocks = trajectory.blocks();
-    if (!lists_fit(trajectory) || trajectory.role.size() != blocks || trajectory.column.size() != blocks ||
-        trajectory.name.size() != blocks)
+    if (!lists_fit(trajectory))
         throw std::invalid_argument("the arrays of a trajectory have inconsistent sizes");
     joined_names(trajectory.name); // for its refusals
 }
@@ -23,11 +22,11 @@ namespace {
 template <class T, class F>
 void visit_datasets(T& t, const std::string& group, hsize_t times, hsize_t blocks, const F& f)
 {
-    visit_lists<Trajectory>([&](const char* name, ListOf of, const char*, auto field) {
-        f(group + name, t.*field,
-          of == ListOf::times    ? hdf5::Dims{times}
-          : of == ListOf::blocks ? hdf5::Dims{blocks}
-                                 : hdf5::Dims{times, blocks});
+    visit_lists(t, [&](const Channel& channel, auto& list) {
+        f(group + channel.name, list,
+          channel.of == ListOf::times    ? hdf5::Dims{times}
+          : channel.of == ListOf::blocks ? hdf5::Dims{blocks}
+                                         : hdf5::Dims{times, blocks});
     });
 }
 
@@ -57,7 +56,7 @@ void write_trajectory(hid_t file, const Trajectory& trajectory)
 Trajectory read_trajectory(hid_t file, std::uint64_t index)
 {
     const std::string group = group_of(index);
-    Trajectory trajectory;
+    Trajectory trajectory(planar_channels);
     trajectory.index = index;
     const hdf5::Dims both = hdf5::dims_of(file, group + "x_m");
     if (both.size() != 2)
@@ -93,7 +92,7 @@ std::vector<std::byte> bytes_of(const Trajectory& trajectory)
         put(std::as_bytes(std::span(list)));
     };
     put(std::as_bytes(std::span(&trajectory.index, 1)));
-    visit_lists<Trajectory>([&](auto, auto, auto, auto field) { put_list(trajectory.*field); });
+    visit_lists(trajectory, [&](const Channel&, const std::vector<double>& list) { put_list(list); });
     put_list(trajectory.role);
     put_list(trajectory.column);
     put_list(joined_names(trajectory.name));
@@ -117,9 +116,9 @@ Trajectory trajectory_of(std::span<const std::byte> bytes)
         list.resize(n);
         take(list.data(), n * sizeof(list[0]));
     };
-    Trajectory trajectory;
+    Trajectory trajectory(planar_channels);
     take(&trajectory.index, sizeof trajectory.index);
-    visit_lists<Trajectory>([&](auto, auto, auto, auto field) { take_list(trajectory.*field); });
+    visit_lists(trajectory, [&](const Channel&, std::vector<double>& list) { take_list(list); });
     take_list(trajectory.role);
     take_list(trajectory.column);
     std::string text;

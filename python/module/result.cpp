@@ -1,4 +1,5 @@
-#include "io/store/result_store.hpp"
+#include "ensemble/model/fields.hpp"
+#include "library/trajectory.hpp"
 #include "python/module/arrays.hpp"
 #include "python/module/module.hpp"
 #include "stylobate/stylobate.hpp"
@@ -103,19 +104,19 @@ void add_trajectory(py::module_& module)
         const T& of = self.cast<const T&>();
         const auto times = static_cast<py::ssize_t>(of.time_s.size()), blocks = static_cast<py::ssize_t>(of.blocks());
         py::dict all;
-        visit_lists<T>([&](const char* name, ListOf what, const char* says, auto member) {
+        sb::visit_channels(of, [&](const Channel& channel, const std::vector<double>& values) {
             py::list dimensions;
             Shape shape;
-            if (what != ListOf::blocks) {
+            if (channel.of != ListOf::blocks) {
                 dimensions.append("time_s");
                 shape.push_back(times);
             }
-            if (what != ListOf::times) {
+            if (channel.of != ListOf::times) {
                 dimensions.append("block");
                 shape.push_back(blocks);
             }
-            all[name] =
-                py::make_tuple(py::tuple(dimensions), unit_in_python(name), says, view(self, of.*member, shape));
+            all[channel.name] = py::make_tuple(py::tuple(dimensions), unit_in_python(channel.name), channel.meaning,
+                                               view(self, values, shape));
         });
         return all;
     });

@@ -42,15 +42,16 @@ public:
         while (due(n)) {
             const double time = next_time();
             const double share = time / step_s_ - static_cast<double>(n);
-            const auto append = [&](std::vector<double>& to, const std::vector<double>& a,
-                                    const std::vector<double>& b) {
+            std::size_t pose = 0;
+            for (std::size_t c = 0; c < trajectory_.channels.size(); ++c) {
+                if (trajectory_.channels[c].of != ListOf::poses)
+                    continue;
+                const std::vector<double>&a = before.pose(pose), &b = after.pose(pose);
                 for (std::size_t i = 0; i < trajectory_.blocks(); ++i)
-                    to.push_back(a[i] + share * (b[i] - a[i]));
-            };
-            append(trajectory_.x_m, before.x_m, after.x_m);
-            append(trajectory_.y_m, before.y_m, after.y_m);
-            append(trajectory_.theta_rad, before.theta_rad, after.theta_rad);
-            trajectory_.base_x_m.push_back(motion_.displacement_m(time));
+                    trajectory_.lists[c].push_back(a[i] + share * (b[i] - a[i]));
+                ++pose;
+            }
+            trajectory_["base_x_m"].push_back(motion_.displacement_m(time));
             trajectory_.time_s.push_back(time);
         }
     }
@@ -80,7 +81,7 @@ public:
     {
         Trajectory trajectory;
         if (record)
-            begin(trajectory, realization);
+            trajectory = PlanarModel::trajectory_of(realization, block_names(experiment_.study()));
         lanes_.load(lane, std::move(realization));
         begin_trace(lane, std::move(trajectory), record);
     }
@@ -151,20 +152,6 @@ private:
         bool due = false;                 ///< the next step has a sample
         Snapshot before;                  ///< and begins here
     };
-
-    void begin(Trajectory& t, const Realization& r) const
-    {
-        t.index = r.index;
-        t.name = block_names(experiment_.study());
-        for (std::size_t i = 0; i < t.name.size(); ++i) { // the ground is not recorded
-            t.rest_x_m.push_back(r.blocks[i].x_m);
-            t.rest_y_m.push_back(r.blocks[i].y_m);
-            t.half_width_m.push_back(r.blocks[i].half_width_m);
-            t.half_height_m.push_back(r.blocks[i].half_height_m);
-            t.role.push_back(r.blocks[i].role);
-            t.column.push_back(r.blocks[i].column);
-        }
-    }
 
     /// Follows what has just been loaded.
     void begin_trace(int lane, Trajectory trajectory, bool record)

@@ -1,6 +1,7 @@
 #include "studies/report/animation.hpp"
 
 #include "ensemble/model/structure.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
@@ -88,8 +89,9 @@ Animation animation_of(const Trajectory& t, const AnimationStage& stage, std::si
     NumberBytes bytes;
     std::vector<double> half_diagonal; // [quanta], of the rounded sizes: the reader has no others
     for (std::size_t b = 0; b < blocks; ++b) {
-        const auto width = static_cast<std::uint64_t>(rounded(t.half_width_m[b] / stage.quantum_m(), 1));
-        const auto height = static_cast<std::uint64_t>(rounded(t.half_height_m[b] / stage.quantum_m(), 1));
+        const Rectangle block = rectangle_of(t, 0, b);
+        const auto width = static_cast<std::uint64_t>(rounded(block.half_width / stage.quantum_m(), 1));
+        const auto height = static_cast<std::uint64_t>(rounded(block.half_height / stage.quantum_m(), 1));
         bytes.add(width);
         bytes.add(height);
         half_diagonal.push_back(std::hypot(static_cast<double>(width), static_cast<double>(height)));
@@ -102,11 +104,11 @@ Animation animation_of(const Trajectory& t, const AnimationStage& stage, std::si
         bytes.add_series(values);
     };
     for (std::size_t b = 0; b < blocks; ++b) {
-        add([&](std::size_t k) { return (t.x_m[k * blocks + b] - stage.middle_m) / stage.quantum_m(); });
-        add([&](std::size_t k) { return t.y_m[k * blocks + b] / stage.quantum_m(); });
-        add([&](std::size_t k) { return t.theta_rad[k * blocks + b] * half_diagonal[b]; });
+        add([&](std::size_t k) { return (rectangle_of(t, k, b).x - stage.middle_m) / stage.quantum_m(); });
+        add([&](std::size_t k) { return rectangle_of(t, k, b).y / stage.quantum_m(); });
+        add([&](std::size_t k) { return rectangle_of(t, k, b).turned_rad * half_diagonal[b]; });
     }
-    add([&](std::size_t k) { return t.base_x_m[k] / stage.quantum_m(); });
+    add([&](std::size_t k) { return t["base_x_m"][k] / stage.quantum_m(); });
     animation.data = base64(bytes.bytes());
     return animation;
 }

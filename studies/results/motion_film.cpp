@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "studies/report/animation.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace stylobate {
@@ -31,7 +31,7 @@ public:
         : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks), stage_(animation_stage(blocks)),
           rate_hz_(rate_hz)
     {
-        for (const double x : t_.base_x_m)
+        for (const double x : t_["base_x_m"])
             most_base_m_ = std::max(most_base_m_, std::abs(x));
     }
 
@@ -48,13 +48,16 @@ public:
         const std::size_t k = next == 0 ? 0 : next - 1;
         const double share =
             next == k ? 0 : std::clamp((time - t_.time_s[k]) / (t_.time_s[next] - t_.time_s[k]), 0.0, 1.0);
-        const auto between = [&](const std::vector<double>& v, std::size_t n, std::size_t b) {
-            return v[k * n + b] + share * (v[next * n + b] - v[k * n + b]);
-        };
-        const std::size_t n = t_.blocks();
-        for (std::size_t b = 0; b < n; ++b)
-            draw_block(frame, b, between(t_.x_m, n, b), between(t_.y_m, n, b), between(t_.theta_rad, n, b), time);
-        draw_ground(frame, between(t_.base_x_m, 1, 0));
+        const auto between = [&](double a, double b) { return a + share * (b - a); };
+        for (std::size_t b = 0; b < t_.blocks(); ++b) {
+            Rectangle at = rectangle_of(t_, k, b);
+            const Rectangle then = rectangle_of(t_, next, b);
+            at.x = between(at.x, then.x);
+            at.y = between(at.y, then.y);
+            at.turned_rad = between(at.turned_rad, then.turned_rad);
+            draw_block(frame, b, at, time);
+        }
+        draw_ground(frame, between(t_["base_x_m"][k], t_["base_x_m"][next]));
         draw_strip(frame, time);
         return frame;
     }
@@ -64,9 +67,9 @@ private:
     /// Codecs of films want it.
     static int even(double px) { return 2 * static_cast<int>(std::ceil(px / 2)); }
 
-    void draw_block(Frame& frame, std::size_t b, double x_m, double y_m, double theta, double time) const
+    void draw_block(Frame& frame, std::size_t b, const Rectangle& at, double time) const
     {
-        if (!std::isfinite(x_m) || !std::isfinite(y_m) || !std::isfinite(theta))
+        if (!at.is_finite())
             return;
         const bool has_fallen = falls_.at(b) >= 0 && falls_[b] <= time + 1e-9;
         const Rgb colour = has_fallen                               ? fallen
@@ -74,14 +77,14 @@ private:
                            : blocks_[b].role == BlockRole::epistyle ? lintel
                                                                     : stone;
         const auto corners = [&](double inset) {
-            const double w = std::max(t_.half_width_m[b] * stage_.px_m - inset, 0.5);
-            const double h = std::max(t_.half_height_m[b] * stage_.px_m - inset, 0.5);
+            const double width = std::max(at.half_width * stage_.px_m - inset, 0.5);
+            const double height = std::max(at.half_height * stage_.px_m - inset, 0.5);
+            // the frame's y is from above: all that is upwards has the other sign
+            const Rectangle drawn{stage_.width_px / 2 + (at.x - stage_.middle_m) * stage_.px_m,
+                                  stage_.ground_px - at.y * stage_.px_m, -at.turned_rad, width, -height};
             std::vector<FramePoint> points;
-            for (const auto& [sx, sy] : std::array<std::array<double, 2>, 4>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}})
-                points.push_back(
-                    {stage_.width_px / 2 + (x_m - stage_.middle_m) * stage_.px_m + sx * w * std::cos(theta) -
-                         sy * h * std::sin(theta),
-                     stage_.ground_px - y_m * stage_.px_m - sx * w * std::sin(theta) - sy * h * std::cos(theta)});
+            for (const auto& [x, y] : drawn.corners())
+                points.push_back({x, y});
             return points;
         };
         frame.fill(corners(0), edge);
@@ -105,7 +108,7 @@ private:
         const double right = frame.width() - 2, end = std::max(t_.time_s.back(), 1e-9);
         const double middle = stage_.height_px + 35, scale = most_base_m_ > 0 ? 26 / most_base_m_ : 0;
         const auto place = [&](std::size_t k) {
-            return FramePoint{1 + t_.time_s[k] / end * right, middle - t_.base_x_m[k] * scale};
+            return FramePoint{1 + t_.time_s[k] / end * right, middle - t_["base_x_m"][k] * scale};
         };
         const std::size_t stride = std::max<std::size_t>(1, t_.time_s.size() / 1280);
         for (std::size_t k = stride; k < t_.time_s.size(); k += stride)

@@ -74,11 +74,11 @@ Figure history_figure(const Results& results, const FollowedMotion& motion)
     figure.title = fmt::format("Displacements of realization {} over time", t.index);
     figure.x_label = "time [s]";
     figure.y_label = "displacement [m]";
-    figure.series.push_back({"base", SeriesKind::line, t.time_s, t.base_x_m, {}, {}});
+    figure.series.push_back({"base", SeriesKind::line, t.time_s, t["base_x_m"], {}, {}});
     for (const std::size_t block : told_blocks(lay_out(results.study().structure).blocks)) {
         FigureSeries series{t.name[block], SeriesKind::line, t.time_s, {}, {}, {}};
         for (std::size_t k = 0; k < t.time_s.size(); ++k)
-            series.y.push_back(t.x_m[k * t.blocks() + block] - t.rest_x_m[block]);
+            series.y.push_back(t["x_m"][k * t.blocks() + block] - t["rest_x_m"][block]);
         figure.series.push_back(std::move(series));
     }
     return figure;

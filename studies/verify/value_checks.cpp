@@ -214,8 +214,9 @@ void compare_trajectories(const Trajectory& stored, const Trajectory& again, Fil
     const auto lists = [&](const char* name, const auto& a, const auto& b) {
         compare_lists(fmt::format("trajectories/{}/{}", stored.index, name), stored.index, a, b, check, true);
     };
-    visit_lists<Trajectory>(
-        [&](const char* name, auto, auto, auto field) { lists(name, stored.*field, again.*field); });
+    visit_lists(stored, [&](const Channel& channel, const std::vector<double>& list) {
+        lists(channel.name, list, again[channel.name]);
+    });
     lists("column", stored.column, again.column);
     lists("blocks", stored.name, again.name);
     if (stored.role != again.role)

@@ -90,7 +90,7 @@ TEST_F(Examples, TheFollowedRealizationIsTheReplayedOne)
                     t.name[static_cast<std::size_t>(outcome.first_collapse_block)], outcome.collapse_time_s);
     for (std::size_t sample = 0; sample < t.time_s.size(); sample += 500) // 1000 a second
         want += fmt::format("{:.3f} s: {} at x = {:.6f} m, turned by {:.6f} rad\n", t.time_s[sample], t.name[6],
-                            t.x_m[sample * 7 + 6], t.theta_rad[sample * 7 + 6]);
+                            t["x_m"][sample * 7 + 6], t["theta_rad"][sample * 7 + 6]);
     EXPECT_EQ(got.substr(0, want.size()), want);
     const std::string svg = read_bytes(installed / "replay.svg");
     EXPECT_EQ(count_of(svg, "<polygon"), 7U);

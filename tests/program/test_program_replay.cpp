@@ -160,13 +160,13 @@ TEST_F(Replay, OneReferenceForTheTop)
     make(STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", {}, "rocking.h5");
     const ResultReader reader(folder / "rocking.h5");
     const Trajectory t = reader.trajectory(0);
-    const double b = t.half_width_m[0], h = t.half_height_m[0], theta = std::abs(t.theta_rad[0]);
+    const double b = t["half_width_m"][0], h = t["half_height_m"][0], theta = std::abs(t["theta_rad"][0]);
     const double leaned = h * std::sin(theta) + b * (1 - std::cos(theta));
-    ASSERT_EQ(t.rest_x_m.size(), 1U);
-    EXPECT_EQ(t.rest_y_m[0], h); // upright, its face just touching the base
+    ASSERT_EQ(t["rest_x_m"].size(), 1U);
+    EXPECT_EQ(t["rest_y_m"][0], h); // upright, its face just touching the base
     double peak = 0;
-    for (const double x : t.x_m)
-        peak = std::max(peak, std::abs(x - t.rest_x_m[0]));
+    for (const double x : t["x_m"])
+        peak = std::max(peak, std::abs(x - t["rest_x_m"][0]));
     EXPECT_NEAR(peak, leaned, 1e-3 * leaned);
     EXPECT_NEAR(reader.row(0).outcome.peak_top_displacement_m, leaned, 1e-3 * leaned);
     EXPECT_NEAR(reader.row(0).outcome.peak_top_displacement_m, peak, 1e-6);

@@ -1,6 +1,7 @@
 #include "studies/measured/windows/motion_page.hpp"
 
 #include "ensemble/model/structure.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -130,21 +131,22 @@ std::size_t MotionStage::farthest(const WindowMotions& motion, const WindowMotio
 Trajectory MotionStage::trajectory(const WindowMotion& window) const
 {
     const std::size_t n = window.samples.size();
-    Trajectory t;
+    Trajectory t(planar_channels);
+    t.role.assign(shown_.size(), BlockRole::drum);
     for (const std::size_t b : shown_) {
-        t.half_width_m.push_back(motion_.blocks[b].half_width_m);
-        t.half_height_m.push_back(motion_.blocks[b].half_height_m);
+        t["half_width_m"].push_back(motion_.blocks[b].half_width_m);
+        t["half_height_m"].push_back(motion_.blocks[b].half_height_m);
     }
     for (std::size_t k = 0; k < n; ++k) {
         const auto [row, share] = place_of(window.samples, k);
         const std::size_t next = share > 0 ? row + 1 : row; // at a sample its neighbour does not count, known or not
         const auto between = [share = share](double a, double b) { return a + share * (b - a); };
         t.time_s.push_back(between(window.samples[row].time_s, window.samples[next].time_s));
-        t.base_x_m.push_back(between(window.samples[row].base_x_m, window.samples[next].base_x_m));
+        t["base_x_m"].push_back(between(window.samples[row].base_x_m, window.samples[next].base_x_m));
         const auto add = [&](double x_m, double y_m, double theta_rad) {
-            t.x_m.push_back(x_m);
-            t.y_m.push_back(y_m - ground_m_);
-            t.theta_rad.push_back(theta_rad);
+            t["x_m"].push_back(x_m);
+            t["y_m"].push_back(y_m - ground_m_);
+            t["theta_rad"].push_back(theta_rad);
         };
         for (std::size_t b = free_; b < motion_.blocks.size(); ++b)
             add(motion_.blocks[b].rest_x_m, motion_.blocks[b].rest_y_m, 0);
@@ -160,18 +162,18 @@ Trajectory MotionStage::trajectory(const WindowMotion& window) const
 
 std::array<double, 3> MotionStage::drawn(const Trajectory& t, std::size_t sample, std::size_t block) const
 {
-    const std::size_t first = sample * t.blocks(), measured_first = layers_.back().first;
+    const std::size_t measured_first = layers_.back().first;
     const auto larger = [&](std::size_t b) -> std::array<double, 3> {
-        const std::size_t at = first + b;
+        const Rectangle at = rectangle_of(t, sample, b);
         const auto [rest_x, rest_y] = rest_px_[b];
-        return {rest_x + larger_ * ((t.x_m[at] - scale_.middle_m) * scale_.px_m - rest_x),
-                rest_y + larger_ * (t.y_m[at] * scale_.px_m - rest_y), larger_ * t.theta_rad[at]};
+        return {rest_x + larger_ * ((at.x - scale_.middle_m) * scale_.px_m - rest_x),
+                rest_y + larger_ * (at.y * scale_.px_m - rest_y), larger_ * at.turned_rad};
     };
     std::array<double, 3> place = larger(block);
     if (block < fixed() || block >= measured_first)
         return place;
     const std::size_t measured = measured_first + (block - fixed()) % free_;
-    if (!is_known(t, first + measured))
+    if (!rectangle_of(t, sample, measured).is_finite())
         return place;
     const std::array<double, 3> from = larger(measured);
     for (std::size_t c = 0; c < 3; ++c)
@@ -193,12 +195,6 @@ std::string choice_words(const WindowMotion& window)
     return window.choice == WindowChoice::typical ? "typical: the median"
            : window.rank == 1                     ? "worst of all"
                                                   : "worst of its run";
-}
-
-bool is_known(const Trajectory& trajectory, std::size_t place)
-{
-    return std::isfinite(trajectory.x_m[place]) && std::isfinite(trajectory.y_m[place]) &&
-           std::isfinite(trajectory.theta_rad[place]);
 }
 
 namespace {
@@ -229,10 +225,10 @@ Json gone_json(const Trajectory& t)
     const std::size_t blocks = t.blocks(), n = t.time_s.size();
     for (std::size_t b = 0; b < blocks; ++b)
         for (std::size_t k = 0; k < n; ++k) {
-            if (is_known(t, k * blocks + b))
+            if (rectangle_of(t, k, b).is_finite())
                 continue;
             const std::size_t first = k;
-            while (k + 1 < n && !is_known(t, (k + 1) * blocks + b))
+            while (k + 1 < n && !rectangle_of(t, k + 1, b).is_finite())
                 ++k;
             gone.item_as_is(fmt::format("[{},{},{}]", b, first, k));
         }
@@ -363,10 +359,11 @@ std::string blocks_at(std::size_t sample, const Trajectory& t, const MotionStage
         fmt::format("<rect class=\"ground\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
                     -width_px / 2, scale.ground_px, width_px, scale.height_px - scale.ground_px);
     for (std::size_t b = 0; b < t.blocks(); ++b) {
-        if (!is_known(t, sample * t.blocks() + b))
+        const Rectangle block = rectangle_of(t, sample, b);
+        if (!block.is_finite())
             continue;
         const auto [x, y, turn] = stage.drawn(t, sample, b);
-        const double w = t.half_width_m[b] * scale.px_m, h = t.half_height_m[b] * scale.px_m;
+        const double w = block.half_width * scale.px_m, h = block.half_height * scale.px_m;
         out += fmt::format("<rect class=\"block {}\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
                            "transform=\"translate({:.2f} {:.2f}) rotate({:.3f})\"/>\n",
                            stage.blocks()[b].look, -w, -h, 2 * w, 2 * h, x, scale.ground_px - y,

@@ -77,9 +77,6 @@ std::string model_words(const std::string& model);
 /// "worst of all".
 std::string choice_words(const WindowMotion& window);
 
-/// Whether a place of a trajectory (sample x blocks + block) is known.
-bool is_known(const Trajectory& trajectory, std::size_t place);
-
 /// Adds the player of the animations (windows.js), a picture of a moment of each window, and a table of their errors;
 /// the latter two need no script.
 /// @pre the motion has a window, and no fault

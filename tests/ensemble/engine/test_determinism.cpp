@@ -170,7 +170,7 @@ TEST(Determinism, OneRealizationFollowedStepByStepHasTheBitsOfTheEnsemble)
             ASSERT_FALSE(f.trajectory.time_s.empty());
             EXPECT_EQ(f.trajectory.time_s.front(), 0);
             EXPECT_NEAR(f.trajectory.time_s.back(), f.outcome.end_time_s, 1.0 / 333 + f.outcome.step_s);
-            EXPECT_EQ(f.trajectory.x_m.size(), f.trajectory.time_s.size() * 7);
+            EXPECT_EQ(f.trajectory["x_m"].size(), f.trajectory.time_s.size() * 7);
         }
 }
 

@@ -99,9 +99,9 @@ TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
     Trajectory t = some_trajectory(2, 0.5, 1, 1001);
     for (std::size_t s = 0; s < 1001; ++s) {
         const double u = (static_cast<double>(s) - 200) / 50;
-        t.theta_rad[2 * s + 1] = u > 0 && u < 1 ? 0.2 * std::sin(std::acos(-1.0) * u) : 0;
-        t.x_m[2 * s + 1] = 0;
-        t.y_m[2 * s + 1] = 1.5;
+        t["theta_rad"][2 * s + 1] = u > 0 && u < 1 ? 0.2 * std::sin(std::acos(-1.0) * u) : 0;
+        t["x_m"][2 * s + 1] = 0;
+        t["y_m"][2 * s + 1] = 1.5;
     }
     const auto chosen = snapshot_samples(t, 8);
     ASSERT_EQ(chosen.size(), 8U);
@@ -119,9 +119,9 @@ TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
     }
     EXPECT_THROW(snapshot_samples(t, 1), InputError);
     EXPECT_THROW(snapshot_samples(t, 17), InputError);
-    t.theta_rad[2 * 300] = no_number; // what comes after it is not drawn
+    t["theta_rad"][2 * 300] = no_number; // what comes after it is not drawn
     EXPECT_EQ(snapshot_samples(t, 8).back(), 299U);
-    t.x_m[0] = no_number;
+    t["x_m"][0] = no_number;
     EXPECT_THROW(snapshot_samples(t, 8), InputError);
     EXPECT_THROW(snapshot_samples(Trajectory{}, 8), InputError);
 }
@@ -267,10 +267,10 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
     // At rest the drums' area on the picture follows from the scale: 8 snapshots, each B x 7 H, one of 7 drums fixed.
     for (const double size : {1.0, 40.0}) {
         Trajectory t = some_trajectory(7, 0.048 * size, 0.029 * size);
-        for (std::size_t k = 0; k < t.x_m.size(); ++k) {
-            t.theta_rad[k] = 0;
-            t.x_m[k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
-            t.y_m[k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
+        for (std::size_t k = 0; k < t["x_m"].size(); ++k) {
+            t["theta_rad"][k] = 0;
+            t["x_m"][k] = k % 7 == 0 ? 0 : 1e-9 * static_cast<double>(k);
+            t["y_m"][k] = (static_cast<double>(k % 7) + 0.5) * 0.029 * size;
         }
         plot_strip(t, {}, "strip's 100 % \"title\"", folder / "strip.png");
         const Pixels pixels = decode(folder / "strip.png");
@@ -348,9 +348,9 @@ TEST_F(Pictures, StripCountsTheTopFromUpright)
     const double theta[] = {0.1, -0.05};
     for (std::size_t s = 0; s < 2; ++s) {
         const double lean = std::abs(theta[s]);
-        t.theta_rad[s] = theta[s];
-        t.x_m[s] = (theta[s] > 0 ? -1 : 1) * (std::sin(lean) + 0.25 * (1 - std::cos(lean)));
-        t.y_m[s] = std::cos(lean) + 0.25 * std::sin(lean);
+        t["theta_rad"][s] = theta[s];
+        t["x_m"][s] = (theta[s] > 0 ? -1 : 1) * (std::sin(lean) + 0.25 * (1 - std::cos(lean)));
+        t["y_m"][s] = std::cos(lean) + 0.25 * std::sin(lean);
     }
     const fs::path fake = folder / "gnuplot";
     std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
@@ -364,7 +364,7 @@ TEST_F(Pictures, StripCountsTheTopFromUpright)
     for (std::size_t s = 0; s < 2; ++s) {
         double time = 0, drawn_mm = 0;
         told >> time >> drawn_mm;
-        EXPECT_NEAR(drawn_mm, 1000 * t.x_m[s], 1e-3) << s;
+        EXPECT_NEAR(drawn_mm, 1000 * t["x_m"][s], 1e-3) << s;
     }
 }
 
@@ -376,9 +376,9 @@ TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
     const double height = 1;
     const double angle = 0.4;
     Trajectory t = some_trajectory(1, width, height, 2);
-    t.theta_rad = {angle, angle};
-    t.x_m = {0, 1e-9};
-    t.y_m = {1, 1};
+    t["theta_rad"] = {angle, angle};
+    t["x_m"] = {0, 1e-9};
+    t["y_m"] = {1, 1};
     plot_strip(t, {}, "", folder / "turned.png");
     const Extent drums = extent(decode(folder / "turned.png"), 0xead9b5);
     const double scale = (drums.bottom - drums.top) / (width * std::sin(angle) + height * std::cos(angle));
@@ -405,17 +405,18 @@ TEST_F(Pictures, StripOfAnyColumn)
         return share(decode(folder / "c.png"), 0xead9b5, 3);
     }();
     Trajectory with = ground;
-    with.rest_x_m = {0, 0};
-    with.rest_y_m = {0.15, -0.5};
-    with.half_width_m = {0.05, 50};
-    with.half_height_m = {0.15, 0.5};
+    with["rest_x_m"] = {0, 0};
+    with["rest_y_m"] = {0.15, -0.5};
+    with["half_width_m"] = {0.05, 50};
+    with["half_height_m"] = {0.15, 0.5};
     with.role.push_back(BlockRole::drum); // to be told by its place
     with.name.emplace_back("ground");
-    for (auto* values : {&with.x_m, &with.y_m, &with.theta_rad}) {
+    with.column.push_back(-1);
+    for (auto* values : {&with["x_m"], &with["y_m"], &with["theta_rad"]}) {
         std::vector<double> both;
         for (const double v : *values) {
             both.push_back(v);
-            both.push_back(values == &with.y_m ? -0.5 : 0.0);
+            both.push_back(values == &with["y_m"] ? -0.5 : 0.0);
         }
         *values = both;
     }
@@ -431,10 +432,10 @@ FallingColonnade before_and_after()
     const std::size_t blocks = all.trajectory.blocks();
     Trajectory& t = c.trajectory;
     t.time_s.back() = all.trajectory.time_s.back();
-    for (std::vector<double> Trajectory::*values : {&Trajectory::x_m, &Trajectory::y_m, &Trajectory::theta_rad}) {
-        const std::vector<double>& from = all.trajectory.*values;
+    for (const char* pose : {"x_m", "y_m", "theta_rad"}) {
+        const std::vector<double>& from = all.trajectory[pose];
         std::copy(from.end() - static_cast<std::ptrdiff_t>(blocks), from.end(),
-                  (t.*values).begin() + static_cast<std::ptrdiff_t>(blocks));
+                  t[pose].begin() + static_cast<std::ptrdiff_t>(blocks));
     }
     return c;
 }
@@ -518,7 +519,7 @@ TEST_F(Pictures, BadInputLeavesNoFile)
     message_of([&] { plot_surface(SurfaceTable{}, "collapse", "", folder / "a.png"); });
     message_of([&] { plot_slice(SurfaceTable{}, {1}, "collapse", "", folder / "a.png"); });
     Trajectory flat = some_trajectory(2, 1, 1);
-    flat.half_height_m[1] = 0;
+    flat["half_height_m"][1] = 0;
     message_of([&] { plot_strip(flat, {}, "", folder / "a.png"); });
     EXPECT_EQ(entries(), 0U);
     NEEDS_GNUPLOT();

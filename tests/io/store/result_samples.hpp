@@ -2,6 +2,7 @@
 /// What the tests of the result store share: rows of arbitrary bits, and a folder of one's own.
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/store/result_store.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
@@ -147,17 +148,17 @@ inline Trajectory sample_trajectory(std::uint64_t index, std::size_t times)
             value = std::bit_cast<double>(random());
         return values;
     };
-    Trajectory t;
+    Trajectory t(planar_channels);
     t.index = index;
     t.time_s = list(times);
-    t.x_m = list(3 * times);
-    t.y_m = list(3 * times);
-    t.theta_rad = list(3 * times);
-    t.base_x_m = list(times);
-    t.rest_x_m = list(3);
-    t.rest_y_m = list(3);
-    t.half_width_m = list(3);
-    t.half_height_m = list(3);
+    t["x_m"] = list(3 * times);
+    t["y_m"] = list(3 * times);
+    t["theta_rad"] = list(3 * times);
+    t["base_x_m"] = list(times);
+    t["rest_x_m"] = list(3);
+    t["rest_y_m"] = list(3);
+    t["half_width_m"] = list(3);
+    t["half_height_m"] = list(3);
     t.role = {BlockRole::drum, BlockRole::epistyle, BlockRole::ground};
     t.column = {-2147483647, 2147483647, static_cast<std::int32_t>(index)};
     t.name = {"drum 0", "the second, \"epistyle\"", std::to_string(index)};
@@ -234,9 +235,7 @@ inline std::string everything(const ResultReader& reader)
     for (const std::uint64_t i : reader.trajectory_indices()) {
         const Trajectory t = reader.trajectory(i);
         put_bits({i, t.index});
-        for (const auto* list : {&t.time_s, &t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.rest_x_m, &t.rest_y_m,
-                                 &t.half_width_m, &t.half_height_m})
-            put_bits(bits(*list));
+        visit_lists(t, [&](const Channel&, const std::vector<double>& list) { put_bits(bits(list)); });
         for (std::size_t k = 0; k < t.blocks(); ++k) {
             text += t.name[k] + '|';
             put_bits({static_cast<std::uint64_t>(t.role[k]), static_cast<std::uint32_t>(t.column[k])});

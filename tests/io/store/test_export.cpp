@@ -198,16 +198,16 @@ TEST_F(Export, TrajectoryReadsBackBitByBit)
     ASSERT_EQ(table.at("time_s").size(), 20U);
     for (std::size_t s = 0; s < 20; ++s) {
         expect_bits(table.at("time_s")[s], t.time_s[s]);
-        expect_bits(table.at("base_x_m")[s], t.base_x_m[s]);
+        expect_bits(table.at("base_x_m")[s], t["base_x_m"][s]);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::string n = "[" + std::to_string(i) + "]";
-            expect_bits(table.at("x_m" + n)[s], t.x_m[3 * s + i]);
-            expect_bits(table.at("y_m" + n)[s], t.y_m[3 * s + i]);
-            expect_bits(table.at("theta_rad" + n)[s], t.theta_rad[3 * s + i]);
-            expect_bits(table.at("rest_x_m" + n)[s], t.rest_x_m[i]);
-            expect_bits(table.at("rest_y_m" + n)[s], t.rest_y_m[i]);
-            expect_bits(table.at("half_width_m" + n)[s], t.half_width_m[i]);
-            expect_bits(table.at("half_height_m" + n)[s], t.half_height_m[i]);
+            expect_bits(table.at("x_m" + n)[s], t["x_m"][3 * s + i]);
+            expect_bits(table.at("y_m" + n)[s], t["y_m"][3 * s + i]);
+            expect_bits(table.at("theta_rad" + n)[s], t["theta_rad"][3 * s + i]);
+            expect_bits(table.at("rest_x_m" + n)[s], t["rest_x_m"][i]);
+            expect_bits(table.at("rest_y_m" + n)[s], t["rest_y_m"][i]);
+            expect_bits(table.at("half_width_m" + n)[s], t["half_width_m"][i]);
+            expect_bits(table.at("half_height_m" + n)[s], t["half_height_m"][i]);
         }
     }
 }

@@ -1,5 +1,6 @@
 /// The tables of io/FORMAT.md that are made from lists of fields. STYLOBATE_UPDATE_TABLES=1 writes them anew.
 
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/store/result_store.hpp"
 
 #include <gtest/gtest.h>
@@ -82,9 +83,11 @@ TEST(FormatTables, OfOutcomesAreMadeFromTheirList)
 TEST(FormatTables, OfTrajectoriesAreMadeFromTheirList)
 {
     std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
-    visit_lists<Trajectory>([&](const char* name, ListOf of, const char* says, auto) {
-        const char* shape = of == ListOf::times ? "nt" : of == ListOf::blocks ? "nb" : "nt x nb";
-        table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", name, shape, in_cell(unit_of(name)), says);
+    const Trajectory planar(planar_channels);
+    visit_lists(planar, [&](const Channel& channel, const auto&) {
+        const char* shape = channel.of == ListOf::times ? "nt" : channel.of == ListOf::blocks ? "nb" : "nt x nb";
+        table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", channel.name, shape, in_cell(unit_of(channel.name)),
+                             channel.meaning);
     });
     table += "| `role` | enumeration of uint8 | nb | | drum = 0, epistyle = 1, ground = 2 |\n"
              "| `column` | int32 | nb | | for a drum: its column, from the left, from 0; -1 for all others |\n";

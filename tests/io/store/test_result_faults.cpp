@@ -143,7 +143,7 @@ TEST_F(ResultStore, SurvivesBeingKilledWhileItIsFinished)
         }
         const ResultReader reader(file);
         ASSERT_EQ(reader.rows().size(), total);
-        ASSERT_EQ(bits(reader.trajectory(1).x_m), bits(trajectory.x_m));
+        ASSERT_EQ(bits(reader.trajectory(1)["x_m"]), bits(trajectory["x_m"]));
         ASSERT_EQ(reader.surface().trials, table.trials);
     }
     EXPECT_LT(complete, 20) << "the kills must strike in the middle to show anything";

@@ -77,12 +77,12 @@ TEST_F(ResultStore, GivesEveryBitBackWhateverTheOrder)
     const Trajectory t = reader.trajectory(12);
     const Trajectory want_t = sample_trajectory(12, 5);
     EXPECT_EQ(bits(t.time_s), bits(want_t.time_s));
-    EXPECT_EQ(bits(t.x_m), bits(want_t.x_m));
-    EXPECT_EQ(bits(t.y_m), bits(want_t.y_m));
-    EXPECT_EQ(bits(t.theta_rad), bits(want_t.theta_rad));
-    EXPECT_EQ(bits(t.base_x_m), bits(want_t.base_x_m));
-    EXPECT_EQ(bits(t.half_width_m), bits(want_t.half_width_m));
-    EXPECT_EQ(bits(t.half_height_m), bits(want_t.half_height_m));
+    EXPECT_EQ(bits(t["x_m"]), bits(want_t["x_m"]));
+    EXPECT_EQ(bits(t["y_m"]), bits(want_t["y_m"]));
+    EXPECT_EQ(bits(t["theta_rad"]), bits(want_t["theta_rad"]));
+    EXPECT_EQ(bits(t["base_x_m"]), bits(want_t["base_x_m"]));
+    EXPECT_EQ(bits(t["half_width_m"]), bits(want_t["half_width_m"]));
+    EXPECT_EQ(bits(t["half_height_m"]), bits(want_t["half_height_m"]));
     EXPECT_EQ(t.role, want_t.role);
     EXPECT_EQ(t.column, want_t.column);
     EXPECT_EQ(t.name, want_t.name);
@@ -448,7 +448,7 @@ TEST_F(ResultStore, ContinuesToTheSameFile)
         EXPECT_EQ(reader.rows().size(), chunk + 9);
         EXPECT_EQ(bits(reader.row(chunk + 1)), bits(sample_row(chunk + 1)));
         EXPECT_EQ(reader.trajectory_indices(), std::vector<std::uint64_t>{chunk});
-        EXPECT_EQ(bits(reader.trajectory(chunk).x_m), bits(sample_trajectory(chunk, 7).x_m));
+        EXPECT_EQ(bits(reader.trajectory(chunk)["x_m"]), bits(sample_trajectory(chunk, 7)["x_m"]));
         EXPECT_TRUE(reader.surface().trials.empty());
         expect_part(refusal([&] { reader.row(0); }), "does not hold realization 0 yet");
     }
@@ -500,8 +500,8 @@ TEST_F(ResultStore, RefusesTrajectoriesWhoseBlocksDoNotFit)
     };
     bad([](Trajectory& t) { t.role.pop_back(); });
     bad([](Trajectory& t) { t.column.push_back(0); });
-    bad([](Trajectory& t) { t.rest_x_m.pop_back(); });
-    bad([](Trajectory& t) { t.rest_y_m.clear(); });
+    bad([](Trajectory& t) { t["rest_x_m"].pop_back(); });
+    bad([](Trajectory& t) { t["rest_y_m"].clear(); });
     bad([](Trajectory& t) { t.name.pop_back(); });
     bad([](Trajectory& t) { t.name[0] = ""; });
     bad([](Trajectory& t) { t.name[0] = "a\nb"; });

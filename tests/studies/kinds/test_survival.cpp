@@ -96,7 +96,7 @@ TEST(Survival, ABlockThatSlidesUnderOneEventSlidesTwiceAndThriceAsFarUnderTwoAnd
         ASSERT_EQ(f.outcome.rotation_rad.size(), 1U);
         offset.push_back(f.outcome.bed_offset_m[0]);
         // what the trajectory shows
-        const double moved = f.trajectory.x_m.back() - f.trajectory.x_m.front();
+        const double moved = f.trajectory["x_m"].back() - f.trajectory["x_m"].front();
         EXPECT_NEAR(offset.back(), moved, 2e-5);
         EXPECT_NEAR(f.outcome.rotation_rad[0], 0, 1e-6);
         EXPECT_EQ(std::fabs(offset.back()), f.outcome.residual_sliding_m);

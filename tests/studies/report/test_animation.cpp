@@ -2,6 +2,7 @@
 /// half a tenth of a pixel, whatever moved before.
 
 #include "ensemble/model/structure.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "studies/report/animation.hpp"
 #include "tests/studies/report/animation_reader.hpp"
 
@@ -32,10 +33,11 @@ AnimationStage small_stage()
 /// Two blocks that walk at random, rest for a while, and fly far away.
 Trajectory walk(std::size_t samples)
 {
-    Trajectory t;
+    Trajectory t(planar_channels);
     t.index = 7;
-    t.half_width_m = {0.5, 0.25};
-    t.half_height_m = {1, 0.5};
+    t.role.assign(2, BlockRole::drum);
+    t["half_width_m"] = {0.5, 0.25};
+    t["half_height_m"] = {1, 0.5};
     std::mt19937 random(1);
     std::normal_distribution<double> step(0, 0.02);
     double x[2] = {3, 3}, y[2] = {1, 2.5}, theta[2] = {0, 0}, base = 0;
@@ -45,12 +47,12 @@ Trajectory walk(std::size_t samples)
             x[b] += rests ? 0 : step(random);
             y[b] += rests ? 0 : step(random);
             theta[b] += rests || b == 0 ? 0 : 10 * step(random);
-            t.x_m.push_back(x[b]);
-            t.y_m.push_back(y[b]);
-            t.theta_rad.push_back(theta[b]);
+            t["x_m"].push_back(x[b]);
+            t["y_m"].push_back(y[b]);
+            t["theta_rad"].push_back(theta[b]);
         }
         base += step(random);
-        t.base_x_m.push_back(base);
+        t["base_x_m"].push_back(base);
         t.time_s.push_back(0.01 * static_cast<double>(k));
     }
     return t;
@@ -71,13 +73,13 @@ TEST(Animation, HasTheTrajectoryToHalfATenthOfAPixel)
         for (std::size_t k = 0; k < animation.samples; ++k)
             for (std::size_t b = 0; b < 2; ++b) {
                 const std::size_t at = 2 * k * stride + b;
-                ASSERT_NEAR(back.x_px[b][k], (t.x_m[at] - 3) * stage.px_m, 0.0501);
-                ASSERT_NEAR(back.y_px[b][k], t.y_m[at] * stage.px_m, 0.0501);
+                ASSERT_NEAR(back.x_px[b][k], (t["x_m"][at] - 3) * stage.px_m, 0.0501);
+                ASSERT_NEAR(back.y_px[b][k], t["y_m"][at] * stage.px_m, 0.0501);
                 // a corner moves on the circle of the half diagonal
-                const double half_diagonal = std::hypot(t.half_width_m[b], t.half_height_m[b]) * stage.px_m;
-                ASSERT_NEAR(back.theta_rad[b][k] * half_diagonal, t.theta_rad[at] * half_diagonal,
-                            0.0501 + 0.001 * std::abs(t.theta_rad[at]) * half_diagonal);
-                ASSERT_NEAR(back.base_px[k], t.base_x_m[k * stride] * stage.px_m, 0.0501);
+                const double half_diagonal = std::hypot(t["half_width_m"][b], t["half_height_m"][b]) * stage.px_m;
+                ASSERT_NEAR(back.theta_rad[b][k] * half_diagonal, t["theta_rad"][at] * half_diagonal,
+                            0.0501 + 0.001 * std::abs(t["theta_rad"][at]) * half_diagonal);
+                ASSERT_NEAR(back.base_px[k], t["base_x_m"][k * stride] * stage.px_m, 0.0501);
             }
     }
 }
@@ -90,7 +92,7 @@ TEST(Animation, OfWhatRestsIsShort)
         for (std::size_t k = 1; k < n; ++k)
             values.insert(values.end(), first.begin(), first.end());
     };
-    for (std::vector<double>* values : {&t.x_m, &t.y_m, &t.theta_rad, &t.base_x_m, &t.time_s})
+    for (std::vector<double>* values : {&t["x_m"], &t["y_m"], &t["theta_rad"], &t["base_x_m"], &t.time_s})
         repeat(*values, 5000);
     const Animation animation = animation_of(t, small_stage(), 1);
     EXPECT_LT(animation.data.size(), 80U);
@@ -100,10 +102,10 @@ TEST(Animation, OfWhatRestsIsShort)
 TEST(Animation, KeepsWhatIsNotFiniteOrFarAwayWithinBounds)
 {
     Trajectory t = walk(4);
-    t.x_m[2] = std::numeric_limits<double>::quiet_NaN();
-    t.y_m[2] = std::numeric_limits<double>::infinity();
-    t.x_m[4] = 1e30;
-    t.x_m[6] = -1e30;
+    t["x_m"][2] = std::numeric_limits<double>::quiet_NaN();
+    t["y_m"][2] = std::numeric_limits<double>::infinity();
+    t["x_m"][4] = 1e30;
+    t["x_m"][6] = -1e30;
     const ReadBack back = read_back(animation_of(t, small_stage(), 1), 2);
     EXPECT_EQ(back.x_px[0][1], back.x_px[0][0]);
     EXPECT_EQ(back.y_px[0][1], back.y_px[0][0]);

@@ -209,7 +209,7 @@ TEST_F(VerifyFile, FindsATrajectoryThatIsNotThatOfItsRealization)
 {
     make_results(ready_study("free_rocking", {}), file);
     EXPECT_TRUE(verified(file).well()) << text_of(verified(file));
-    alter(file, folder / "other.h5", {.trajectory = [](Trajectory& t) { t.x_m[7] += 1e-6; }});
+    alter(file, folder / "other.h5", {.trajectory = [](Trajectory& t) { t["x_m"][7] += 1e-6; }});
     const FileVerification v = verified(folder / "other.h5");
     ASSERT_EQ(check_of(v, "replay").found(), 1U) << text_of(v);
     EXPECT_EQ(check_of(v, "replay").differences[0].where, "trajectories/0/x_m[7]");

@@ -83,8 +83,8 @@ TEST(MotionPage, PutsAnUnevenClockOnEvenTimesAndHidesWhatWasNotSeen)
     EXPECT_NEAR(t.time_s[5], 0.6, 1e-12); // of the samples at 0.58 and 0.608 s
     const double share = 0.02 / 0.028;
     const double before = window.tracks[0].places[2 * 4].x_m, after = window.tracks[0].places[2 * 5].x_m;
-    EXPECT_NEAR(t.x_m[5 * 7 + 5], before + share * (after - before), 1e-12);
-    EXPECT_EQ(t.x_m[4 * 7 + 5], before); // even samples are taken as they are
+    EXPECT_NEAR(t["x_m"][5 * 7 + 5], before + share * (after - before), 1e-12);
+    EXPECT_EQ(t["x_m"][4 * 7 + 5], before); // even samples are taken as they are
     const JsonValue store = animations_of(page_of(motion));
     const JsonValue& gone = store["list"].items[1]["gone"];
     ASSERT_EQ(gone.items.size(), 1U);

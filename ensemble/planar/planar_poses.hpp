@@ -1,0 +1,68 @@
+#pragma once
+/// The blocks of the planar model through time: the channels of its trajectories, and where a block then lies.
+
+#include "ensemble/model/trajectory.hpp"
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace stylobate {
+
+/// The channels of a planar trajectory, in the order of files.
+inline constexpr std::array planar_channels = {
+    Channel{"x_m", ListOf::poses, "horizontal place of the centre, in the frame of the base"},
+    Channel{"y_m", ListOf::poses, "height of the centre, in the frame of the base"},
+    Channel{"theta_rad", ListOf::poses, "rotation, counter-clockwise from upright"},
+    Channel{"base_x_m", ListOf::times, "displacement of the base"},
+    Channel{"rest_x_m", ListOf::blocks, "horizontal place of the centre as built"},
+    Channel{"rest_y_m", ListOf::blocks, "height of the centre as built"},
+    Channel{"half_width_m", ListOf::blocks, "half width of the block"},
+    Channel{"half_height_m", ListOf::blocks, "half height of the block"},
+};
+
+/// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
+struct Snapshot {
+    std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
+
+    /// The values of a channel of poses, by its number among them in `planar_channels`.
+    const std::vector<double>& pose(std::size_t channel) const
+    {
+        return channel == 0 ? x_m : channel == 1 ? y_m : theta_rad;
+    }
+};
+
+/// A rectangle in any unit of length.
+struct Rectangle {
+    double x = 0, y = 0;                    ///< its centre
+    double turned_rad = 0;                  ///< counter-clockwise
+    double half_width = 0, half_height = 0; ///< before it is turned
+
+    struct Corner {
+        double x = 0, y = 0;
+    };
+    /// Counter-clockwise from the one that is at the lower left before it is turned.
+    std::array<Corner, 4> corners() const
+    {
+        const double c = std::cos(turned_rad), s = std::sin(turned_rad);
+        const auto corner = [&](double u, double v) { return Corner{x + c * u - s * v, y + s * u + c * v}; };
+        return {corner(-half_width, -half_height), corner(half_width, -half_height), corner(half_width, half_height),
+                corner(-half_width, half_height)};
+    }
+    /// The radius of the circle about the centre that no corner leaves.
+    double reach() const { return std::hypot(half_width, half_height); }
+    friend bool operator==(const Rectangle&, const Rectangle&) = default;
+    bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(turned_rad); }
+};
+
+/// A block of a planar trajectory at a sample, in metres.
+inline Rectangle rectangle_of(const Trajectory& t, std::size_t sample, std::size_t block)
+{
+    assert(t.lists.size() == planar_channels.size());
+    const std::size_t at = sample * t.blocks() + block;
+    const auto& lists = t.lists; // in the order of `planar_channels`
+    return {lists[0][at], lists[1][at], lists[2][at], lists[6][block], lists[7][block]};
+}
+
+} // namespace stylobate
