@@ -115,9 +115,9 @@ struct KeyFacts {
     std::vector<Condition> used = {}; ///< all must hold; none: always used
     /// A value to begin with, as TOML, for a file that is written for the user; empty: the default.
     std::string example = {};
-    std::vector<std::string> words = {};    ///< of a number: words that may stand in its place
-    std::vector<std::string> excludes = {}; ///< keys of its table in whose place it stands
-    std::vector<std::string> models = {};   ///< models for which it holds; none: all
+    std::vector<std::string> words = {};          ///< of a number: words that may stand in its place
+    std::vector<std::string> excludes = {};       ///< keys of its table in whose place it stands
+    std::vector<std::string> models = {"planar"}; ///< models for which it holds; by default every one there is
 };
 
 /// What all descriptions have in common.

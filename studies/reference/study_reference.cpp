@@ -184,7 +184,7 @@ std::string use_words(const TomlKey& key)
     std::string text;
     for (const Condition& condition : key.used)
         text += (text.empty() ? "" : ", and ") + condition.key + " = " + listed(condition.values);
-    if (!key.models.empty())
+    if (key.models != KeyFacts().models)
         text += (text.empty() ? "" : ", and ") + std::string("model = ") + listed(key.models);
     return text;
 }
