@@ -36,8 +36,7 @@ struct RockingMeasures {
 };
 
 /// @pre all > 0
-RockingMeasures rocking_measures(const IntensityMeasures& measures, double half_width_m, double half_height_m,
-                                 double g_m_s2 = 9.81);
+RockingMeasures rocking_measures(const IntensityMeasures& measures, double b_m, double h_m, double g_m_s2 = 9.81);
 
 /// Drives a structure with the record: corrects the baseline where asked, integrates consistently.
 ///

@@ -230,11 +230,11 @@ double predominant_frequency(const std::vector<double>& acceleration_m_s2, doubl
     return frequency;
 }
 
-RockingMeasures rocking_measures(const IntensityMeasures& im, double half_width_m, double half_height_m, double g_m_s2)
+RockingMeasures rocking_measures(const IntensityMeasures& im, double b_m, double h_m, double g_m_s2)
 {
     RockingMeasures m;
-    m.tan_alpha = half_width_m / half_height_m;
-    m.p_rad_s = std::sqrt(0.75 * g_m_s2 / std::hypot(half_width_m, half_height_m));
+    m.tan_alpha = b_m / h_m;
+    m.p_rad_s = std::sqrt(0.75 * g_m_s2 / std::hypot(b_m, h_m));
     m.pga_over_g_tan_alpha = im.pga_m_s2 / (g_m_s2 * m.tan_alpha);
     m.p_pgv_over_g_tan_alpha = m.p_rad_s * im.pgv_m_s / (g_m_s2 * m.tan_alpha);
     m.omega_p_over_p = 2 * pi * im.predominant_frequency_hz / m.p_rad_s;
