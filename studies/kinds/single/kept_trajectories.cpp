@@ -1,6 +1,7 @@
 #include "studies/kinds/single/kept_trajectories.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/planar_poses.hpp"
 #include "studies/experiment/duration.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,10 @@ namespace stylobate {
 
 std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
 {
-    return samples * (2 + 3 * blocks) * sizeof(double);
+    std::uint64_t values = 1; // the time
+    for (const Channel& channel : planar_channels)
+        values += channel.of == ListOf::times ? 1 : channel.of == ListOf::poses ? blocks : 0;
+    return samples * values * sizeof(double);
 }
 
 KeptTrajectories plan_trajectories(const Experiment& experiment, const std::string& file)

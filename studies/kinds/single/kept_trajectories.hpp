@@ -15,7 +15,7 @@ struct KeptTrajectories {
     std::string words;  ///< what was chosen and how to choose otherwise; empty where all are kept and small
 };
 
-/// Bytes of a trajectory in a results file: time, base and three numbers of each block in a sample.
+/// Bytes of a trajectory in a results file: in a sample the time, the base and the pose of each block.
 std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks);
 
 /// By `output.trajectories` and `output.most_mb`. Realizations differ in length; the longest of the first 32 stands for
