@@ -245,7 +245,7 @@ TEST_F(Export, RefusedCsvChangesNothing)
         message_of([&] { write_csv(folder / "new", blocks, std::vector<ResultRow>(1), {}); }).find("fall times of 0"),
         std::string::npos);
     Trajectory short_one = some_trajectory(2, 1, 1);
-    short_one.y_m.pop_back();
+    short_one["y_m"].pop_back();
     message_of([&] { write_trajectory_csv(folder / "t.csv", short_one); });
     EXPECT_EQ(entries(), 2U);
 }
