@@ -24,7 +24,7 @@ const std::map<std::string, std::string> planar_places = {
     {"studies/measured/", "their diagnoses and pictures"},
     {"studies/evidence/", "derivations and reference solutions of the planar model"},
     {"studies/check/rocking_decay.cpp", "releases a block from a lean in the plane"},
-    {"library/outcomes.hpp", "the public lists of a planar trajectory"},
+    {"library/trajectory.hpp", "the public lists of a planar trajectory"},
     {"include/stylobate/trajectory.hpp", "the public lists of a planar trajectory"},
     {"python/stylobate/__init__.pyi", "the public lists of a planar trajectory"},
     {"python/stylobate/_replay.py", "the public lists of a planar trajectory, and its corners"},
@@ -83,5 +83,5 @@ TEST(Rules, FindWordsOfPlanarBlocks)
     EXPECT_FALSE(has_planar_word("adaptive.half_width = 0.05"));
     EXPECT_EQ(planar_place_of("io/measured/base_table.cpp"), "io/measured/");
     EXPECT_EQ(planar_place_of("io/store/export_vtk.cpp"), "");
-    EXPECT_EQ(planar_place_of("library/outcomes.hpp.orig"), "");
+    EXPECT_EQ(planar_place_of("library/trajectory.hpp.orig"), "");
 }
