@@ -32,7 +32,7 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
     inner::TracedRealization f = inner::trace(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
-    visit_channels(t, [&](const inner::Channel& channel, std::vector<double>& list) {
+    visit_channels(t, [&](const inner::TrajectoryChannel& channel, std::vector<double>& list) {
         list = std::move(f.trajectory[channel.name]);
     });
     for (std::size_t i = 0; i < t.blocks(); ++i) {
@@ -50,8 +50,9 @@ inner::Trajectory drawn_from(const Trajectory& t)
 {
     inner::Trajectory drawn(inner::planar_channels);
     drawn.index = t.outcome.index;
-    visit_channels(t,
-                   [&](const inner::Channel& channel, const std::vector<double>& list) { drawn[channel.name] = list; });
+    visit_channels(t, [&](const inner::TrajectoryChannel& channel, const std::vector<double>& list) {
+        drawn[channel.name] = list;
+    });
     for (const bool epistyle : t.epistyle)
         drawn.role.push_back(epistyle ? inner::BlockRole::epistyle : inner::BlockRole::drum);
     drawn.column = t.column;

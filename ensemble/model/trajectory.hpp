@@ -23,23 +23,23 @@ enum class ListOf {
 };
 
 /// A list of numbers of a trajectory, as a model describes it. Files, tables and Python have the list under its name.
-struct Channel {
+struct TrajectoryChannel {
     const char* name; ///< ends in the unit
     ListOf of;
     const char* meaning;
 };
 
 /// The one list that trajectories of every model have.
-inline constexpr Channel time_channel = {"time_s", ListOf::times, "time"};
+inline constexpr TrajectoryChannel time_channel = {"time_s", ListOf::times, "time"};
 
 struct Trajectory {
     Trajectory() = default;
     /// @param of_model its channels; their lists are empty
-    explicit Trajectory(std::span<const Channel> of_model) : channels(of_model), lists(of_model.size()) {}
+    explicit Trajectory(std::span<const TrajectoryChannel> of_model) : channels(of_model), lists(of_model.size()) {}
 
     std::uint64_t index = 0;
     std::vector<double> time_s; ///< (times)
-    std::span<const Channel> channels;
+    std::span<const TrajectoryChannel> channels;
     std::vector<std::vector<double>> lists; ///< (channels)
     std::vector<BlockRole> role;            ///< (blocks)
     std::vector<std::int32_t> column;       ///< (blocks) of a drum, from the left; -1 for all else
@@ -84,7 +84,7 @@ inline bool lists_fit(const Trajectory& trajectory)
 {
     const std::size_t blocks = trajectory.blocks();
     bool fit = trajectory.column.size() == blocks && trajectory.name.size() == blocks;
-    visit_lists(trajectory, [&](const Channel& channel, const std::vector<double>& list) {
+    visit_lists(trajectory, [&](const TrajectoryChannel& channel, const std::vector<double>& list) {
         fit = fit && list.size() == trajectory.size_of(channel.of);
     });
     return fit;

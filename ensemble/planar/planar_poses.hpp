@@ -12,14 +12,14 @@ namespace stylobate {
 
 /// The channels of a planar trajectory, in the order of files.
 inline constexpr std::array planar_channels = {
-    Channel{"x_m", ListOf::poses, "horizontal place of the centre, in the frame of the base"},
-    Channel{"y_m", ListOf::poses, "height of the centre, in the frame of the base"},
-    Channel{"theta_rad", ListOf::poses, "rotation, counter-clockwise from upright"},
-    Channel{"base_x_m", ListOf::times, "displacement of the base"},
-    Channel{"rest_x_m", ListOf::blocks, "horizontal place of the centre as built"},
-    Channel{"rest_y_m", ListOf::blocks, "height of the centre as built"},
-    Channel{"half_width_m", ListOf::blocks, "half width of the block"},
-    Channel{"half_height_m", ListOf::blocks, "half height of the block"},
+    TrajectoryChannel{"x_m", ListOf::poses, "horizontal place of the centre, in the frame of the base"},
+    TrajectoryChannel{"y_m", ListOf::poses, "height of the centre, in the frame of the base"},
+    TrajectoryChannel{"theta_rad", ListOf::poses, "rotation, counter-clockwise from upright"},
+    TrajectoryChannel{"base_x_m", ListOf::times, "displacement of the base"},
+    TrajectoryChannel{"rest_x_m", ListOf::blocks, "horizontal place of the centre as built"},
+    TrajectoryChannel{"rest_y_m", ListOf::blocks, "height of the centre as built"},
+    TrajectoryChannel{"half_width_m", ListOf::blocks, "half width of the block"},
+    TrajectoryChannel{"half_height_m", ListOf::blocks, "half height of the block"},
 };
 
 /// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.

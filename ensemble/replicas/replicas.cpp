@@ -25,7 +25,7 @@ class History {
 public:
     explicit History(const Realization& r)
     {
-        for (const Channel& channel : planar_channels)
+        for (const TrajectoryChannel& channel : planar_channels)
             if (channel.of == ListOf::poses)
                 per_.push_back(unit_of(channel.name) == "m" ? scales_of(r).width_m : 1);
         for (std::size_t i = 0; i < r.blocks.size(); ++i)

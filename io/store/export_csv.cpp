@@ -173,7 +173,7 @@ void write_trajectory_csv(const std::filesystem::path& file, const Trajectory& t
     const std::size_t blocks = trajectory.blocks(), samples = trajectory.time_s.size();
     Table table("trajectory");
     const auto add_lists = [&](ListOf of, std::size_t block) {
-        visit_lists(trajectory, [&](const Channel& channel, const std::vector<double>& list) {
+        visit_lists(trajectory, [&](const TrajectoryChannel& channel, const std::vector<double>& list) {
             if (channel.of == of)
                 add(table, of == ListOf::times ? channel.name : fmt::format("{}[{}]", channel.name, block), samples,
                     [&](std::size_t t) {

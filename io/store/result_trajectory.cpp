@@ -22,7 +22,7 @@ namespace {
 template <class T, class F>
 void visit_datasets(T& t, const std::string& group, hsize_t times, hsize_t blocks, const F& f)
 {
-    visit_lists(t, [&](const Channel& channel, auto& list) {
+    visit_lists(t, [&](const TrajectoryChannel& channel, auto& list) {
         f(group + channel.name, list,
           channel.of == ListOf::times    ? hdf5::Dims{times}
           : channel.of == ListOf::blocks ? hdf5::Dims{blocks}
@@ -92,7 +92,7 @@ std::vector<std::byte> bytes_of(const Trajectory& trajectory)
         put(std::as_bytes(std::span(list)));
     };
     put(std::as_bytes(std::span(&trajectory.index, 1)));
-    visit_lists(trajectory, [&](const Channel&, const std::vector<double>& list) { put_list(list); });
+    visit_lists(trajectory, [&](const TrajectoryChannel&, const std::vector<double>& list) { put_list(list); });
     put_list(trajectory.role);
     put_list(trajectory.column);
     put_list(joined_names(trajectory.name));
@@ -118,7 +118,7 @@ Trajectory trajectory_of(std::span<const std::byte> bytes)
     };
     Trajectory trajectory(planar_channels);
     take(&trajectory.index, sizeof trajectory.index);
-    visit_lists(trajectory, [&](const Channel&, std::vector<double>& list) { take_list(list); });
+    visit_lists(trajectory, [&](const TrajectoryChannel&, std::vector<double>& list) { take_list(list); });
     take_list(trajectory.role);
     take_list(trajectory.column);
     std::string text;

@@ -104,7 +104,7 @@ void add_trajectory(py::module_& module)
         const T& of = self.cast<const T&>();
         const auto times = static_cast<py::ssize_t>(of.time_s.size()), blocks = static_cast<py::ssize_t>(of.blocks());
         py::dict all;
-        sb::visit_channels(of, [&](const Channel& channel, const std::vector<double>& values) {
+        sb::visit_channels(of, [&](const TrajectoryChannel& channel, const std::vector<double>& values) {
             py::list dimensions;
             Shape shape;
             if (channel.of != ListOf::blocks) {

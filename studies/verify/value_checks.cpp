@@ -214,7 +214,7 @@ void compare_trajectories(const Trajectory& stored, const Trajectory& again, Fil
     const auto lists = [&](const char* name, const auto& a, const auto& b) {
         compare_lists(fmt::format("trajectories/{}/{}", stored.index, name), stored.index, a, b, check, true);
     };
-    visit_lists(stored, [&](const Channel& channel, const std::vector<double>& list) {
+    visit_lists(stored, [&](const TrajectoryChannel& channel, const std::vector<double>& list) {
         lists(channel.name, list, again[channel.name]);
     });
     lists("column", stored.column, again.column);

@@ -14,7 +14,7 @@ namespace stylobate {
 std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
 {
     std::uint64_t values = 1; // the time
-    for (const Channel& channel : planar_channels)
+    for (const TrajectoryChannel& channel : planar_channels)
         values += channel.of == ListOf::times ? 1 : channel.of == ListOf::poses ? blocks : 0;
     return samples * values * sizeof(double);
 }

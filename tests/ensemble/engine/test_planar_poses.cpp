@@ -32,7 +32,7 @@ TEST(PlanarPoses, ChannelsAreNamedWithTheirUnits)
 {
     std::string text;
     const Trajectory t(planar_channels);
-    visit_lists(t, [&](const Channel& channel, const std::vector<double>& list) {
+    visit_lists(t, [&](const TrajectoryChannel& channel, const std::vector<double>& list) {
         EXPECT_TRUE(list.empty());
         text += std::string(channel.name) + " [" + std::string(unit_of(channel.name)) + "] " +
                 (channel.of == ListOf::times    ? "times"

@@ -235,7 +235,7 @@ inline std::string everything(const ResultReader& reader)
     for (const std::uint64_t i : reader.trajectory_indices()) {
         const Trajectory t = reader.trajectory(i);
         put_bits({i, t.index});
-        visit_lists(t, [&](const Channel&, const std::vector<double>& list) { put_bits(bits(list)); });
+        visit_lists(t, [&](const TrajectoryChannel&, const std::vector<double>& list) { put_bits(bits(list)); });
         for (std::size_t k = 0; k < t.blocks(); ++k) {
             text += t.name[k] + '|';
             put_bits({static_cast<std::uint64_t>(t.role[k]), static_cast<std::uint32_t>(t.column[k])});

@@ -84,7 +84,7 @@ TEST(FormatTables, OfTrajectoriesAreMadeFromTheirList)
 {
     std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     const Trajectory planar(planar_channels);
-    visit_lists(planar, [&](const Channel& channel, const auto&) {
+    visit_lists(planar, [&](const TrajectoryChannel& channel, const auto&) {
         const char* shape = channel.of == ListOf::times ? "nt" : channel.of == ListOf::blocks ? "nb" : "nt x nb";
         table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", channel.name, shape, in_cell(unit_of(channel.name)),
                              channel.meaning);
