@@ -1,3 +1,4 @@
+#include "ensemble/planar/planar_poses.hpp"
 #include "io/files/hdf5_scales.hpp"
 #include "io/files/toml_key.hpp"
 #include "io/store/result_file.hpp"
@@ -130,11 +131,12 @@ std::map<std::string, Label> all_labels()
                 [&](const std::string& name, auto, const std::string& of, const FieldFacts& facts) {
                     labels["realizations/outcome/" + name] = {"index " + of, facts.says};
                 });
-    visit_lists<Trajectory>([&](const std::string& name, ListOf of, const char* says, auto) {
-        labels["trajectories/*/" + name] = {of == ListOf::times    ? "time_s"
-                                            : of == ListOf::blocks ? "block"
-                                                                   : "time_s block",
-                                            says};
+    const Trajectory planar(planar_channels);
+    visit_lists(planar, [&](const TrajectoryChannel& channel, const auto&) {
+        labels[std::string("trajectories/*/") + channel.name] = {channel.of == ListOf::times    ? "time_s"
+                                                                 : channel.of == ListOf::blocks ? "block"
+                                                                                                : "time_s block",
+                                                                 channel.meaning};
     });
     const std::string cells = "frequency_hz pga_m_s2";
     for (const std::string group : {"surface/", "tally/", "survival/"}) {
