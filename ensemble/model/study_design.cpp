@@ -2,76 +2,50 @@
 
 #include "ensemble/model/study.hpp"
 
-#include <utility>
+#include <algorithm>
 
 namespace stylobate {
-
-namespace {
-
-void design_surface(const SurfaceSpec& surface, StudyDesign& design)
-{
-    design.cells = static_cast<std::uint64_t>(surface.cells());
-    design.columns = static_cast<std::uint64_t>(surface.pga_m_s2.count);
-    design.selected = surface.adaptive.has_value();
-}
-
-void design_fragility(const FragilitySpec& fragility, StudyDesign& design)
-{
-    design.motions = &fragility;
-    design.columns = design.recurring = static_cast<std::uint64_t>(fragility.stripes());
-    design.cells = static_cast<std::uint64_t>(fragility.motions) * design.columns;
-    design.same_contacts = static_cast<std::uint64_t>(fragility.twins);
-    design.same_imperfections = static_cast<std::uint64_t>(fragility.contacts) * design.same_contacts;
-    design.twin_m = fragility.twins > 1 ? fragility.twin_m : 0;
-    design.residuals = true;
-}
-
-void design_sensitivity(const FactorDesign& factors, StudyDesign& design)
-{
-    design.factors = &factors;
-    design.per_cell = factors.total();
-    design.residuals = true;
-}
-
-void design_rare(const RareSpec& rare, StudyDesign& design)
-{
-    design.per_cell = rare.simulations() * RareSpec::indices_of_simulation;
-    design.chained_from = rare.samples;
-    design.selected = true;
-}
-
-void design_survival(const SurvivalSpec& survival, StudyDesign& design)
-{
-    design.events = survival.events;
-    design.layers = static_cast<std::uint64_t>(survival.events);
-    design.event_pause_s = survival.pause_s;
-    design.per_motion = survival.per_motion;
-    design.structure = survival.structure;
-    design.end_state = true;
-    design.residuals = survival.observed.has_value();
-}
-
-} // namespace
 
 StudyDesign Study::design() const
 {
     StudyDesign design;
     design.per_cell = realizations;
     design.traced = kind == StudyKind::single;
-    if (surface)
-        design_surface(*surface, design);
-    if (fragility)
-        design_fragility(*fragility, design);
-    if (sensitivity)
-        design_sensitivity(*sensitivity, design);
-    if (rare)
-        design_rare(*rare, design);
-    if (survival)
-        design_survival(*survival, design);
+    if (surface) {
+        design.cells = static_cast<std::uint64_t>(surface->cells());
+        design.columns = static_cast<std::uint64_t>(surface->pga_m_s2.count);
+        design.selected = surface->adaptive.has_value();
+    }
+    if (fragility) {
+        design.motions = &*fragility;
+        design.columns = design.recurring = static_cast<std::uint64_t>(fragility->stripes());
+        design.cells = static_cast<std::uint64_t>(fragility->motions) * design.columns;
+        design.same_contacts = static_cast<std::uint64_t>(fragility->twins);
+        design.same_imperfections = static_cast<std::uint64_t>(fragility->contacts) * design.same_contacts;
+        design.twin_m = fragility->twins > 1 ? fragility->twin_m : 0;
+    }
+    if (sensitivity) {
+        design.factors = &*sensitivity;
+        design.per_cell = sensitivity->total();
+    }
+    if (rare) {
+        design.per_cell = rare->simulations() * RareSpec::indices_of_simulation;
+        design.chained_from = rare->samples;
+        design.selected = true;
+    }
+    if (survival) {
+        design.events = survival->events;
+        design.layers = static_cast<std::uint64_t>(survival->events);
+        design.event_pause_s = survival->pause_s;
+        design.per_motion = survival->per_motion;
+        design.structure = survival->structure;
+        design.end_state = true;
+    }
     if (replicas) {
         design.replica_set = &*replicas;
         design.layers += replicas->kinds.size();
     }
+    design.residuals = fragility || sensitivity || (survival && survival->observed);
     design.most = rare                           ? rare->most()
                   : surface && surface->adaptive ? std::min(design.total(), surface->adaptive->budget)
                                                  : design.total();

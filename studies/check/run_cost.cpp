@@ -5,7 +5,7 @@
 #include "io/store/result_layout.hpp"
 #include "studies/check/study_trial.hpp"
 #include "studies/experiment/duration.hpp"
-#include "studies/kinds/single/kept_trajectories.hpp"
+#include "studies/kinds/single/single_kind.hpp"
 
 #include <sys/resource.h>
 

@@ -57,6 +57,12 @@ struct ChosenCells {
     std::string words; ///< "at 3.02 Hz, 9.8 m/s2"; empty: all of them
 };
 
+/// The value of an axis that is nearest on the axis' scale.
+/// @param option "--pga"   @param results for the message
+/// @throws InputError if the value lies outside the axis by more than the digits that people leave out
+std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, const char* option, const std::string& unit,
+                            const std::string& results);
+
 /// @throws InputError if the run is not complete
 void check_complete(const ResultReader& reader, const std::string& results);
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/kinds/survival/survival_kind.hpp"
-#include "studies/kinds/survival/survival_picture.hpp"
+#include "studies/kinds/survival/survival_text.hpp"
 #include "studies/results/results.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "studies/workflow/output_path.hpp"

@@ -4,7 +4,7 @@
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"
-#include "studies/kinds/single/kept_trajectories.hpp"
+#include "studies/kinds/single/single_kind.hpp"
 #include "studies/workflow/console.hpp"
 
 namespace stylobate {

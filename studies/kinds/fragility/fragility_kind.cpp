@@ -6,7 +6,6 @@
 #include "io/tables/table.hpp"
 #include "studies/kinds/fragility/exchange.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
-#include "studies/kinds/nearest_on_axis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
+#include "studies/kinds/fragility/fragility_text.hpp"
+
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "studies/kinds/fragility/fragility_text.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,71 @@
 #include <cmath>
 
 namespace stylobate {
+
+namespace {
+
+std::string legend_of(const StateFragility& s)
+{
+    if (!has_curve(s))
+        return s.state.describe + " (no curve)";
+    return fmt::format("{} (lack of fit: p = {:.2g}{})", s.state.describe, s.fit.p_value,
+                       s.fit.p_value < fit_significance ? ", does not fit" : "");
+}
+
+/// A probability with its limits inside 0 to 1; without an interval all three are the value.
+void add_point(double x, double value, const Limits& limits, FigureSeries& to)
+{
+    to.x.push_back(x);
+    to.y.push_back(value);
+    to.low.push_back(std::isnan(limits.lower) ? value : std::max(limits.lower, 0.0));
+    to.high.push_back(std::isnan(limits.upper) ? value : std::min(limits.upper, 1.0));
+}
+
+void add_state(const StateFragility& s, Figure& figure)
+{
+    const std::string name = legend_of(s);
+    if (has_curve(s)) {
+        FigureSeries curve{name, SeriesKind::line, {}, {}, {}, {}, name, "fitted curve"};
+        for (const CurvePoint& at : s.curve.at)
+            add_point(at.intensity[0], at.probability.value, at.probability.records, curve);
+        figure.series.push_back(std::move(curve));
+    }
+    if (!s.stripes)
+        return;
+    FigureSeries shares{name, SeriesKind::points, {}, {}, {}, {}, name, "shares of the stripes"};
+    FigureSeries monotone{name, SeriesKind::line, {}, {}, {}, {}, name, "monotone curve"};
+    for (const StripeShare& stripe : s.stripes->stripes) {
+        add_point(stripe.intensity, stripe.share, stripe.limits, shares);
+        monotone.x.push_back(stripe.intensity);
+        monotone.y.push_back(stripe.monotone);
+    }
+    figure.series.push_back(std::move(shares));
+    if (!has_curve(s) || s.fit.p_value < fit_significance)
+        figure.series.push_back(std::move(monotone));
+}
+
+} // namespace
+
+bool has_curve(const StateFragility& s)
+{
+    return s.curve.maximum == Maximum::inside && s.curve.median.value > 0 && std::isfinite(s.curve.median.value);
+}
+
+Figure fragility_figure(const Fragility& f)
+{
+    Figure figure;
+    figure.title = "Fragility curves";
+    figure.x_label = describe_measure(f.measure);
+    figure.y_label = "probability of reaching the limit state";
+    figure.x_log = true;
+    constexpr std::size_t most_states = 7; // as many colours as the page has
+    std::size_t states = 0;
+    for (const StateFragility& s : f.states)
+        if ((s.state.kind == DamageState::Kind::peak || s.state.kind == DamageState::Kind::collapse) &&
+            states++ < most_states)
+            add_state(s, figure);
+    return figure;
+}
 
 namespace {
 

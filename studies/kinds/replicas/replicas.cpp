@@ -137,7 +137,7 @@ std::string describe(const Replica& kind)
 }
 
 Replicas replicas_of(const Study& study, const ResultHeader& header, std::vector<ReplicaRow> rows,
-               const std::vector<ReplicaSeparation>& pairs)
+                     const std::vector<ReplicaSeparation>& pairs)
 {
     Replicas out;
     out.frequency_hz = header.frequency_hz;

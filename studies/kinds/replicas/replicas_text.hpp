@@ -17,7 +17,7 @@ Json replicas_json(const Replicas& replicas);
 
 /// The section of a result's page. @param verdicts, growth put these pictures into the page
 void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
-                   const std::function<void()>& growth);
+                      const std::function<void()>& growth);
 
 /// `replicas.csv`: each cell and kind.
 std::string replicas_csv(const Replicas& replicas);

@@ -5,7 +5,6 @@
 #include "io/plots/plot_surface.hpp"
 #include "io/store/surface_axis.hpp"
 #include "studies/kinds/law_band.hpp"
-#include "studies/kinds/nearest_on_axis.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 

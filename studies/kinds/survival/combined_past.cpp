@@ -1,7 +1,6 @@
 #include "studies/kinds/survival/combined_past.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/kinds/survival/survival_picture.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 
 #include <fmt/format.h>

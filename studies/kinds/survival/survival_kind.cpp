@@ -1,8 +1,6 @@
 #include "studies/kinds/survival/survival_kind.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "studies/kinds/survival/survival_picture.hpp"
-#include "studies/kinds/survival/survival_table.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 
 #include <fmt/format.h>

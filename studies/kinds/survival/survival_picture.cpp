@@ -1,4 +1,4 @@
-#include "studies/kinds/survival/survival_picture.hpp"
+#include "studies/kinds/survival/survival_text.hpp"
 
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_maps.hpp"

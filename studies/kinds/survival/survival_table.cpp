@@ -1,4 +1,4 @@
-#include "studies/kinds/survival/survival_table.hpp"
+#include "studies/kinds/survival/survival_text.hpp"
 
 #include "io/tables/table.hpp"
 #include "studies/experiment/limit_state.hpp"

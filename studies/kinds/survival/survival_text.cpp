@@ -1,7 +1,6 @@
 #include "studies/kinds/survival/survival_text.hpp"
 
 #include "studies/experiment/limit_state.hpp"
-#include "studies/kinds/survival/survival_picture.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +9,218 @@
 #include <cmath>
 
 namespace stylobate {
+
+namespace {
+
+std::string pga_words(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::isnan(value) ? "–" : "none";
+}
+
+std::string percent_words(const PastEstimate& e)
+{
+    return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * e.value, 100 * e.lower, 100 * e.upper);
+}
+
+} // namespace
+
+std::string estimate_words(const PastEstimate& e)
+{
+    return fmt::format("{} ({} to {})", pga_words(e.value), pga_words(e.lower), pga_words(e.upper));
+}
+
+std::string not_judged_words(const Survival& s)
+{
+    std::string text = fmt::format("cannot be judged: none of the {} realizations that stand agrees with the observed "
+                                   "state, which is not a likelihood of 0",
+                                   s.stand);
+    if (s.nearest) {
+        const std::size_t ni = s.axes.intensity.size(), cell = s.nearest->cell % s.axes.cells_of_one();
+        text += fmt::format(
+            ". The nearest is realization {} ({} event{} of {:.3g} Hz, {:.3g} m/s2), {:.3g} tolerances away: {} is "
+            "{:.3g}, observed {:.3g} +- {:.3g}",
+            s.nearest->index, s.nearest->cell / s.axes.cells_of_one() + 1,
+            s.nearest->cell < s.axes.cells_of_one() ? "" : "s", s.axes.frequency_hz[cell / ni],
+            s.axes.intensity[cell % ni], s.nearest->distance, s.names[s.nearest->worst], s.nearest->found,
+            s.measured.value[s.nearest->worst], s.measured.tolerance[s.nearest->worst]);
+    }
+    return text + ". Run more realizations, more events or wider axes; give the tolerance with which the original "
+                  "state is known; check friction and imperfections of the model; or give only the joints that were "
+                  "measured well (survival.observed.joints)";
+}
+
+std::string exclusion_words(const Exclusion& e, const std::string& prior, double level, const PastAxes& axes)
+{
+    const std::string weaker =
+        e.weaker.value > 0 ? fmt::format("; PGA below {} m/s2 is excluded by the likelihood: it is too weak for the "
+                                         "state",
+                                         estimate_words(e.weaker))
+                           : std::string();
+    std::string text;
+    const std::vector<double>& f = axes.frequency_hz;
+    const auto open = [&](double frequency, const char* end, const PastEstimate& ratio) {
+        text += fmt::format("{}at {:.3g} Hz, the {} end of the axis, the likelihood is still {} of its largest value",
+                            text.empty() ? "no PGA is excluded for shaking of any frequency: " : ", and ", frequency,
+                            end, estimate_words(ratio));
+    };
+    if (e.open_below())
+        open(f.front(), "lower", e.lowest_frequency);
+    if (e.open_above())
+        open(f.back(), "upper", e.highest_frequency);
+    if (!text.empty())
+        text += fmt::format(". Among frequencies from {:.3g} to {:.3g} Hz: ", f.front(), f.back());
+    if (!e.excludes())
+        return text +
+               fmt::format("no PGA up to {:.3g} m/s2 can be excluded as too strong: there the likelihood is still {} "
+                           "of its largest value; exclusion needs less than {:.3g}{}",
+                           axes.intensity.back(), estimate_words(e.top_ratio), e.rule.part.back(),
+                           e.rule.absolute ? " itself" : "") +
+               weaker;
+    text += fmt::format("excluded at {:g} %: PGA above {} m/s2 by the likelihood", 100 * level,
+                        estimate_words(e.by_likelihood));
+    if (f.size() > 1 && e.open_from < 1)
+        text += fmt::format(", its mean with a prior flat in ln f from {:.3g} to {:.3g} Hz; above {} by its largest "
+                            "value over the frequencies",
+                            f.front(), f.back(), estimate_words(e.by_profile));
+    text += fmt::format("; above {} with the prior {}, whose own quantile is {:.3g}", estimate_words(e.by_posterior),
+                        prior, e.by_prior);
+    text += weaker;
+    if (!e.surely())
+        text += fmt::format("; in {} of {} draws of the counts nothing is excluded: run more realizations",
+                            e.drawn - e.drawn_with_limit, e.drawn);
+    return text;
+}
+
+std::string threshold_words(const ExclusionRule& rule, double level)
+{
+    if (rule.absolute)
+        return fmt::format("excluded is shaking under which a structure stands with a probability below {:.3g}",
+                           1 - level);
+    const auto [least, most] = std::minmax_element(rule.part.begin(), rule.part.end());
+    if (!rule.calibrated)
+        return fmt::format("excluded is shaking whose likelihood is below {:.3g} of the largest one, which holds for "
+                           "many observations (Wilks) and was not calibrated for this one",
+                           *most);
+    return fmt::format("excluded is shaking whose likelihood is below {:.2g} to {:.2g} of the largest one, by the PGA: "
+                       "calibrated on simulated monuments",
+                       *least, *most);
+}
+
+std::vector<std::string> coverage_words(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes)
+{
+    std::size_t all = 0, wrong = 0, asymptotic = 0, worst = 0;
+    const auto share = [](const ExclusionCoverage& at, std::size_t ExclusionCoverage::*part) {
+        return share_of(at.monuments, at.*part);
+    };
+    for (std::size_t i = 0; i < coverage.size(); ++i) {
+        all += coverage[i].monuments;
+        wrong += coverage[i].excluded;
+        asymptotic += coverage[i].asymptotic;
+        if (coverage[i].monuments > 0 &&
+            (coverage[worst].monuments == 0 || share(coverage[i], &ExclusionCoverage::excluded).probability >
+                                                   share(coverage[worst], &ExclusionCoverage::excluded).probability))
+            worst = i;
+    }
+    if (all == 0)
+        return {};
+    const auto percent = [](const Share& s) { return percent_words({s.probability, s.lower, s.upper}); };
+    const Share at_worst = share(coverage[worst], &ExclusionCoverage::excluded);
+    return {fmt::format("the true PGA is excluded in {} of {}, {}; most often at {:.3g} m/s2, {}; by the threshold for "
+                        "many observations it would be in {}",
+                        wrong, all, percent(share_of(all, wrong)), axes.intensity[worst], percent(at_worst),
+                        percent(share_of(all, asymptotic)))};
+}
+
+std::string alike_words(std::uint64_t built, std::uint64_t standing)
+{
+    return fmt::format("given that {} of {} that were built alike stand{}", standing, built,
+                       standing > 1 ? ", this one among them" : "");
+}
+
+std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double level)
+{
+    const std::size_t ni = axes.intensity.size(), cell = p.best % axes.cells_of_one();
+    std::string text = fmt::format(
+        "  most probable past: {} event{} of {:.3g} Hz, {:.3g} m/s2: probability of this cell {}\n"
+        "  PGA of the past: median {} m/s2; {:g} % credible interval: {} to {}\n",
+        p.best / axes.cells_of_one() + 1, p.best < axes.cells_of_one() ? "" : "s", axes.frequency_hz[cell / ni],
+        axes.intensity[cell % ni], percent_words(p.best_probability), estimate_words(p.intensity_median), 100 * level,
+        estimate_words(p.intensity_lower), estimate_words(p.intensity_upper));
+    text +=
+        fmt::format("  evidence (mean likelihood under the prior; its ratio compares studies of other motions): {}\n",
+                    estimate_words(p.evidence));
+    if (p.frequency.size() > 1) {
+        text += "  probability of the frequencies:";
+        for (std::size_t f = 0; f < p.frequency.size(); ++f)
+            text +=
+                fmt::format("{} {:.3g} Hz {}", f == 0 ? "" : ",", axes.frequency_hz[f], percent_words(p.frequency[f]));
+        text += "\n";
+    }
+    for (std::size_t e = 0; e < p.events.size() && p.events.size() > 1; ++e)
+        text += fmt::format("  probability of {} event{}: {}\n", e + 1, e == 0 ? "" : "s", percent_words(p.events[e]));
+    return text;
+}
+
+std::vector<std::string> monument_words(const MonumentTest& test, double level, bool events)
+{
+    std::vector<std::string> lines;
+    const auto add = [&](const char* what, const std::vector<double>& u) {
+        std::string line;
+        for (const double each : {0.5, level}) {
+            const Share share = share_of(u.size(), MonumentTest::inside(u, each));
+            line += fmt::format("{}{:g} % intervals of {} contain the true value in {} of {}, {:.3g} % ({:.3g} to "
+                                "{:.3g})",
+                                line.empty() ? "" : "; ", 100 * each, what, share.count, share.trials,
+                                100 * share.probability, 100 * share.lower, 100 * share.upper);
+        }
+        lines.push_back(line);
+    };
+    if (!test.intensity.empty()) {
+        add("PGA", test.intensity);
+        add("frequency", test.frequency);
+        if (events)
+            add("the number of events", test.events);
+    }
+    if (test.not_judged > 0 || test.intensity.empty())
+        lines.push_back(fmt::format("{} simulated monuments cannot be judged: no other realization agrees with them",
+                                    test.not_judged));
+    return lines;
+}
+
+std::vector<std::string> rates_words(const Survival& s)
+{
+    const HazardUpdate& r = *s.rates;
+    std::vector<std::string> lines = {
+        fmt::format("under the hazard curve as given it collapses at a rate of {} per year, and stands for {:g} years "
+                    "with a probability of {}",
+                    estimate_words(r.collapse_rate), s.years, percent_words(r.stands)),
+        fmt::format("factor on all rates, given that it stands and was chosen before its fate was known: median {}; "
+                    "{:g} % credible interval: {} to {} (prior: lognormal, median 1, sigma {:g}, from {:.3g} to "
+                    "{:.3g})",
+                    estimate_words(r.factor_median), 100 * s.level, estimate_words(r.factor_lower),
+                    estimate_words(r.factor_upper), s.sigma_ln, r.prior_lower, r.prior_upper)};
+    if (s.built > 1)
+        lines.push_back(fmt::format("factor on all rates, {}: median {}; {:g} % credible interval: {} to {}",
+                                    alike_words(s.built, s.standing_alike), estimate_words(r.alike_median),
+                                    100 * s.level, estimate_words(r.alike_lower), estimate_words(r.alike_upper)));
+    else
+        lines.push_back("a structure that is considered because it still stands, while others fell, says less of the "
+                        "rates: give survival.built and survival.standing");
+    if (r.beyond.upper > 0.1)
+        lines.push_back(fmt::format("{} of the rate of collapse comes from PGA beyond {:.3g} m/s2, where the "
+                                    "probability is taken as at the end of the axis: extend the axis",
+                                    percent_words(r.beyond), s.axes.intensity.back()));
+    if (s.hazard_points && r.beyond_hazard.upper > 0.1)
+        lines.push_back(fmt::format("{} of the rate of collapse comes from PGA outside of the points of the hazard "
+                                    "curve, {:.3g} to {:.3g} m/s2, where its power laws are continued: give it over a "
+                                    "wider range",
+                                    percent_words(r.beyond_hazard), s.hazard_points->from, s.hazard_points->to));
+    if (r.at_begin.value > 0)
+        lines.push_back(fmt::format("at the beginning of the axis {} collapse already, and weaker shaking is counted "
+                                    "as harmless: the rate is too small; begin the axis lower",
+                                    percent_words(r.at_begin)));
+    return lines;
+}
 
 namespace {
 

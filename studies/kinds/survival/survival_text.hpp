@@ -1,10 +1,13 @@
 #pragma once
-/// A survival study as lines for a terminal, as JSON and as sections of a page.
+/// A survival study as lines for a terminal, as JSON, as tables, as pictures and as sections of a page.
 
+#include "io/tables/table.hpp"
 #include "studies/kinds/page_writer.hpp"
 #include "studies/kinds/survival/survival.hpp"
+#include "studies/report/figure.hpp"
 #include "studies/report/json.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,5 +40,24 @@ std::string posterior_words(const PastPosterior& posterior, const PastAxes& axes
 std::vector<std::string> monument_words(const MonumentTest& test, double level, bool events);
 /// @pre there are rates
 std::vector<std::string> rates_words(const Survival& survival);
+
+/// The table /survival of a results file.
+Table survival_table(const Survival& survival);
+/// The cells as CSV.
+std::string survival_csv(const Survival& survival);
+
+/// Maps of the likelihood, one for each number of events (at most six), with the probability of standing as lines.
+void plot_likelihood(const Survival& survival, const std::string& title, const std::filesystem::path& png);
+/// The likelihood over the intensity, as a part of its largest value.
+FigureSeries likelihood_series(const std::string& name, const std::vector<double>& intensity,
+                               const Exclusion& exclusion);
+/// Below which an intensity is excluded, in the same unit.
+FigureSeries threshold_series(const std::vector<double>& intensity, const Exclusion& exclusion);
+/// The likelihood over the intensity and its threshold. @pre judged
+Figure exclusion_figure(const Survival& survival);
+/// Density of the factor on all rates over its logarithm, before and after. @pre there are rates
+Figure rates_figure(const Survival& survival);
+/// Lines and bands of a figure, by gnuplot.
+void plot_curves(const Figure& figure, const std::string& title, const std::filesystem::path& png);
 
 } // namespace stylobate

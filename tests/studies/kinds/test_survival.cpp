@@ -43,7 +43,7 @@ TEST(Survival, SeveralEventsAreOneAfterTheOther)
         const Sampler sampler(study, nullptr);
         const std::uint64_t index = 7, later = index + 2 * study.originals();
         EXPECT_EQ(study.design().events_of(index), 1);
-        EXPECT_EQ(study.events(later), 3);
+        EXPECT_EQ(study.design().events_of(later), 3);
         EXPECT_EQ(study.cell(later), study.cell(index));
         const Realization one = sampler.realization(index), three = sampler.realization(later);
         EXPECT_EQ(one.pga_m_s2, three.pga_m_s2);
@@ -293,7 +293,7 @@ TEST(Survival, LikelihoodsAndRatesAreThoseOfTheCountsByHand)
         ResultRow row;
         row.index = i;
         row.cell = study.cell(i);
-        row.outcome.state = i % 10 < stand[study.events(i) - 1][row.cell] ? State::slid : State::collapsed;
+        row.outcome.state = i % 10 < stand[study.design().events_of(i) - 1][row.cell] ? State::slid : State::collapsed;
         counts.add(row);
     }
     const Survival s = survival_of(study, counts);

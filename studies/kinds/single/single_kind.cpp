@@ -1,4 +1,4 @@
-#include "studies/kinds/single/kept_trajectories.hpp"
+#include "studies/kinds/single/single_kind.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_poses.hpp"
