@@ -45,9 +45,8 @@ struct StudyDesign {
 
     // ---- what is reported of them ----------------------------------------------------------------------------------
 
-    bool traced = false; ///< each one by itself, over time
-    bool residuals =
-        false; ///< what remains of the displacements: it is simulated until rest where nothing else is said
+    bool traced = false;    ///< each one by itself, over time
+    bool residuals = false; ///< what remains of the displacements: simulated until rest by default
     bool end_state = false; ///< the offset of each bed and the rotation of each block at the end
 
     // ---- how they are counted --------------------------------------------------------------------------------------
