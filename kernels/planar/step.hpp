@@ -12,8 +12,8 @@
 /// geometry to force would wait for each result in turn. A phase is fast if its chain of operations is short: the
 /// divisions and the root are in different phases, and independent of each other (`docs/performance.md`).
 ///
-/// Beds go through the phases in every step, watched pairs (`topology.hpp`) where their bounding boxes meet; which pairs
-/// come so close is determined only when a block has strayed. A pair that does not touch adds nothing and no bit.
+/// Beds go through the phases in every step, watched pairs (`topology.hpp`) where their bounding boxes meet; which
+/// pairs come so close is determined only when a block has strayed. A pair that does not touch changes no bit.
 ///
 /// What is not inlined gets a copy of the stepper: if its address were known elsewhere, the compiler would read its
 /// pointers again after every store.
