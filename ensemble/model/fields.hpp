@@ -7,7 +7,7 @@
 ///     void visit_fields(std::type_identity<S>, F&& f)
 ///     {
 ///         f("from_s", &S::from_s, {.says = "begin of the window"});
-///         f("lower", [](auto& s) -> auto& { return s.limits.lower; });
+///         f("lower", within(&S::limits, &Limits::lower));
 ///     }
 ///
 /// A reader or writer calls it with f(name, field, facts = {}), and reaches the field by `std::invoke(field, s)`.
@@ -28,6 +28,16 @@ struct FieldFacts {
     std::uint64_t since = 0; ///< the first version of the file that has it
     bool is_signed = false;  ///< whether a number may be negative
 };
+
+/// The field of a member, or of a member of that.
+template <class... Path>
+constexpr auto within(Path... path)
+{
+    return [=](auto& s) -> auto&
+    {
+        return (s.*....*path);
+    };
+}
 
 /// The unit at the end of a name, as files and tables have it: "m/s2" of "pga_m_s2". Empty: none.
 constexpr std::string_view unit_of(std::string_view name)

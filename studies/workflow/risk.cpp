@@ -5,8 +5,6 @@
 #include "io/hazard/hazard_file.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_page.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/decisions/risk/sequences.hpp"
 #include "studies/kinds/fragility/fragility_kind.hpp"
@@ -186,14 +184,6 @@ Table rows_of(const RiskChange& change)
     return table;
 }
 
-/// Calls what the kind of estimate has: f of a risk, or g of a change.
-template <class F, class G>
-auto either(const AnyRisk& risk, const F& f, const G& g)
-{
-    const auto* const one = std::get_if<Risk>(&risk);
-    return one ? f(*one) : g(std::get<RiskChange>(risk));
-}
-
 } // namespace
 
 std::optional<AnyRisk> estimate_risk(const RiskRequest& request, const Machine& machine, WorkObserver& observer)
@@ -224,9 +214,7 @@ AnyRisk read_any_risk(const std::filesystem::path& file)
 
 void write_risk(const AnyRisk& risk, const std::filesystem::path& file)
 {
-    either(
-        risk, [&](const Risk& one) { write_risk(one, file); },
-        [&](const RiskChange& change) { write_risk_change(change, file); });
+    std::visit([&](const auto& one) { write_risk(one, file); }, risk);
 }
 
 std::vector<Table> tables_of(const AnyRisk& risk)
@@ -236,40 +224,28 @@ std::vector<Table> tables_of(const AnyRisk& risk)
 
 std::vector<std::pair<std::string, std::string>> risk_csv(const AnyRisk& risk)
 {
-    return either(
-        risk, [](const Risk& one) { return risk_csv(one); },
-        [](const RiskChange& change) { return risk_change_csv(change); });
+    return std::visit([](const auto& one) { return risk_csv(one); }, risk);
 }
 
 std::string risk_text(const AnyRisk& risk)
 {
-    return either(
-        risk, [](const Risk& one) { return risk_text(one); },
-        [](const RiskChange& change) { return risk_change_text(change); });
+    return std::visit([](const auto& one) { return risk_text(one); }, risk);
 }
 
 Json risk_json(const AnyRisk& risk)
 {
-    return either(
-        risk, [](const Risk& one) { return risk_json(one); },
-        [](const RiskChange& change) { return risk_change_json(change); });
+    return std::visit([](const auto& one) { return risk_json(one); }, risk);
 }
 
 HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::string& title)
 {
-    return either(
-        risk, [&](const Risk& one) { return risk_page(one, file, title); },
-        [&](const RiskChange& change) { return risk_change_page(change, file, title); });
+    return std::visit([&](const auto& one) { return risk_page(one, file, title); }, risk);
 }
 
 void plot_risk(const AnyRisk& risk, const std::string& state, const std::string& title,
                const std::filesystem::path& picture)
 {
-    either(
-        risk, [&](const Risk& one) { plot_risk(one, state, title.empty() ? "Risk: " + one.title : title, picture); },
-        [&](const RiskChange& change) {
-            plot_risk_change(change, state, title.empty() ? "Change of risk: " + change.title : title, picture);
-        });
+    std::visit([&](const auto& one) { plot_risk(one, state, title, picture); }, risk);
 }
 
 Table risk_rows(const AnyRisk& risk)

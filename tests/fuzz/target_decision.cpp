@@ -8,7 +8,6 @@
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/table_edits.hpp"
@@ -53,7 +52,7 @@ const std::vector<Original>& originals()
         Original& change = made.emplace_back();
         change.what = What::risk_change;
         change.tables = tables_of(sample_risk_change());
-        write_risk_change(sample_risk_change(), file);
+        write_risk(sample_risk_change(), file);
         change.bytes = file_content(file);
         for (Original& original : made) {
             write_file(file, original.bytes);
@@ -95,9 +94,9 @@ void tell(const Risk& risk)
 void tell(const RiskChange& change)
 {
     promise(!change.variants.empty() && !change.years.empty(), "a change of risk has no variant or no years");
-    risk_change_text(change);
-    risk_change_json(change);
-    risk_change_csv(change);
+    risk_text(change);
+    risk_json(change);
+    risk_csv(change);
     for (const VariantChange& variant : change.variants) {
         promise(!variant.states.empty(), "a variant has no limit state");
         risk_change_answer(change, variant);

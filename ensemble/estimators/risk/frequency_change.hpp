@@ -47,14 +47,10 @@ template <class F>
 void visit_fields(std::type_identity<ChangeNumber>, F&& f)
 {
     f("value", &ChangeNumber::value);
-    f(
-        "lower", [](auto& n) -> auto& { return n.total.lower; });
-    f(
-        "upper", [](auto& n) -> auto& { return n.total.upper; });
-    f(
-        "fragility_lower", [](auto& n) -> auto& { return n.fragility.lower; });
-    f(
-        "fragility_upper", [](auto& n) -> auto& { return n.fragility.upper; });
+    f("lower", within(&ChangeNumber::total, &Limits::lower));
+    f("upper", within(&ChangeNumber::total, &Limits::upper));
+    f("fragility_lower", within(&ChangeNumber::fragility, &Limits::lower));
+    f("fragility_upper", within(&ChangeNumber::fragility, &Limits::upper));
 }
 
 struct ChangeOptions {

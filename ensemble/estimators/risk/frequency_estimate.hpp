@@ -41,18 +41,12 @@ template <class F>
 void visit_fields(std::type_identity<RiskNumber>, F&& f)
 {
     f("value", &RiskNumber::value);
-    f(
-        "lower", [](auto& n) -> auto& { return n.total.lower; });
-    f(
-        "upper", [](auto& n) -> auto& { return n.total.upper; });
-    f(
-        "fragility_lower", [](auto& n) -> auto& { return n.fragility.lower; });
-    f(
-        "fragility_upper", [](auto& n) -> auto& { return n.fragility.upper; });
-    f(
-        "hazard_lower", [](auto& n) -> auto& { return n.hazard.lower; });
-    f(
-        "hazard_upper", [](auto& n) -> auto& { return n.hazard.upper; });
+    f("lower", within(&RiskNumber::total, &Limits::lower));
+    f("upper", within(&RiskNumber::total, &Limits::upper));
+    f("fragility_lower", within(&RiskNumber::fragility, &Limits::lower));
+    f("fragility_upper", within(&RiskNumber::fragility, &Limits::upper));
+    f("hazard_lower", within(&RiskNumber::hazard, &Limits::lower));
+    f("hazard_upper", within(&RiskNumber::hazard, &Limits::upper));
     f("fragility_part", &RiskNumber::fragility_part, {.unit = "1"});
 }
 

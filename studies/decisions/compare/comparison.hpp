@@ -163,18 +163,12 @@ template <class F>
 void visit_fields(std::type_identity<PlaceComparison>, F&& f)
 {
     f("", &PlaceComparison::counts);
-    f(
-        "base_probability", [](auto& p) -> auto& { return p.base.probability; });
-    f(
-        "base_probability_lower", [](auto& p) -> auto& { return p.base.lower; });
-    f(
-        "base_probability_upper", [](auto& p) -> auto& { return p.base.upper; });
-    f(
-        "variant_probability", [](auto& p) -> auto& { return p.variant.probability; });
-    f(
-        "variant_probability_lower", [](auto& p) -> auto& { return p.variant.lower; });
-    f(
-        "variant_probability_upper", [](auto& p) -> auto& { return p.variant.upper; });
+    f("base_probability", within(&PlaceComparison::base, &Share::probability));
+    f("base_probability_lower", within(&PlaceComparison::base, &Share::lower));
+    f("base_probability_upper", within(&PlaceComparison::base, &Share::upper));
+    f("variant_probability", within(&PlaceComparison::variant, &Share::probability));
+    f("variant_probability_lower", within(&PlaceComparison::variant, &Share::lower));
+    f("variant_probability_upper", within(&PlaceComparison::variant, &Share::upper));
     f("difference", &PlaceComparison::difference);
     f("difference_lower", &PlaceComparison::lower);
     f("difference_upper", &PlaceComparison::upper);
@@ -203,10 +197,8 @@ template <class F>
 void visit_fields(std::type_identity<InputDependence>, F&& f)
 {
     f("on", &InputDependence::input);
-    f(
-        "z", [](auto& d) -> auto& { return d.found.z; });
-    f(
-        "p", [](auto& d) -> auto& { return d.found.p; });
+    f("z", within(&InputDependence::found, &Dependence::z));
+    f("p", within(&InputDependence::found, &Dependence::p));
     f("p_adjusted", &InputDependence::p_adjusted);
 }
 

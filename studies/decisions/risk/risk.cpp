@@ -287,7 +287,7 @@ void write_risk(const Risk& risk, const std::filesystem::path& file)
     write_sealed_file(file, format, risk.code_version, Table(format.kind, tables_of(risk)));
 }
 
-void write_risk_change(const RiskChange& change, const std::filesystem::path& file)
+void write_risk(const RiskChange& change, const std::filesystem::path& file)
 {
     write_sealed_file(file, change_format, change.code_version, Table(change_format.kind, tables_of(change)));
 }
@@ -307,7 +307,7 @@ std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk)
     return csv_of(number_tables(risk));
 }
 
-std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change)
+std::vector<std::pair<std::string, std::string>> risk_csv(const RiskChange& change)
 {
     return csv_of(number_tables(change));
 }

@@ -52,10 +52,8 @@ template <class F>
 void visit_fields(std::type_identity<SequenceNumber>, F&& f)
 {
     f("value", &SequenceNumber::value);
-    f(
-        "lower", [](auto& n) -> auto& { return n.limits.lower; });
-    f(
-        "upper", [](auto& n) -> auto& { return n.limits.upper; });
+    f("lower", within(&SequenceNumber::limits, &Limits::lower));
+    f("upper", within(&SequenceNumber::limits, &Limits::upper));
 }
 
 template <class F>
@@ -185,22 +183,14 @@ void visit_fields(std::type_identity<StateRisk>, F&& f)
     f("form", &StateRisk::form);
     f("chosen", &StateRisk::chosen);
     f("determined", &StateRisk::determined);
-    f(
-        "annual_frequency", [](auto& s) -> auto& { return s.estimate.frequency; }, per_year);
-    f(
-        "mean_hazard_annual_frequency", [](auto& s) -> auto& { return s.estimate.by_mean_hazard; }, per_year);
-    f(
-        "share_below", [](auto& s) -> auto& { return s.estimate.below; });
-    f(
-        "share_above", [](auto& s) -> auto& { return s.estimate.above; });
-    f(
-        "share_beyond_hazard", [](auto& s) -> auto& { return s.estimate.beyond_hazard; });
-    f(
-        "lowest_annual_frequency", [](auto& s) -> auto& { return s.estimate.bounds.lower; }, per_year);
-    f(
-        "highest_annual_frequency", [](auto& s) -> auto& { return s.estimate.bounds.upper; }, per_year);
-    f(
-        "unseen_annual_frequency", [](auto& s) -> auto& { return s.estimate.unseen; }, per_year);
+    f("annual_frequency", within(&StateRisk::estimate, &FrequencyEstimate::frequency), per_year);
+    f("mean_hazard_annual_frequency", within(&StateRisk::estimate, &FrequencyEstimate::by_mean_hazard), per_year);
+    f("share_below", within(&StateRisk::estimate, &FrequencyEstimate::below));
+    f("share_above", within(&StateRisk::estimate, &FrequencyEstimate::above));
+    f("share_beyond_hazard", within(&StateRisk::estimate, &FrequencyEstimate::beyond_hazard));
+    f("lowest_annual_frequency", within(&StateRisk::estimate, &FrequencyEstimate::bounds, &Limits::lower), per_year);
+    f("highest_annual_frequency", within(&StateRisk::estimate, &FrequencyEstimate::bounds, &Limits::upper), per_year);
+    f("unseen_annual_frequency", within(&StateRisk::estimate, &FrequencyEstimate::unseen), per_year);
     f("note", &StateRisk::note);
 }
 
@@ -272,18 +262,16 @@ void visit_fields(std::type_identity<StateChange>, F&& f)
     f("damage", &StateChange::damage);
     f("determined", &StateChange::determined);
     f("verdict", [](const StateChange& s) { return s.verdict(); });
-    f(
-        "base_annual_frequency", [](auto& s) -> auto& { return s.change.base.frequency; }, per_year);
-    f(
-        "variant_annual_frequency", [](auto& s) -> auto& { return s.change.variant.frequency; }, per_year);
-    f(
-        "change", [](auto& s) -> auto& { return s.change.frequency; }, per_year);
-    f(
-        "ratio", [](auto& s) -> auto& { return s.change.ratio; });
-    f(
-        "base_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.base.unseen; }, per_year);
-    f(
-        "variant_unseen_annual_frequency", [](auto& s) -> auto& { return s.change.variant.unseen; }, per_year);
+    f("base_annual_frequency", within(&StateChange::change, &FrequencyChange::base, &FrequencyEstimate::frequency),
+      per_year);
+    f("variant_annual_frequency",
+      within(&StateChange::change, &FrequencyChange::variant, &FrequencyEstimate::frequency), per_year);
+    f("change", within(&StateChange::change, &FrequencyChange::frequency), per_year);
+    f("ratio", within(&StateChange::change, &FrequencyChange::ratio));
+    f("base_unseen_annual_frequency", within(&StateChange::change, &FrequencyChange::base, &FrequencyEstimate::unseen),
+      per_year);
+    f("variant_unseen_annual_frequency",
+      within(&StateChange::change, &FrequencyChange::variant, &FrequencyEstimate::unseen), per_year);
     f("note", &StateChange::note);
 }
 
@@ -307,7 +295,7 @@ void visit_fields(std::type_identity<RiskChange>, F&& f)
 /// Writes a file whole or not at all; equal estimates give equal bytes. @throws InputError if it cannot be written
 /// @{
 void write_risk(const Risk& risk, const std::filesystem::path& file);
-void write_risk_change(const RiskChange& change, const std::filesystem::path& file);
+void write_risk(const RiskChange& change, const std::filesystem::path& file);
 /// @}
 
 /// @throws InputError if the file is none, of another format version, truncated or damaged
@@ -330,7 +318,7 @@ RiskChange risk_change_from(const std::vector<Table>& tables, const std::string&
 /// The tables as comma-separated values: names of files and their texts.
 /// @{
 std::vector<std::pair<std::string, std::string>> risk_csv(const Risk& risk);
-std::vector<std::pair<std::string, std::string>> risk_change_csv(const RiskChange& change);
+std::vector<std::pair<std::string, std::string>> risk_csv(const RiskChange& change);
 /// @}
 
 } // namespace stylobate

@@ -1,5 +1,3 @@
-#include "studies/decisions/risk/risk_change_text.hpp"
-
 #include "studies/decisions/risk/risk_text.hpp"
 
 #include <fmt/format.h>
@@ -97,7 +95,7 @@ Json state_json(const StateChange& s, const std::vector<double>& years)
 
 } // namespace
 
-std::string risk_change_text(const RiskChange& change)
+std::string risk_text(const RiskChange& change)
 {
     std::string text = fmt::format("{}: change of risk by {} and the hazard {}, {:g} % intervals\n", change.title,
                                    change.comparison_file, hazard_text(change.hazard), 100 * change.level);
@@ -112,7 +110,7 @@ std::string risk_change_text(const RiskChange& change)
     return text;
 }
 
-Json risk_change_json(const RiskChange& change)
+Json risk_json(const RiskChange& change)
 {
     const auto variant_json = [&](const VariantChange& variant) {
         return Json::object()
@@ -150,7 +148,7 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
                                               : "The risk is " + verdict + ".");
 }
 
-HtmlPage risk_change_page(const RiskChange& change, const std::string& file, const std::string& title)
+HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::string& title)
 {
     HtmlPage page(title.empty() ? "Change of risk: " + change.title : title,
                   fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,

@@ -1,9 +1,7 @@
-#include "studies/decisions/risk/risk_page.hpp"
+#include "studies/decisions/risk/risk_text.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
-#include "studies/decisions/risk/risk_text.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
 
@@ -100,6 +98,12 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
     return figure;
 }
 
+/// The three parts of one limit state, over the same intensities.
+std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
+{
+    return {hazard_figure(risk, state), state_figure(state), parts_figure(risk, state)};
+}
+
 void add_result(const Risk& risk, HtmlPage& page)
 {
     page.section("Result");
@@ -179,11 +183,6 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
 }
 
 } // namespace
-
-std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
-{
-    return {hazard_figure(risk, state), state_figure(state), parts_figure(risk, state)};
-}
 
 HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string& title)
 {
@@ -281,7 +280,7 @@ void plot_risk(const Risk& risk, const std::string& name, const std::string& tit
     const std::string said =
         fmt::format("{}: {} a year; bands and bars: {:g} % (fragility: {:g} %)", s.state,
                     frequency_text(s.estimate.frequency), 100 * risk.level, 100 * risk.fragility_level);
-    std::string script = data + gnuplot_heading(title, said) +
+    std::string script = data + gnuplot_heading(title.empty() ? "Risk: " + risk.title : title, said) +
                          fmt::format("set logscale x\nset xrange [{}:{}]\n", s.estimate.parts.front().to * 0.97,
                                      s.estimate.parts.back().from * 1.03) +
                          "set xtics (.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100)\n"
@@ -342,8 +341,8 @@ std::string shares_block(const std::string& name, const std::vector<double>& int
 
 } // namespace
 
-void plot_risk_change(const RiskChange& change, const std::string& state, const std::string& title,
-                      const std::filesystem::path& picture)
+void plot_risk(const RiskChange& change, const std::string& state, const std::string& title,
+               const std::filesystem::path& picture)
 {
     const StateChange& first = state_named(change, change.variants.front(), state);
     std::string data = shares_block("base", change.intensity, first.base_share), changes = "$changes << EOD\n", tics;
@@ -369,7 +368,7 @@ void plot_risk_change(const RiskChange& change, const std::string& state, const 
         fmt::format("{} · {} motions · below: change of the probability in {:g} years, bars: {:g} %", first.meaning,
                     change.motions, change.years.back(), 100 * change.level);
     const std::string script =
-        data + changes + "EOD\n" + gnuplot_heading(title, said) +
+        data + changes + "EOD\n" + gnuplot_heading(title.empty() ? "Change of risk: " + change.title : title, said) +
         "set lmargin at screen 0.14\nset rmargin at screen 0.97\nset border 3 linewidth 0.8\nset tics out nomirror\n"
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\nset multiplot\n"
         "set tmargin at screen 0.87\nset bmargin at screen 0.53\nset logscale x\n" +

@@ -90,14 +90,10 @@ void visit_fields(std::type_identity<StoredForm>, F&& f)
     f("score", &StoredForm::score);
     f("nominal_score", &StoredForm::nominal_score);
     f("roughness", &StoredForm::roughness);
-    f(
-        "held_out_gain", [](auto& s) -> auto& { return s.held_out.total; });
-    f(
-        "held_out_groups", [](auto& s) -> auto& { return s.held_out.groups; });
-    f(
-        "held_out_low", [](auto& s) -> auto& { return s.held_out.low; });
-    f(
-        "held_out_high", [](auto& s) -> auto& { return s.held_out.high; });
+    f("held_out_gain", within(&StoredForm::held_out, &PairedGain::total));
+    f("held_out_groups", within(&StoredForm::held_out, &PairedGain::groups));
+    f("held_out_low", within(&StoredForm::held_out, &PairedGain::low));
+    f("held_out_high", within(&StoredForm::held_out, &PairedGain::high));
 }
 
 template <class F>

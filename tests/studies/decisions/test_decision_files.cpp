@@ -6,7 +6,6 @@
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/decisions/risk/risk_change_text.hpp"
 #include "studies/decisions/risk/risk_text.hpp"
 #include "studies/workflow/file_kind.hpp"
 #include "tests/studies/decisions/decision_samples.hpp"
@@ -106,18 +105,18 @@ TEST_F(DecisionFiles, AComparisonReadsBackEqual)
 TEST_F(DecisionFiles, ARiskOfAComparisonReadsBackEqual)
 {
     const RiskChange change = sample_risk_change();
-    write_risk_change(change, file);
+    write_risk(change, file);
     const RiskChange read = read_risk_change(file);
-    EXPECT_EQ(risk_change_text(read), risk_change_text(change));
-    EXPECT_EQ(risk_change_json(read).text(), risk_change_json(change).text());
-    EXPECT_EQ(risk_change_csv(read), risk_change_csv(change));
+    EXPECT_EQ(risk_text(read), risk_text(change));
+    EXPECT_EQ(risk_json(read).text(), risk_json(change).text());
+    EXPECT_EQ(risk_csv(read), risk_csv(change));
     EXPECT_EQ(recognise(file).kind, FileKind::risk);
     EXPECT_EQ(recognise(file).detail, risk_of_comparison);
-    write_risk_change(read, folder / "again.h5");
+    write_risk(read, folder / "again.h5");
     EXPECT_EQ(bytes_in(folder / "again.h5"), bytes_in(file));
     expect_damage_is_found([](const fs::path& path) { read_risk_change(path); });
 
-    const std::string text = risk_change_text(change);
+    const std::string text = risk_text(change);
     EXPECT_NE(text.find("collapse (what it is): lower\n"), std::string::npos) << text;
     EXPECT_NE(text.find("change -2 (-6 to -1) percentage points"), std::string::npos) << text;
     EXPECT_NE(text.find("ratio not determined"), std::string::npos) << text;
@@ -136,7 +135,7 @@ TEST_F(DecisionFiles, ARiskOfAComparisonWithoutMeaningIsRefused)
     const auto refused = [&](const auto& edit, const char* why) {
         RiskChange change = sample_risk_change();
         edit(change);
-        write_risk_change(change, file);
+        write_risk(change, file);
         const std::string message = refusal_of([&] { read_risk_change(file); });
         EXPECT_NE(message.find(why), std::string::npos) << message;
     };
