@@ -3,7 +3,7 @@
 #include "io/files/suggest.hpp"
 #include "io/store/result_layout.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/verify/recorded_rounds.hpp"
+#include "studies/verify/verification.hpp"
 
 #include <fmt/format.h>
 

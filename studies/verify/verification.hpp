@@ -73,4 +73,7 @@ FileVerification verify_file(const std::string& file, const VerifyOptions& optio
 std::string text_of(const FileVerification& verification);
 Json json_of(const FileVerification& verification);
 
+/// A number that orders indices by chance: the same for the same seed, whatever else is chosen from.
+std::uint64_t sample_key(std::uint64_t seed, std::uint64_t index);
+
 } // namespace stylobate

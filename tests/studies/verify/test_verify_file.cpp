@@ -8,7 +8,6 @@
 #include "io/store/tally_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/verify/recorded_rounds.hpp"
 #include "tests/studies/verify/results_made.hpp"
 
 #include <bit>
