@@ -31,10 +31,8 @@ void print_written(const CommonOptions& options, const std::string& file)
 
 void add_set(CLI::App& verb, CommonOptions& options)
 {
-    verb.add_option("--set", options.set, "KEY=VALUE: overrides any key of the study file; may be given several times")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->allow_extra_args(false);
+    add_repeated(verb, "--set", options.set,
+                 "KEY=VALUE: overrides any key of the study file; may be given several times", "KEY=VALUE");
 }
 
 void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends)
@@ -54,6 +52,19 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
 void add_force(CLI::App& verb, CommonOptions& options)
 {
     verb.add_flag("--force", options.force, "overwrite existing output files");
+}
+
+void add_all(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends)
+{
+    add_force(verb, options);
+    add_set(verb, options);
+    add_common(verb, options, backends);
+}
+
+CLI::Option* add_repeated(CLI::App& verb, const std::string& name, std::vector<std::string>& into,
+                          const std::string& text, const char* word)
+{
+    return verb.add_option(name, into, text)->type_name(word)->take_all()->allow_extra_args(false);
 }
 
 } // namespace stylobate

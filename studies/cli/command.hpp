@@ -1,9 +1,9 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
+#include "studies/results/results.hpp"
 #include "studies/workflow/calibrate.hpp"
 #include "studies/workflow/check.hpp"
-#include "studies/workflow/choose_realization.hpp"
 #include "studies/workflow/compare.hpp"
 #include "studies/workflow/console.hpp"
 #include "studies/workflow/diagnose.hpp"
@@ -21,7 +21,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace stylobate {
 
@@ -65,7 +66,21 @@ void add_set(CLI::App& verb, CommonOptions& options);
 /// @param backends where the verb can compute
 void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"});
 void add_force(CLI::App& verb, CommonOptions& options);
+/// All of these, of a verb that writes files.
+void add_all(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"});
+/// An option that may be given several times, with one word each. @param word what is given, in the help
+CLI::Option* add_repeated(CLI::App& verb, const std::string& name, std::vector<std::string>& into,
+                          const std::string& text, const char* word);
 /// @}
+
+/// The selection of a realization; empty members are not given.
+struct RealizationChoice {
+    std::optional<long long> index; ///< alone
+    CellChoice cells;
+    bool fallen = false;          ///< one that collapsed
+    bool stood = false;           ///< a valid one that did not
+    std::optional<long long> nth; ///< of those, in the order of their indices, from 1
+};
 
 /// Options of `export`; empty, or -1: not given.
 struct ExportOptions {
@@ -123,9 +138,6 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
 /// @param file measured data, outcomes or results; empty: about the program
 /// @param mpi of this program; empty: none
 int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi);
-/// Its part about a file: what it is, what it holds, and what can be done with it; as JSON with --json.
-/// @throws InputError if there is no such file, if it is damaged, or if its content is wrong
-void print_file(const CommonOptions& options, const std::string& file, bool all);
 /// @param output the study file; empty: KIND.toml
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page

@@ -130,9 +130,7 @@ void DecisionVerbs::add_compare()
     compare->add_flag("--search", search_,
                       "search the values of [optimise] for which the limit state is least probable, or least "
                       "frequent over a hazard; -o FILE.png: a picture");
-    add_force(*compare, options_);
-    add_set(*compare, options_);
-    add_common(*compare, options_, {"cpu", "cuda"});
+    add_all(*compare, options_, {"cpu", "cuda"});
     compare->callback([this] {
         status_ = search_ ? search_study(options_, compare_, output_) : compare_command(options_, compare_, output_);
     });
@@ -183,9 +181,7 @@ void DecisionVerbs::add_risk()
         ->check(CLI::Range(0LL, 999999999999LL))
         ->needs(sequences);
     risk->add_option("-o,--output", output_, "the estimate (HDF5; default: the name of FILE with _risk.h5)");
-    add_force(*risk, options_);
-    add_set(*risk, options_);
-    add_common(*risk, options_);
+    add_all(*risk, options_);
     risk->callback([this] { status_ = risk_command(options_, risk_, output_); });
 }
 

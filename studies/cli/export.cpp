@@ -73,13 +73,13 @@ PictureKind picture_named(const std::string& name, const Results& results)
     all.insert(all.end(), {strip, order});
     if (const auto found = std::ranges::find(all, name, &PictureKind::name); found != all.end())
         return *found;
-    std::string names;
+    std::vector<std::string> names;
     for (const PictureKind& each : all)
-        names += (names.empty() ? "" : ", ") + std::string(each.name);
+        names.emplace_back(each.name);
     const std::vector<PictureKind> of_kinds = kind_pictures();
     const auto meant = std::ranges::find(of_kinds, name, &PictureKind::name);
     throw InputError(fmt::format("--picture {}: {} is a result of kind '{}', which has the pictures {}.{}", name,
-                                 results.file(), results.header().kind, names,
+                                 results.file(), results.header().kind, fmt::join(names, ", "),
                                  meant == of_kinds.end() ? "" : fmt::format("\n  That one is of {}.", meant->of)));
 }
 
@@ -108,13 +108,26 @@ PictureKind picture_of(const Results& results, const ExportOptions& wanted)
     return picture;
 }
 
+std::uint64_t realization_of(const Results& results, const ExportOptions& wanted)
+{
+    return wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+}
+
+/// The file that is asked for, or the one beside the results. @throws InputError if it is there and may not be replaced
+fs::path place_of(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
+                  const std::string& ending)
+{
+    const fs::path to = wanted.output.empty() ? beside(file, ending) : fs::path(wanted.output);
+    check_output(file, to, options.force);
+    return to;
+}
+
 fs::path export_picture(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                         const std::string& format)
 {
     const Results results(file, options.set);
     const PictureKind asked = picture_of(results, wanted);
-    const std::uint64_t realization =
-        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    const std::uint64_t realization = realization_of(results, wanted);
     const std::optional<LawBand> laws = law_band_beside(file, results.study(), results.header());
     Picture picture;
     if (asked.name == strip.name) {
@@ -134,9 +147,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
                                {asked.name, wanted.limit, wanted.frequencies, laws ? &*laws : nullptr});
     }
     // two pictures of one result differ in their names
-    const fs::path to =
-        wanted.output.empty() ? beside(file, "_" + picture.name + "." + format) : fs::path(wanted.output);
-    check_output(file, to, options.force);
+    const fs::path to = place_of(options, file, wanted, "_" + picture.name + "." + format);
     const std::string title = !wanted.title.empty()   ? wanted.title
                               : picture.title.empty() ? ""
                                                       : picture.title + ": " + results.title();
@@ -178,8 +189,7 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
         throw InputError("--to vtk: writes one realization through time; of the options of pictures only --realization "
                          "applies to it");
     const Results results(file, options.set);
-    const std::uint64_t index =
-        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
+    const std::uint64_t index = realization_of(results, wanted);
     const fs::path folder =
         wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
     check_not_input(file, folder);
@@ -248,11 +258,8 @@ std::optional<fs::path> export_motion(const CommonOptions& options, const std::s
         throw InputError(of_picture + ": does not apply to --to html, gif, mp4 or webm, which show one realization; "
                                       "--realization selects it");
     const Results results(file, options.set);
-    const std::uint64_t realization =
-        wanted.realization >= 0 ? static_cast<std::uint64_t>(wanted.realization) : results.header().first;
-    const fs::path to = wanted.output.empty() ? beside(file, fmt::format("_realization_{}.{}", realization, format))
-                                              : fs::path(wanted.output);
-    check_output(file, to, options.force);
+    const std::uint64_t realization = realization_of(results, wanted);
+    const fs::path to = place_of(options, file, wanted, fmt::format("_realization_{}.{}", realization, format));
     Console console(options.quiet);
     console.begin(); // from here on an interrupt leaves no file
     if (write_motion(results, options.isa(), realization, wanted.title, format, to, console))
@@ -282,8 +289,7 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
         return folder;
     }
     const std::string name = wanted.limit.empty() ? "." : "_" + wanted.limit + ".";
-    const fs::path to = wanted.output.empty() ? beside(file, name + format) : fs::path(wanted.output);
-    check_output(file, to, options.force);
+    const fs::path to = place_of(options, file, wanted, name + format);
     plot_risk(read_any_risk(file), wanted.limit, wanted.title, to);
     return to;
 }
@@ -311,9 +317,7 @@ fs::path export_comparison(const CommonOptions& options, const std::string& file
     const Comparison comparison = read_comparison(file);
     if (is_picture_format(format)) {
         const std::string limit = limit_of(comparison.variants.front(), wanted.limit).name;
-        const std::string to =
-            wanted.output.empty() ? beside(file, fmt::format("_{}.{}", limit, format)).string() : wanted.output;
-        check_output(file, to, options.force);
+        const fs::path to = place_of(options, file, wanted, fmt::format("_{}.{}", limit, format));
         comparison_picture(comparison, limit, wanted.title, to);
         return to;
     }
@@ -324,8 +328,7 @@ fs::path export_comparison(const CommonOptions& options, const std::string& file
     if (!wanted.limit.empty() || !wanted.title.empty())
         throw InputError(fmt::format("--{}: applies to --to png, svg or pdf; the table contains every limit state",
                                      wanted.limit.empty() ? "title" : "limit"));
-    const std::string to = wanted.output.empty() ? beside(file, ".csv").string() : wanted.output;
-    check_output(file, to, options.force);
+    const fs::path to = place_of(options, file, wanted, ".csv");
     write_whole(to, csv_text(comparison_rows(comparison)));
     return to;
 }

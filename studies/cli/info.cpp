@@ -361,8 +361,8 @@ void tell_record(const std::string& file, const RecognisedFile& known, Told& tol
     told.text += "To use it in a study: excitation.kind = \"record\" and excitation.file.\n";
 }
 
-} // namespace
-
+/// What a file is, what it holds, and what can be done with it; as JSON with --json.
+/// @throws InputError if there is no such file, if it is damaged, or if its content is wrong
 void print_file(const CommonOptions& options, const std::string& file, bool all)
 {
     const RecognisedFile known = recognise(file);
@@ -429,6 +429,8 @@ void print_file(const CommonOptions& options, const std::string& file, bool all)
     for (const FileUse& use : uses)
         fmt::print("{}: {}\n", use.command, use.purpose);
 }
+
+} // namespace
 
 int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi)
 {

@@ -143,9 +143,7 @@ private:
             ->check(CLI::IsMember({"png", "svg", "pdf"}));
         check->add_option("-o,--output", drawing_.output,
                           "the drawing (default: the study's name with _structure and the format, here)");
-        add_force(*check, options_);
-        add_set(*check, options_);
-        add_common(*check, options_);
+        add_all(*check, options_);
         check->callback([this] { status_ = check_command(options_, file_, check_, drawing_); });
     }
 
@@ -206,9 +204,7 @@ private:
         merge->add_option("SHARD", files_, "results files of `run --shard`, or of earlier merges")->required();
         merge->add_option("-o,--output", output_, "results file")->required();
         merge->add_flag("--partial", partial_, "accept missing realizations; `run` can continue the file");
-        add_force(*merge, options_);
-        add_set(*merge, options_);
-        add_common(*merge, options_);
+        add_all(*merge, options_);
         merge->callback([this] { status_ = merge_command(options_, files_, output_, partial_); });
     }
 
@@ -227,9 +223,7 @@ private:
         replay->add_option("--nth", choice_.nth,
                            "which of the selected ones, in the order of their indices, from 1 (default: 1)");
         replay->add_option("-o,--output", output_, "results file for the trajectory (default: not kept)");
-        add_force(*replay, options_);
-        add_set(*replay, options_);
-        add_common(*replay, options_);
+        add_all(*replay, options_);
         replay->callback([this] { status_ = replay_command(options_, file_, choice_, output_); });
     }
 
@@ -272,19 +266,11 @@ private:
                               "start study (default: the specimen, nominal friction, a bed of 2e9 N/m3; required for a "
                               "table of outcomes)");
         calibrate->add_option("-o,--output", output_, "results (HDF5); the calibrated study is written beside it");
-        calibrate
-            ->add_option(
-                "--fit", calibration_.fit,
-                "KEY or KEY=FROM:TO: an additional number of the study file to fit; may be given several times")
-            ->type_name("KEY")
-            ->take_all()
-            ->allow_extra_args(false);
-        calibrate
-            ->add_option("--hold", calibration_.hold,
-                         "KEY: a contact parameter to keep fixed; may be given several times")
-            ->type_name("KEY")
-            ->take_all()
-            ->allow_extra_args(false);
+        add_repeated(*calibrate, "--fit", calibration_.fit,
+                     "KEY or KEY=FROM:TO: an additional number of the study file to fit; may be given several times",
+                     "KEY");
+        add_repeated(*calibrate, "--hold", calibration_.hold,
+                     "KEY: a contact parameter to keep fixed; may be given several times", "KEY");
         const std::vector<std::string> forms = words_of(contact_form_names);
         std::vector<std::string> with_all = forms;
         with_all.emplace_back("all");
@@ -295,9 +281,7 @@ private:
         calibrate->add_flag("--outcomes", calibration_.outcomes,
                             "use the outcomes (fell or stood) even where histories are available");
         calibrate->add_flag("--no-held-out", keep_all_, "omit the cross-validation over motions");
-        add_force(*calibrate, options_);
-        add_set(*calibrate, options_);
-        add_common(*calibrate, options_);
+        add_all(*calibrate, options_);
         add_mpi(*calibrate);
         calibrate->callback([this] {
             calibration_.held_out = !keep_all_;
@@ -325,9 +309,7 @@ private:
         diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();
-        add_force(*diagnosing, options_);
-        add_set(*diagnosing, options_);
-        add_common(*diagnosing, options_);
+        add_all(*diagnosing, options_);
         add_mpi(*diagnosing);
         diagnosing->callback([this] {
             diagnosis_.nulls = static_cast<std::uint64_t>(nulls_);
@@ -372,9 +354,7 @@ private:
         exporting->add_option("-o,--output", export_.output,
                               "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of "
                               "the tables or of vtk");
-        add_force(*exporting, options_);
-        add_set(*exporting, options_);
-        add_common(*exporting, options_);
+        add_all(*exporting, options_);
         exporting->callback([this] { status_ = export_command(options_, file_, export_); });
     }
 
@@ -405,9 +385,7 @@ private:
                 "--animate-seconds", report_.animate_seconds,
                 fmt::format("seconds to spend on running realizations again (default: {:g})", usual_animation_seconds))
             ->check(CLI::Range(0.0, 1e6));
-        add_force(*report, options_);
-        add_set(*report, options_);
-        add_common(*report, options_);
+        add_all(*report, options_);
         report->callback([this] { status_ = report_command(options_, report_, output_); });
     }
 
