@@ -1,10 +1,13 @@
 #pragma once
 /// The seal of a results file: its first bytes, in front of the HDF5 part. It holds a checksum over every byte that
-/// does not change while rows are written, so that damage is found before the HDF5 library meets it.
+/// does not change while rows are written, so that damage is found before the HDF5 library meets it. And other HDF5
+/// files with a seal, for what is computed from results and is none itself.
 
 #include "io/files/file_handle.hpp"
+#include "io/tables/table.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,5 +40,28 @@ void write_open_seal(FileHandle& file, std::uint64_t block);
 /// @param name of the file, for messages
 /// @throws InputError if the file is none of ours, of another format version, truncated or damaged
 std::vector<Extent> check_seal(const FileHandle& file, const std::string& name);
+
+/// The format of a file of one kind that is written whole or not at all.
+struct SealedFormat {
+    const char* format;           ///< attribute of the root: "stylobate-comparison"
+    const char* kind;             ///< "comparison"
+    std::uint64_t version;        ///< that is written
+    std::uint64_t oldest_version; ///< that is read
+    const char* again;            ///< how to make it again: "make it anew"
+};
+
+/// Writes the attributes of the format and what the table holds; equal content gives equal bytes.
+/// @throws InputError if it cannot be written
+void write_sealed_file(const std::filesystem::path& file, const SealedFormat& format, const std::string& code_version,
+                       const Table& content);
+
+struct SealedContent {
+    Table content;         ///< its tables by name, in the order of their characters
+    std::uint64_t version; ///< of the file
+};
+
+/// Verifies the seal and the format.
+/// @throws InputError if the file is none of this format, of another version, truncated or damaged
+SealedContent read_sealed_file(const std::filesystem::path& file, const SealedFormat& format);
 
 } // namespace stylobate

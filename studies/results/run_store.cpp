@@ -1,6 +1,6 @@
 #include "studies/results/run_store.hpp"
 
-#include "io/store/tally_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <stdexcept>
 

@@ -3,7 +3,7 @@
 /// are changed without them: then nothing but rows that were written may come out.
 
 #include "io/store/result_file.hpp"
-#include "io/store/tally_store.hpp"
+#include "io/store/result_store.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/text_mutation.hpp"
 #include "tests/io/store/result_samples.hpp"

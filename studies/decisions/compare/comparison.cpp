@@ -1,6 +1,6 @@
 #include "studies/decisions/compare/comparison.hpp"
 
-#include "io/store/sealed_file.hpp"
+#include "io/store/result_seal.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>

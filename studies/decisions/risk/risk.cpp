@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_parts.hpp"
-#include "io/store/sealed_file.hpp"
+#include "io/store/result_seal.hpp"
 #include "io/tables/table.hpp"
 
 #include <fmt/format.h>

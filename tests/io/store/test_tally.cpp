@@ -3,7 +3,7 @@
 
 #include "tests/io/store/result_samples.hpp"
 
-#include "io/store/tally_store.hpp"
+#include "io/store/result_store.hpp"
 
 #include <algorithm>
 #include <csignal>

@@ -5,7 +5,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/store/result_seal.hpp"
-#include "io/store/tally_store.hpp"
+#include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "tests/studies/verify/results_made.hpp"

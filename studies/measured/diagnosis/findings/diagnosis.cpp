@@ -1,6 +1,6 @@
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 
-#include "io/store/sealed_file.hpp"
+#include "io/store/result_seal.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_fields.hpp"
 
 #include <algorithm>
