@@ -1,6 +1,5 @@
 /// Stylobate and general engines of rigid bodies, at equal error: `peers --help`.
 
-#include "bench/peers/collapse/collapse_table.hpp"
 #include "bench/peers/restitution.hpp"
 #include "bench/peers/table.hpp"
 #include "bench/processor.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 /// What was found, as a table for people (Markdown) and as JSON.
 
+#include "bench/peers/collapse/convergence.hpp"
 #include "bench/peers/contender.hpp"
 #include "studies/report/json.hpp"
 
@@ -28,5 +29,15 @@ std::string dial_key(const Contender& contender);
 Json json_of(const Columns& columns);
 /// Begins what a test found: what ran, and where.
 Json json_head(const std::string& processor);
+
+// What came out of the collapse probabilities, as tables for people (Markdown) and as JSON.
+
+/// The limits and how they compare with that of rigid blocks; cost at equal error against each scheme's own limit; and
+/// all errors.
+std::string collapse_markdown(const std::vector<CollapseScan>& scans, const std::vector<Cell>& cells,
+                              const std::string& processor);
+
+std::string collapse_json(const std::vector<CollapseScan>& scans, const std::vector<Cell>& cells,
+                          const std::string& processor);
 
 } // namespace stylobate::peers
