@@ -51,3 +51,39 @@ class Replay:
     def __repr__(self):
         return (f"<Replay: realization {self.outcome['index']}, {self.outcome['state']}, {len(self.time_s)} times x "
                 f"{len(self.blocks)} blocks>")
+
+
+def animation(replay, seconds, fps):
+    """`Result.animate`."""
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.collections import PolyCollection
+
+    time, corners = replay.time_s, replay.corners()
+    length = float(time[-1] - time[0]) if seconds is None else seconds
+    frames = np.linspace(time[0], time[-1], max(2, int(round(length * fps))))
+    samples = np.clip(np.searchsorted(time, frames, side="right") - 1, 0, len(time) - 1)
+    colours = ["#a89878" if fixed else "#9db4cc" if epistyle else "#e6dcc3"
+               for fixed, epistyle in zip(replay.fixed, replay.epistyle)]
+    figure = plt.figure()
+    ax = figure.subplots()
+    blocks = PolyCollection(list(corners[0]), facecolors=colours, edgecolors="#333333")
+    ax.add_collection(blocks)
+    ax.axhline(0, color="#555555")
+    low, high = corners.min(axis=(0, 1, 2)), corners.max(axis=(0, 1, 2))
+    margin = 0.05 * float((high - low).max())
+    ax.set_xlim(low[0] - margin, high[0] + margin)
+    ax.set_ylim(min(low[1], 0) - margin, high[1] + margin)
+    ax.set_aspect("equal")
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    title = ax.set_title("")
+
+    def draw(frame):
+        sample = samples[frame]
+        blocks.set_verts(list(corners[sample]))
+        title.set_text(f"{time[sample]:.2f} s")
+        return blocks, title
+
+    return FuncAnimation(figure, draw, frames=len(frames), interval=1000 / fps)

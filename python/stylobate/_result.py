@@ -2,9 +2,9 @@
 
 import os
 
-from . import _core, _pictures
+from . import _core
 from ._forward import forwarded
-from ._replay import Replay
+from ._replay import Replay, animation
 from ._study import Study, _settings, whole_number
 
 STATES = ("stood", "rocked", "slid", "collapsed", "invalid")
@@ -192,14 +192,40 @@ class Result:
 
     def plot(self, ax=None, limit_state="collapse"):
         """Draws a surface (probability over frequency and PGA) or fragility curves with Matplotlib; returns the axes."""
-        return _pictures.plot(self, ax, limit_state)
+        import matplotlib.pyplot as plt
+
+        kind = self.kind
+        if kind not in ("surface", "fragility"):
+            raise _core.InputError(f"plot: a result of kind '{kind}' has no surface and no fragility curves; "
+                                   "animate(index) draws a realization")
+        if ax is None:
+            ax = plt.figure().subplots()
+        if kind == "surface":
+            surface = self.surface(limit_state)
+            mesh = ax.pcolormesh(surface.frequency_hz, surface.pga_m_s2, surface.probability.T, vmin=0, vmax=1,
+                                 shading="nearest")
+            ax.figure.colorbar(mesh, ax=ax, label=f"probability of {limit_state}")
+            ax.set_xlabel("frequency [Hz]")
+            ax.set_ylabel("peak ground acceleration [m/s²]")
+            return ax
+        fragility = self.fragility()
+        for state in fragility.limit_state.values:
+            curve = fragility.sel(limit_state=state)
+            (line,) = ax.plot(curve.intensity, curve.probability, label=str(state))
+            ax.fill_between(curve.intensity, curve.probability_lower, curve.probability_upper, color=line.get_color(),
+                            alpha=0.2, linewidth=0)
+        ax.set_xlabel(f"{fragility.measure} [{fragility.intensity.units}]")
+        ax.set_ylabel("probability")
+        ax.set_ylim(0, 1)
+        ax.legend()
+        return ax
 
     def animate(self, index, seconds=None, fps=25):
         """A matplotlib.animation.FuncAnimation of realization `index`; `save("fall.gif", writer="pillow")` writes it.
 
         seconds: length of the animation; None: as long as the shaking, in real time.
         """
-        return _pictures.animate(self.replay(index), seconds, fps)
+        return animation(self.replay(index), seconds, fps)
 
     def __repr__(self):
         where = "in memory" if self._path is None else self._path
