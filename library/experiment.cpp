@@ -1,4 +1,5 @@
 #include "ensemble/experiment.hpp"
+#include "io/files/toml_document.hpp"
 #include "io/keys/words.hpp"
 #include "io/records/ground_motion.hpp"
 #include "io/study/study_file.hpp"
@@ -12,29 +13,17 @@ namespace stylobate::api {
 
 namespace {
 
-/// TOML's text of a string.
-std::string quoted(const std::string& text)
-{
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            out += '\\';
-        out += c;
-    }
-    return out + '"';
-}
-
 /// The study under a record instead of its own excitation; what it says of a record's scale, correction and tail stays.
 /// @param samples of whose baseline nothing is to be corrected
 inner::Study under_record(const inner::Study& study, const inner::Record& record, bool samples)
 {
     const inner::ExcitationSpec& e = study.excitation;
     const bool had_record = e.kind == inner::ExcitationKind::record;
-    std::string table = fmt::format("kind = \"record\", file = {}", quoted(record.file));
+    std::string table = fmt::format("kind = \"record\", file = {}", inner::toml_quoted(record.file));
     if (!samples && !record.component.empty())
-        table += fmt::format(", component = {}", quoted(record.component));
+        table += fmt::format(", component = {}", inner::toml_quoted(record.component));
     if (!samples && record.unit != "g/10") // which only a file can say
-        table += fmt::format(", unit = {}", quoted(record.unit));
+        table += fmt::format(", unit = {}", inner::toml_quoted(record.unit));
     if (samples || (had_record && !e.baseline))
         table += ", baseline = false";
     else if (had_record && e.band_pass)

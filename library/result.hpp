@@ -3,8 +3,7 @@
 
 #include "ensemble/numerics/run_order.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/fragility_table.hpp"
-#include "io/tables/rare_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "library/inside.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/surface/surface.hpp"

@@ -1,6 +1,6 @@
 #include "ensemble/motion/distortion.hpp"
 
-#include "ensemble/numerics/fourier.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,9 @@
 #include "kernels/trig.hpp"
 
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
 
 namespace stylobate {
 
@@ -157,5 +160,15 @@ inline DoublePair log_pair(double x)
     const DoublePair e = DoublePair(x) * exp_of(DoublePair(-y)) - DoublePair(1);
     return DoublePair(y) + e - e * e / 2;
 }
+
+// The fast Fourier transform, with the same bits on every machine (Cooley & Tukey, "An algorithm for the machine
+// calculation of complex Fourier series", Mathematics of Computation 19 (1965) 297).
+
+/// Discrete Fourier transform in place, decimation in time: Z_k = sum of z_j exp(-2 pi i j k / n).
+/// @pre the size is a power of two
+void transform(std::vector<std::complex<double>>& z);
+
+/// The least power of two that is not below n, and at least 2.
+std::size_t power_of_two_from(std::size_t n);
 
 } // namespace stylobate

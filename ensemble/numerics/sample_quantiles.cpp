@@ -51,7 +51,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-Estimated mean_of(const std::vector<double>& values)
+Estimated estimated_mean(const std::vector<double>& values)
 {
     Estimated mean{0, nan, -infinity, infinity};
     double sum = 0;
@@ -76,7 +76,7 @@ Estimated mean_of(const std::vector<double>& values)
     return mean;
 }
 
-Estimated median_of(std::vector<double> values)
+Estimated estimated_median(std::vector<double> values)
 {
     Estimated median{values.size(), nan, -infinity, infinity};
     if (values.empty())

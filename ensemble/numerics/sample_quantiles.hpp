@@ -38,13 +38,13 @@ struct Estimated {
 
 /// Student's interval, 95 % (Student, "The probable error of a mean", Biometrika 6 (1908) 1); NaN are left out. Below
 /// two values the interval is unbounded.
-Estimated mean_of(const std::vector<double>& values);
+Estimated estimated_mean(const std::vector<double>& values);
 
 /// The interval between two order statistics that contains the median with at least 95 %, whatever the distribution
 /// (David & Nagaraja, "Order Statistics" (2003), section 7.1); below six values it is unbounded. Infinite values (the
 /// time of an event that did not occur) are the greatest, and nothing else is assumed of them: the median is infinite
 /// where more than half of the values are.
-Estimated median_of(std::vector<double> values);
+Estimated estimated_median(std::vector<double> values);
 
 // The least-squares slope of points that are added one by one (updating sums of products of deviations: Welford, "Note
 // on a method for calculating corrected sums of squares and products", Technometrics 4 (1962) 419).

@@ -1,6 +1,5 @@
 #include "io/keys/study_tables.hpp"
 
-#include "io/keys/compare_keys.hpp"
 #include "io/keys/contact_keys.hpp"
 #include "io/keys/excitation_keys.hpp"
 #include "io/keys/kind_keys.hpp"
@@ -8,7 +7,6 @@
 #include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
-#include "io/keys/survival_keys.hpp"
 
 namespace stylobate {
 

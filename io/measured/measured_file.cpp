@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/csv_fields.hpp"
 #include "io/files/suggest.hpp"
+#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "io/records/record_parser.hpp"
 #include "io/store/result_seal.hpp"

@@ -75,11 +75,6 @@ void check_shapes(Campaign& campaign);
 /// between what does not touch, a block without a joint. @throws InputError
 void check_specimen(const Campaign& campaign);
 
-/// All checks: the specimen, then run by run clocks, units, missing values, noise, saturation, offsets, rest places and
-/// collapses, then repeats against each other. Adds to the findings of a campaign. @pre its shapes are right
-/// @throws InputError for what cannot be used
-void check_campaign(Campaign& campaign);
-
 Campaign read_measured_hdf5(const std::filesystem::path& file);
 /// Reads a file in this process: where the HDF5 library breaks on it, the program ends.
 Campaign read_measured_hdf5_here(const std::filesystem::path& file);

@@ -4,9 +4,9 @@
 #include "ensemble/numerics/kalman_smoother.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/suggest.hpp"
+#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_layout.hpp"
-#include "io/measured/measured_noise.hpp"
 #include "io/records/ground_motion.hpp"
 #include "io/records/record_parser.hpp"
 

@@ -1,8 +1,7 @@
 #pragma once
 /// A picture of shares with their intervals over an intensity, several series beside each other.
 
-#include "io/tables/rare_table.hpp"
-#include "io/tables/sensitivity_table.hpp"
+#include "io/tables/kind_tables.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include "io/records/ground_motion.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/fourier.hpp"
+#include "ensemble/numerics/elementary.hpp"
 
 #include <fmt/format.h>
 

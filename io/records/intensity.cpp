@@ -1,6 +1,6 @@
 /// Intensity measures of a record: peaks, Arias intensity, Fourier amplitude, response spectrum.
 
-#include "ensemble/numerics/fourier.hpp"
+#include "ensemble/numerics/elementary.hpp"
 #include "io/records/ground_motion.hpp"
 
 #include <algorithm>

@@ -30,7 +30,7 @@ struct Record {
     std::string station;   ///< as given in the file: a name, a code or a number; empty if absent
     std::string orientation; ///< as given in the file: "N10W", "360", "UP", "HNE"; empty if absent
     /// By the words that agencies use in the header, the name of the column, the title or the name of the file
-    /// (io/records/record_direction.cpp). A vertical component is no horizontal base motion.
+    /// (io/records/record_names.cpp). A vertical component is no horizontal base motion.
     Direction direction = Direction::unknown;
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;

@@ -14,7 +14,6 @@
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
 #include "io/keys/study_tables.hpp"
-#include "io/keys/survival_keys.hpp"
 #include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>

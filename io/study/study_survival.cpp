@@ -1,7 +1,7 @@
 #include "ensemble/estimators/past/agreeing_states.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "io/hazard/hazard_file.hpp"
-#include "io/keys/survival_keys.hpp"
+#include "io/keys/kind_keys.hpp"
 #include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>

@@ -8,7 +8,6 @@
 #include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
 #include "io/keys/structure_keys.hpp"
-#include "io/keys/survival_keys.hpp"
 #include "io/study/study_file.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
-#include "io/keys/compare_keys.hpp"
+#include "io/keys/kind_keys.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "ensemble/statics/scales.hpp"
 #include "ensemble/statics/step_bound.hpp"
 #include "io/files/suggest.hpp"
-#include "io/study/study_accuracy.hpp"
+#include "io/study/study_parts.hpp"
 #include "studies/check/study_trial.hpp"
 #include "studies/experiment/motions.hpp"
 

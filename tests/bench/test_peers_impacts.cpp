@@ -1,10 +1,10 @@
 /// The comparison with other engines: restitution over the phase of an impact, and collapse probabilities.
 
-#include "bench/peers/collapse/collapse_table.hpp"
 #include "bench/peers/collapse/convergence.hpp"
 #include "bench/peers/column.hpp"
 #include "bench/peers/restitution.hpp"
 #include "bench/peers/rocking.hpp"
+#include "bench/peers/table.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>

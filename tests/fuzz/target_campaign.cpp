@@ -1,6 +1,7 @@
 /// Measured campaigns. An input that begins with `h` is a recipe of changes of an HDF5 file; any other is a folder of
 /// CSV files: lines `@NAME`, each with the content of that file behind it.
 
+#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"

@@ -81,7 +81,7 @@ TEST(Rules, FindWordsOfPlanarBlocks)
     EXPECT_TRUE(has_planar_word("t[\"theta_rad\"]"));
     EXPECT_TRUE(has_planar_word("block.half_width_m"));
     EXPECT_FALSE(has_planar_word("adaptive.half_width = 0.05"));
-    EXPECT_EQ(planar_place_of("io/measured/base_table.cpp"), "io/measured/");
-    EXPECT_EQ(planar_place_of("io/store/export_vtk.cpp"), "");
+    EXPECT_EQ(planar_place_of("io/measured/measured_motion.cpp"), "io/measured/");
+    EXPECT_EQ(planar_place_of("io/store/export.cpp"), "");
     EXPECT_EQ(planar_place_of("library/trajectory.hpp.orig"), "");
 }

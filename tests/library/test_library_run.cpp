@@ -5,7 +5,7 @@
 #include "tests/program/program.hpp"
 
 #include "io/study/study_file.hpp"
-#include "io/tables/fragility_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "studies/kinds/surface/surface_kind.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/fragility_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>

@@ -5,7 +5,7 @@
 
 #include "ensemble/numerics/interval.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/rare_table.hpp"
+#include "io/tables/kind_tables.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "ensemble/sampling/sampler.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "io/tables/sensitivity_table.hpp"
+#include "io/tables/kind_tables.hpp"
 
 #include <cmath>
 #include <set>

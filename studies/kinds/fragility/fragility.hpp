@@ -8,7 +8,7 @@
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/fragility_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "studies/kinds/fragility/damage.hpp"
 
 #include <cstdint>

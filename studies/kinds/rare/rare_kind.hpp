@@ -7,7 +7,7 @@
 /// follow. Which point comes next depends on the outcomes before, and these on nothing but (study, seed): so does the
 /// whole.
 
-#include "io/tables/rare_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "studies/kinds/kind.hpp"
 
 #include <string>

@@ -66,7 +66,7 @@ void count_discordant(const Study& study, const std::vector<ReplicaRow>& rows, R
 
 double median(std::vector<double> values)
 {
-    return median_of(std::move(values)).value;
+    return estimated_median(std::move(values)).value;
 }
 
 ReplicaGrowth growth_of(const Study& study, std::size_t kind, const std::vector<ReplicaSeparation>& pairs)
@@ -94,11 +94,11 @@ ReplicaGrowth growth_of(const Study& study, std::size_t kind, const std::vector<
         }
     growth.start = median(starts);
     for (std::size_t cell = 0; cell < cells; ++cell) {
-        growth.exponent_per_s.push_back(mean_of(exponents[cell]));
-        growth.horizon_s.push_back(median_of(horizons[cell]));
+        growth.exponent_per_s.push_back(estimated_mean(exponents[cell]));
+        growth.horizon_s.push_back(estimated_median(horizons[cell]));
     }
-    growth.all_exponents_per_s = median_of(all_exponents);
-    growth.all_horizons_s = median_of(all_horizons);
+    growth.all_exponents_per_s = estimated_median(all_exponents);
+    growth.all_horizons_s = estimated_median(all_horizons);
     return growth;
 }
 
@@ -115,7 +115,7 @@ void add_gain(const std::vector<Replica>& kinds, std::size_t next, const std::ve
         if (pair.kind == growth.kind)
             if (const auto found = of_next.find(pair.original); found != of_next.end())
                 gains.push_back(pair.horizon_s - found->second); // NaN unless both came apart
-    growth.gained_s = mean_of(gains);
+    growth.gained_s = estimated_mean(gains);
     growth.gained_exponent_per_s = std::log(kinds[next].size / kinds[growth.kind].size) / growth.gained_s.value;
 }
 

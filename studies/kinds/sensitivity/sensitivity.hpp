@@ -13,7 +13,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "io/tables/sensitivity_table.hpp"
+#include "io/tables/kind_tables.hpp"
 #include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"

@@ -4,7 +4,7 @@
 #include "ensemble/experiment.hpp"
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/distortion.hpp"
-#include "ensemble/numerics/fourier.hpp"
+#include "ensemble/numerics/elementary.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>

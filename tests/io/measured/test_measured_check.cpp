@@ -1,5 +1,6 @@
 /// Every check of measured data fires on what it is for, and not on good data.
 
+#include "io/measured/measured_check.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "tests/io/measured/measured_samples.hpp"

@@ -1,6 +1,6 @@
 /// How long nothing moves, and means of what was seen: against samples made by hand.
 
-#include "io/measured/measured_noise.hpp"
+#include "io/measured/measured_check.hpp"
 
 #include <gtest/gtest.h>
 

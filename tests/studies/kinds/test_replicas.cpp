@@ -276,7 +276,7 @@ TEST(Replicas, WhereItIsChaoticTheHorizonGrowsWithTheLogarithmOfTheMove)
             exponents.push_back(pair.exponent_per_s);
         before[pair.original] = pair.horizon_s;
     }
-    const Estimated gain = mean_of(gains), exponent = mean_of(exponents);
+    const Estimated gain = estimated_mean(gains), exponent = estimated_mean(exponents);
     ASSERT_GT(gain.count, 20U);
     EXPECT_GT(gain.lower, 0) << "the smaller the move, the longer it can be foretold";
     EXPECT_GT(exponent.lower, 1) << "1/s";
@@ -483,21 +483,21 @@ TEST(Discordance, WhereNoPairIsDiscordantTheRatioHasAnUpperLimit)
 TEST(Growth, MeansAndMedians)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-    const Estimated mean = mean_of({1, nan, 2, 3});
+    const Estimated mean = estimated_mean({1, nan, 2, 3});
     EXPECT_EQ(mean.count, 3U);
     EXPECT_DOUBLE_EQ(mean.value, 2);
     EXPECT_NEAR(mean.upper - 2, 4.302653 / std::sqrt(3.0), 1e-5); // Student's quantile of two degrees of freedom
-    EXPECT_EQ(mean_of({4}).lower, -infinity);
-    EXPECT_TRUE(std::isnan(mean_of({nan}).value));
+    EXPECT_EQ(estimated_mean({4}).lower, -infinity);
+    EXPECT_TRUE(std::isnan(estimated_mean({nan}).value));
     // nine values: the second and the eighth hold the median in 1 - 2 (1 + 9) / 512 = 96 %, the third and the seventh
     // in 82 %
-    const Estimated median = median_of({9, 1, 2, 8, 3, 7, infinity, 5, 6});
+    const Estimated median = estimated_median({9, 1, 2, 8, 3, 7, infinity, 5, 6});
     EXPECT_EQ(median.value, 6);
     EXPECT_EQ(median.lower, 2);
     EXPECT_EQ(median.upper, 9);
-    EXPECT_EQ(median_of({1, infinity, infinity}).value, infinity);
-    EXPECT_EQ(median_of({1, 2}).value, 1.5);
-    EXPECT_TRUE(std::isnan(median_of({}).value));
+    EXPECT_EQ(estimated_median({1, infinity, infinity}).value, infinity);
+    EXPECT_EQ(estimated_median({1, 2}).value, 1.5);
+    EXPECT_TRUE(std::isnan(estimated_median({}).value));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 /// What lies askew before the shaking: wedges and offsets of drums.
 
 #include "ensemble/numerics/interval.hpp"
-#include "io/measured/measured_noise.hpp"
+#include "io/measured/measured_check.hpp"
 #include "studies/measured/diagnosis/direct/direct_tests.hpp"
 
 #include <fmt/format.h>

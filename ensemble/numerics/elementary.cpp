@@ -1,5 +1,3 @@
-#include "ensemble/numerics/fourier.hpp"
-
 #include "ensemble/numerics/elementary.hpp"
 
 #include <utility>

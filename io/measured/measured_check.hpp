@@ -1,5 +1,6 @@
 #pragma once
-/// Estimates from the samples alone: their noise, how long nothing moves, and where the blocks are meanwhile.
+/// Checks of measured data, and the estimates from samples alone that they need: noise, how long nothing moves, and
+/// where the blocks are meanwhile.
 
 #include "ensemble/model/campaign.hpp"
 
@@ -8,6 +9,11 @@
 #include <vector>
 
 namespace stylobate {
+
+/// All checks: the specimen, then run by run clocks, units, missing values, noise, saturation, offsets, rest places and
+/// collapses, then repeats against each other. Adds to the findings of a campaign. @pre its shapes are right
+/// @throws InputError for what cannot be used
+void check_campaign(Campaign& campaign);
 
 /// Standard deviation of white noise upon a signal that is smooth from sample to sample: the p-th difference of noise
 /// has the deviation sqrt((2p)! / (p!)2) sd, while that of the signal goes down with p. The smallest of p = 1 ... 8, by
