@@ -6,7 +6,7 @@
 #include "io/tables/kind_tables.hpp"
 #include "library/inside.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/kinds/surface/surface.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
 #include "stylobate/result.hpp"
 
 #include <cstdint>

@@ -86,7 +86,10 @@ public:
     /// Why the realizations cannot be shared out to several processes while they run; empty: they can.
     virtual std::string why_no_ranks() const { return {}; }
     /// How many realizations a shard has.
-    virtual std::uint64_t size_of(const Shard& shard) const { return RunOrder(study_.total()).places(shard).size(); }
+    virtual std::uint64_t size_of(const Shard& shard) const
+    {
+        return static_cast<std::uint64_t>(study_.events()) * RunOrder(study_.originals()).places(shard).size();
+    }
     /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
     virtual std::string needs_processor() const { return {}; }
     /// Looks at the study before its run. @param file of the study, for messages

@@ -433,7 +433,7 @@ TEST(Rules, FindBreaches)
     EXPECT_NE(breach("kernels/planar/step.hpp", "Eigen/Dense"), "");
     EXPECT_NE(breach("kernels/planar/step.hpp", "fstream"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "io/study/study_file.hpp"), "");
-    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface.hpp"), "");
+    EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "studies/kinds/surface/surface_kind.hpp"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "hdf5.h"), "");
     EXPECT_NE(breach("ensemble/sampling/sampler.cpp", "ensemble/run/executor.hpp"), "");
     EXPECT_NE(breach("ensemble/unheard_of/noun.cpp", "ensemble/model/study.hpp"), "");

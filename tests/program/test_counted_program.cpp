@@ -6,7 +6,7 @@
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/kinds/surface/surface.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
 
 #include <random>
 #include <sstream>

@@ -3,7 +3,6 @@
 #include "ensemble/estimators/fragility/stripe_shares.hpp"
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/estimators/paired/paired_tests.hpp"
-#include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "studies/kinds/fragility/damage.hpp"
 
@@ -11,22 +10,11 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace stylobate {
 
 namespace {
-
-/// When the shaking of a sequence that a damage state belongs to is over, and the next one begins.
-double until_s(const Study& study, const ResultHeader& header, std::uint64_t motion, int shaking)
-{
-    const auto shakings = static_cast<std::size_t>(study.design().motions->shakings);
-    if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
-        return std::numeric_limits<double>::infinity();
-    return header.motions.shaking_end_s.at(motion * shakings + static_cast<std::size_t>(shaking) - 1) +
-           shaking_pause_s(study);
-}
 
 std::vector<LimitDefinition> damage_definitions(const Study& study, const ResultHeader& header)
 {
@@ -36,7 +24,8 @@ std::vector<LimitDefinition> damage_definitions(const Study& study, const Result
     for (const DamageState& state : damage_states(study))
         all.push_back(
             {state.name, state.describe, true, [&study, &header, state, width, stripes](const ResultRow& row) {
-                 return reached(state, row.outcome, width, until_s(study, header, row.cell / stripes, state.shaking));
+                 return reached(state, row.outcome, width,
+                                next_shaking_s(study, header.motions, row.cell / stripes, state.shaking));
              }});
     std::stable_partition(all.begin(), all.end(), [](const LimitDefinition& one) { return one.name == "collapse"; });
     return all;

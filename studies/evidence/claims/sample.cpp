@@ -11,7 +11,7 @@
 #include "studies/experiment/contact_laws.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
-#include "studies/kinds/surface/surface.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #include "studies/kinds/fragility/damage.hpp"
 
+#include "ensemble/model/nominal.hpp"
+
 #include <fmt/format.h>
 
 namespace stylobate {
@@ -28,6 +30,14 @@ std::vector<DamageState> damage_states(const Study& study)
 double base_width_m(const StructureSpec& structure)
 {
     return structure.columns.front().drums.front().width_m;
+}
+
+double next_shaking_s(const Study& study, const MotionTable& motions, std::size_t motion, int shaking)
+{
+    const auto shakings = static_cast<std::size_t>(study.fragility->shakings);
+    if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
+        return std::numeric_limits<double>::infinity();
+    return motions.shaking_end_s.at(motion * shakings + static_cast<std::size_t>(shaking) - 1) + shaking_pause_s(study);
 }
 
 std::optional<bool> reached(const DamageState& state, const Outcome& outcome, double base_width_m, double until_s)

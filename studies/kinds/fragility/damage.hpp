@@ -14,6 +14,7 @@
 
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
+#include "io/store/result_store.hpp"
 
 #include <limits>
 #include <optional>
@@ -36,6 +37,10 @@ std::vector<DamageState> damage_states(const Study& study);
 
 /// Of the lowest block, by which peak displacements are measured [m].
 double base_width_m(const StructureSpec& structure);
+
+/// When the shaking of a sequence that a damage state belongs to is over, and the next one begins; infinite after the
+/// last one.
+double next_shaking_s(const Study& study, const MotionTable& motions, std::size_t motion, int shaking);
 
 /// Whether a valid realization reached it; nothing: it stands, and still moved at the end, so that its residual is not
 /// known.

@@ -3,7 +3,6 @@
 #include "ensemble/estimators/fragility/curve_target.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/motion_set.hpp"
-#include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "studies/experiment/motions.hpp"
@@ -95,14 +94,9 @@ private:
     /// (valid realizations) Whether each reached a limit state; nothing: not known.
     using Reached = std::vector<std::optional<bool>>;
 
-    /// When the next shaking after this one begins; infinite after the last.
     double until_s(std::size_t motion, int shaking) const
     {
-        const auto shakings = static_cast<std::size_t>(study_.fragility->shakings);
-        if (shaking == 0 || static_cast<std::size_t>(shaking) == shakings)
-            return INFINITY;
-        return header_.motions.shaking_end_s[motion * shakings + static_cast<std::size_t>(shaking) - 1] +
-               shaking_pause_s(study_);
+        return next_shaking_s(study_, header_.motions, motion, shaking);
     }
 
     void sequence()

@@ -7,9 +7,13 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
+#include "studies/report/html.hpp"
+#include "studies/report/json.hpp"
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -68,5 +72,23 @@ Replicas replicas_of(const Study& study, const ResultHeader& header, std::vector
 
 /// "moved by 1e-09 m", "step x 0.8", "single precision", "form two_corner"
 std::string describe(const Replica& kind);
+
+/// Lines for a terminal.
+std::string replicas_text(const Replicas& replicas);
+Json replicas_json(const Replicas& replicas);
+
+/// The section of a result's page. @param verdicts, growth put these pictures into the page
+void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
+                      const std::function<void()>& growth);
+
+/// `replicas.csv`: each cell and kind.
+std::string replicas_csv(const Replicas& replicas);
+/// `predictability.csv`: each cell and followed move.
+std::string predictability_csv(const Replicas& replicas);
+
+/// Predictability of the verdict, a map for each kind of replica.
+void plot_discordance(const Replicas& replicas, const std::string& title, const std::filesystem::path& png);
+/// Exponents and horizons. @throws InputError if no pair was followed
+void plot_growth(const Replicas& replicas, const std::string& title, const std::filesystem::path& png);
 
 } // namespace stylobate

@@ -2,7 +2,6 @@
 
 #include "ensemble/replicas/replicas.hpp"
 #include "io/tables/rows.hpp"
-#include "studies/kinds/replicas/replicas_text.hpp"
 
 #include <numeric>
 

@@ -1,6 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "studies/kinds/replicas/replicas_text.hpp"
+#include "studies/kinds/replicas/replicas.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "studies/kinds/replicas/replicas_text.hpp"
+#include "studies/kinds/replicas/replicas.hpp"
 
 #include "io/tables/table.hpp"
 

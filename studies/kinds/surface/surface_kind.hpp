@@ -2,9 +2,29 @@
 /// A surface: realizations in every cell of frequency by PGA, as rows or as counts.
 
 #include "studies/kinds/kind.hpp"
-#include "studies/kinds/surface/surface.hpp"
+
+#include <vector>
 
 namespace stylobate {
+
+/// Counts realizations cell by cell; those that are invalid are no trials.
+class SurfaceCounts {
+public:
+    SurfaceCounts(std::vector<double> frequency_hz, std::vector<double> pga_m_s2,
+                  LimitState limit = LimitState::collapse);
+    /// Of what has been counted; its probabilities are computed anew.
+    explicit SurfaceCounts(const SurfaceTable& counted);
+    void add(const ResultRow& row);
+    /// Probability and Jeffreys interval of every cell.
+    SurfaceTable table() const;
+
+private:
+    SurfaceTable table_;
+    LimitState limit_ = LimitState::collapse;
+};
+
+/// The surface of a study that keeps counts and no rows.
+SurfaceTable surface_of(const ResultHeader& header, const Tally& tally, LimitState limit);
 
 class SurfaceKind : public Kind {
 public:

@@ -9,11 +9,6 @@
 
 namespace stylobate {
 
-std::uint64_t SurvivalKind::size_of(const Shard& shard) const
-{
-    return static_cast<std::uint64_t>(study_.events()) * RunOrder(study_.originals()).places(shard).size();
-}
-
 bool SurvivalKind::plan(Rounds& rounds)
 {
     rounds.progress.total = size_of(rounds.shard);

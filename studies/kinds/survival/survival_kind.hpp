@@ -12,7 +12,6 @@ public:
     SurvivalKind(const Study& study, const ResultHeader& header) : SurfaceKind(study, header), rows_(study, header) {}
 
     static bool fits(const Study& study) { return study.survival.has_value(); }
-    std::uint64_t size_of(const Shard& shard) const override;
     /// One number of events after the other.
     bool plan(Rounds& rounds) override;
     void conclude() override { survival_ = survival_of(study_, rows_); }

@@ -2,7 +2,7 @@
 
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
-#include "studies/kinds/surface/surface.hpp"
+#include "studies/kinds/surface/surface_kind.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/workflow/console.hpp"
 #include "tests/program/program.hpp"
