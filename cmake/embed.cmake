@@ -14,7 +14,7 @@ endfunction()
 string(REPLACE "|" ";" scripts "${SCRIPTS}")
 literal_of(style ${STYLE})
 literal_of(script ${scripts})
-file(WRITE ${OUTPUT} "#include \"studies/report/page_assets.hpp\"
+file(WRITE ${OUTPUT} "#include \"studies/report/html.hpp\"
 
 std::string_view stylobate::page_style()
 {

@@ -1,7 +1,6 @@
 #include "io/files/atomic_file.hpp"
 #include "library/inside.hpp"
 #include "studies/decisions/compare/comparison.hpp"
-#include "studies/decisions/compare/comparison_page.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/workflow/compare.hpp"
 #include "studies/workflow/file_kind.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 /// The verbs of the command line and the options that they share.
 
+#include "ensemble/run/executor.hpp"
 #include "studies/results/results.hpp"
 #include "studies/workflow/calibrate.hpp"
 #include "studies/workflow/check.hpp"
@@ -11,7 +12,6 @@
 #include "studies/workflow/risk.hpp"
 #include "studies/workflow/run.hpp"
 
-#include "ensemble/run/executor.hpp"
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -145,5 +145,26 @@ int schema_command(bool markdown);
 /// @param study to begin from; empty: by the specimen   @param output results; empty: by the name of the measured file
 int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::string& study,
                       const std::string& output);
+
+/// The verbs that answer an engineer's questions, with their options: compare, risk, past.
+class DecisionVerbs {
+public:
+    /// @param app, options, status of the command line; must outlive it
+    DecisionVerbs(CLI::App& app, CommonOptions& options, int& status) : app_(app), options_(options), status_(status) {}
+
+    void add_compare();
+    void add_past();
+    void add_risk();
+
+private:
+    CLI::App& app_;
+    CommonOptions& options_;
+    int& status_;
+    ComparisonRequest compare_;
+    RiskRequest risk_;
+    bool search_ = false;
+    std::string output_;
+    std::vector<std::string> files_;
+};
 
 } // namespace stylobate

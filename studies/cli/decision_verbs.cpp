@@ -1,4 +1,4 @@
-#include "studies/cli/decision_verbs.hpp"
+#include "studies/cli/command.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"

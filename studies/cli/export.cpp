@@ -7,7 +7,6 @@
 #include "io/tables/table.hpp"
 #include "studies/cli/command.hpp"
 #include "studies/decisions/compare/comparison.hpp"
-#include "studies/decisions/compare/comparison_page.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/compare/law_runs.hpp"
 #include "studies/results/kinds.hpp"

@@ -3,7 +3,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/words.hpp"
 #include "studies/cli/command.hpp"
-#include "studies/cli/decision_verbs.hpp"
 #include "studies/cluster/mpi_ranks.hpp"
 #include "studies/cluster/together.hpp"
 #include "studies/experiment/limit_state.hpp"

@@ -4,7 +4,6 @@
 #include "io/keys/words.hpp"
 #include "studies/cli/command.hpp"
 #include "studies/reference/study_reference.hpp"
-#include "studies/reference/study_template.hpp"
 #include "studies/workflow/output_path.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,11 @@
 #pragma once
-/// What is written from the descriptions of the keys (`io/keys/`): the reference page of the study file, and a JSON
-/// Schema of it, by which editors complete and check TOML.
+/// What is written from the descriptions of the keys (`io/keys/`): the reference page of the study file, a JSON Schema
+/// of it, by which editors complete and check TOML, and commented studies to begin with.
 
+#include "ensemble/model/study.hpp"
 #include "io/files/toml_key.hpp"
 
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -21,5 +23,19 @@ std::string study_reference();
 /// missing keys, and keys that the kinds of the study, the structure, the excitation and the method do not use;
 /// relations between values are the reader's alone.
 std::string study_schema();
+
+struct TemplateChoice {
+    StudyKind study = StudyKind::surface;
+    StructureKind structure = StructureKind::column;
+    std::optional<ExcitationKind> excitation = {}; ///< none: the usual one of the kind (`usual_excitation`)
+};
+
+/// "harmonic", and of a fragility study "noise".
+ExcitationKind usual_excitation(StudyKind study);
+
+/// A study file of this kind: what is needed with values to begin with, and every other key that it can use as a
+/// comment with its default and meaning. It runs as it stands, but for the files that it names.
+/// @throws InputError if the kinds do not go together: the message names them
+std::string study_template(const TemplateChoice& choice);
 
 } // namespace stylobate

@@ -1,9 +1,8 @@
-#include "studies/reference/study_template.hpp"
+#include "studies/reference/study_reference.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/study_tables.hpp"
 #include "io/keys/words.hpp"
-#include "studies/reference/study_reference.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/utf8.hpp"
-#include "studies/report/page_assets.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "studies/decisions/compare/comparison_page.hpp"
+#include "studies/decisions/compare/comparison_text.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -6,7 +6,6 @@
 #include "io/plots/plot_maps.hpp"
 #include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"

@@ -1,11 +1,13 @@
 #pragma once
-/// A comparison as lines for a terminal, as JSON and as a table of all its places; and what it comes to, for a reader
-/// who decides about a monument: the answer in a sentence, what it depends on, and what would change it.
+/// A comparison as lines for a terminal, as JSON, as a table of all its places, as a page and as pictures; and what it
+/// comes to, for a reader who decides about a monument: the answer, what it depends on, and what would change it.
 
 #include "io/tables/table.hpp"
 #include "studies/decisions/compare/comparison.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -52,5 +54,25 @@ std::vector<std::string> dependence_texts(const Comparison& comparison, const Va
 /// What would change the answer: the other sign, or no difference shown, in a third of a quantity; cells in which it
 /// harms though it helps over all, or the other way round; what more pairs would decide. At least one sentence.
 std::vector<std::string> what_would_change_it(const Comparison& comparison, const VariantComparison& variant);
+
+/// For a reader who decides: the answer in a sentence with its interval, the structure, what the answer depends on and
+/// what would change it; then what changes, where it harms, what is common, the studies and the commands. Where the map
+/// cannot be drawn the page has a message.
+/// @param file for names   @param title empty: by the base
+/// @param warnings receives a line for a picture that could not be drawn
+HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::string& title,
+                         std::vector<std::string>& warnings);
+
+/// Of a surface: maps of the difference, one for each variant, with the cells that are named worse or better in full
+/// colours, and the lines of the base's probability. Of a fragility study: the shares of base and variants by stripe.
+/// @param limit name of the limit state; empty: the first one
+/// @param title empty: by the comparison
+/// @throws InputError if there is no such limit state, if there is nothing to draw (one cell), and as the plots do
+void comparison_picture(const Comparison& comparison, const std::string& limit, const std::string& title,
+                        const std::filesystem::path& file);
+
+/// The limit state of that name in each variant. @param limit empty: the first one
+/// @throws InputError with those that there are
+const LimitComparison& limit_of(const VariantComparison& variant, const std::string& limit);
 
 } // namespace stylobate

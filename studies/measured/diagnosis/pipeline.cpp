@@ -7,7 +7,6 @@
 #include "studies/measured/diagnosis/prediction.hpp"
 #include "studies/measured/diagnosis/presentation.hpp"
 #include "studies/measured/diagnosis/window_evidence.hpp"
-#include "studies/measured/diagnosis/wrong_windows.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #pragma once
-/// The contacts of the baseline, from free windows of the simulation (`window_comparison.hpp`): the model tracks the
+/// The contacts of the baseline, and where and how it is off, from free windows of the simulation (`window_comparison.hpp`): the model tracks the
 /// measured motion, and the contacts of each form are those that predict best what is seen in windows that run free.
 
 #include "ensemble/model/campaign.hpp"
@@ -8,8 +8,12 @@
 #include "ensemble/run/executor.hpp"
 #include "studies/measured/diagnosis/campaigns/cause_model.hpp"
 #include "studies/measured/diagnosis/evidence/smoothed_run.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
+#include "studies/measured/diagnosis/prediction.hpp"
 #include "studies/measured/windows/window_comparison.hpp"
+#include "studies/measured/windows/window_motions.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,5 +41,18 @@ struct WindowEvidence {
 /// @param given causes that are in the model already
 WindowEvidence window_evidence(const Campaign& campaign, const Study& start, const CampaignScales& scales,
                                const std::vector<SizedCause>& given, const RunOptions& options, Observer& observer);
+
+struct WrongWindows {
+    std::vector<WrongStretch> stretches; ///< worst first
+    /// Measured and simulated x and rotation over each other, about the worst windows of the worst runs.
+    std::vector<DiagnosisFigure> figures;
+    std::vector<ChosenWindow> shown; ///< windows to be shown in motion
+};
+
+/// Errors of the baseline by more than noise and a lag of some milliseconds make.
+/// @param most stretches; the rest is left out
+/// @return empty where no window can be simulated, or the observer stopped it
+WrongWindows wrong_windows(const Campaign& campaign, const Study& baseline, std::size_t most, const RunOptions& options,
+                           SimulationCount& count, Observer& observer);
 
 } // namespace stylobate

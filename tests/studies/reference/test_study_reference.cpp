@@ -6,7 +6,6 @@
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/reference/study_reference.hpp"
-#include "studies/reference/study_template.hpp"
 #include "tests/program/json.hpp"
 
 #include <gtest/gtest.h>

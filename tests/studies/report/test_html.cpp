@@ -5,7 +5,7 @@
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/measured/calibration/calibration_text.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"

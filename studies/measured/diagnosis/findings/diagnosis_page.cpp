@@ -1,7 +1,6 @@
-#include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 
 #include "io/files/suggest.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 

@@ -1,7 +1,8 @@
 #pragma once
-/// A diagnosis in words, and as JSON: texts that are common to its page, its text and its headings.
+/// A diagnosis in words, as JSON and as a page: texts that are common to its page, its text and its headings.
 
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <string>
@@ -58,5 +59,10 @@ std::string diagnosis_text(const Diagnosis& diagnosis);
 /// wrong, gain, next_test, extended_study (where it was written), simulations, seconds; all else follows. What is not
 /// known is null.
 Json diagnosis_json(const Diagnosis& diagnosis);
+
+/// The verdict first, then what it rests on.
+/// @param file for names
+/// @param title of the page; empty: by the specimen
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title = "");
 
 } // namespace stylobate

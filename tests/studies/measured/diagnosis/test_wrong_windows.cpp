@@ -2,7 +2,7 @@
 
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/measured/calibration/calibration.hpp"
-#include "studies/measured/diagnosis/wrong_windows.hpp"
+#include "studies/measured/diagnosis/window_evidence.hpp"
 #include "studies/measured/windows/window_comparison.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 

@@ -1,7 +1,7 @@
 /// Windows in motion on a page: what its script is given are the places of the file, and what needs no script has the
 /// errors and a moment of each window.
 
-#include "studies/measured/diagnosis/findings/diagnosis_page.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "tests/program/json.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
