@@ -17,7 +17,19 @@ EXAMPLES = SOURCES / "python" / "examples"
 
 
 def members(thing):
-    return {name for name in vars(thing) if not name.startswith("_")}
+    """Of a class, and of its bases up to one that is public itself."""
+    names = set(vars(thing))
+    for base in thing.__mro__[1:]:
+        if base.__name__ in stylobate.__all__ or not base.__module__.startswith("stylobate"):
+            break
+        names |= set(vars(base))
+    return {name for name in names if not name.startswith("_")}
+
+
+def is_read_only(node):
+    """NAME: Final[TYPE], a property in the stubs."""
+    return (isinstance(node, ast.AnnAssign) and isinstance(node.annotation, ast.Subscript)
+            and getattr(node.annotation.value, "id", "") == "Final")
 
 
 def names_of(function):
@@ -37,6 +49,7 @@ def test_stubs_are_those_of_the_package():
             continue
         functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
         public = {name for name in functions if not name.startswith("_")}
+        public |= {node.target.id for node in stub.body if is_read_only(node)}
         assert public == members(thing), name
         for function, node in functions.items():
             real = inspect.getattr_static(thing, function)
