@@ -263,8 +263,8 @@ void law_band_section(PageWriter& writer, const LawBand& band)
 
 std::string law_advice(const Study& study)
 {
-    const bool pairs = study.kind == StudyKind::single || study.kind == StudyKind::fragility ||
-                       (study.kind == StudyKind::surface && !study.surface->adaptive);
+    const StudyDesign design = study.design();
+    const bool pairs = !design.selected && !design.factors && !design.end_state; // that `compare` takes
     const std::string command = "stylobate run STUDY.toml --laws";
     std::string how = command + " measures by how much.";
     if (study.contact.form == ContactForm::rigid)

@@ -68,7 +68,7 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
 
 std::string counted_words(const Study& study)
 {
-    return study.events() > 1 ? "of one event" : study.replicas ? "without replicas" : "";
+    return study.events() > 1 ? "of one event" : study.design().replica_set ? "without replicas" : "";
 }
 
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,

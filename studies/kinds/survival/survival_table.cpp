@@ -26,35 +26,31 @@ IntervalArray intervals(const std::vector<PastEstimate>& estimates)
 
 void add_exclusions(Table& table, const std::string& name, const std::vector<Exclusion>& exclusions)
 {
-    std::vector<PastEstimate> by_likelihood, by_profile, by_posterior, top, weaker, lowest, highest;
+    const auto over = [&](PastEstimate Exclusion::*estimate) {
+        IntervalArray array;
+        for (const Exclusion& e : exclusions)
+            array.add((e.*estimate).value, (e.*estimate).lower, (e.*estimate).upper);
+        return array;
+    };
     IntervalArray likelihood;
     std::vector<double> part;
-    std::size_t ni = 0;
     for (const Exclusion& e : exclusions) {
-        by_likelihood.push_back(e.by_likelihood);
-        by_posterior.push_back(e.by_posterior);
-        top.push_back(e.top_ratio);
-        weaker.push_back(e.weaker);
-        by_profile.push_back(e.by_profile);
-        lowest.push_back(e.lowest_frequency);
-        highest.push_back(e.highest_frequency);
         part.insert(part.end(), e.rule.part.begin(), e.rule.part.end());
-        ni = e.likelihood.size();
         for (const PastEstimate& at : e.likelihood)
             likelihood.add(at.value, at.lower, at.upper);
     }
-    const Table::Shape shape = {exclusions.size()};
-    table.add(name + "_likelihood", likelihood, {exclusions.size(), ni});
-    table.add(name + "_top_ratio", intervals(top), shape);
-    table.add(name + "_excluded_by_likelihood_m_s2", intervals(by_likelihood), shape);
-    table.add(name + "_excluded_by_posterior_m_s2", intervals(by_posterior), shape);
-    table.add(name + "_excluded_below_m_s2", intervals(weaker), shape);
-    table.add(name + "_threshold", part, {exclusions.size(), ni});
+    const Table::Shape shape = {exclusions.size()}, places = {exclusions.size(), exclusions.front().likelihood.size()};
+    table.add(name + "_likelihood", likelihood, places);
+    table.add(name + "_top_ratio", over(&Exclusion::top_ratio), shape);
+    table.add(name + "_excluded_by_likelihood_m_s2", over(&Exclusion::by_likelihood), shape);
+    table.add(name + "_excluded_by_posterior_m_s2", over(&Exclusion::by_posterior), shape);
+    table.add(name + "_excluded_below_m_s2", over(&Exclusion::weaker), shape);
+    table.add(name + "_threshold", part, places);
     if (name == "frequency")
         return;
-    table.add(name + "_excluded_by_profile_m_s2", intervals(by_profile), shape);
-    table.add(name + "_lowest_frequency_ratio", intervals(lowest), shape);
-    table.add(name + "_highest_frequency_ratio", intervals(highest), shape);
+    table.add(name + "_excluded_by_profile_m_s2", over(&Exclusion::by_profile), shape);
+    table.add(name + "_lowest_frequency_ratio", over(&Exclusion::lowest_frequency), shape);
+    table.add(name + "_highest_frequency_ratio", over(&Exclusion::highest_frequency), shape);
 }
 
 } // namespace
@@ -98,15 +94,15 @@ Table survival_table(const Survival& s)
         set(table, "pga_credible_to_m_s2", s.past->posterior.intensity_upper);
     }
     if (!s.coverage.empty()) {
-        std::vector<std::uint64_t> monuments, excluded, asymptotic;
-        for (const ExclusionCoverage& at : s.coverage) {
-            monuments.push_back(at.monuments);
-            excluded.push_back(at.excluded);
-            asymptotic.push_back(at.asymptotic);
-        }
-        table.add("coverage_monuments", monuments, {monuments.size()});
-        table.add("coverage_excluded", excluded, {monuments.size()});
-        table.add("coverage_excluded_by_asymptotic_threshold", asymptotic, {monuments.size()});
+        const auto add = [&](const char* name, std::size_t ExclusionCoverage::*count) {
+            std::vector<std::uint64_t> counts;
+            for (const ExclusionCoverage& at : s.coverage)
+                counts.push_back(at.*count);
+            table.add(name, counts, {counts.size()});
+        };
+        add("coverage_monuments", &ExclusionCoverage::monuments);
+        add("coverage_excluded", &ExclusionCoverage::excluded);
+        add("coverage_excluded_by_asymptotic_threshold", &ExclusionCoverage::asymptotic);
     }
     if (s.monuments) {
         table.set("monuments_not_judged", std::uint64_t{s.monuments->not_judged});
