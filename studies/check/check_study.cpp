@@ -7,7 +7,7 @@
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 #include "studies/results/kinds.hpp"
-#include "studies/results/run_study.hpp"
+#include "studies/results/study_run.hpp"
 
 #include <fmt/format.h>
 

@@ -2,19 +2,70 @@
 /// A study on its way to results: looked at, opened, run, concluded, finished. The only place that has this order.
 
 #include "ensemble/model/observer.hpp"
+#include "ensemble/numerics/run_order.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/kinds/kind.hpp"
-#include "studies/results/run_store.hpp"
-#include "studies/results/run_study.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// Where a run puts its realizations: the rows of a results file, or its counts where the study keeps no rows. By
+/// itself it keeps nothing: of a process that gives its rows to another one.
+class RunStore {
+public:
+    virtual ~RunStore() = default;
+
+    /// How a realization ended that is there already.
+    virtual std::optional<State> state(std::uint64_t) const { return std::nullopt; }
+    /// Where there are no rows: what is counted, by its place in the order of the run; else null.
+    virtual const DoneSet* counted() const { return nullptr; }
+    /// Gives the kind what is there: all rows, or the counts.
+    virtual void give_to(Kind&) const {}
+    /// All rows that are there; none of counts.
+    virtual void for_each_row(const std::function<void(const ResultRow&)>&) const {}
+    virtual void add(const ResultRow&) {}
+    /// Whether it keeps trajectories; else no realization is followed for one.
+    virtual bool keeps_trajectories() const { return true; }
+    virtual void add(const Trajectory&) {}
+    /// Takes what another file of the study has. @pre none of it is there already
+    virtual void add(const ResultReader& other);
+    /// All is there: the file becomes complete, with what the kind makes of it.
+    virtual void finish(const Kind&) {}
+    /// Keeps what is there for another run.
+    virtual void flush() {}
+};
+
+/// @param found whether the file is there and is to be continued
+/// @throws InputError as `ResultWriter` and `TallyWriter` do
+std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader& header, bool found);
+
+/// Draws realizations once, so that one that cannot be run (a fixed step above its bound, drums drawn off each other)
+/// is refused before anything is written. It costs less than a hundredth of running them.
+/// @throws InputError naming the realization
+/// @param shard the part that is going to be run
+void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& shard = {});
+/// The same until the observer asks to stop. @return whether all were drawn
+bool check_realizations(const Sampler& sampler, const Kind& kind, Observer& observer, const Shard& shard = {});
+
+struct RunEnd {
+    Progress progress;
+    bool complete = false; ///< of a shard: it is; else the user has asked to stop
+};
+
+/// Asks the kind for rounds, runs what is not in the store, and gives every new row to both. Afterwards a complete run
+/// wants `Kind::conclude` and `RunStore::finish`, another one and a shard `RunStore::flush`.
+/// @pre the kind has been given what the store has, and if it is a shard, it has no `why_no_shards`
+/// @throws what `run_ensemble` and the store throw
+RunEnd run_study(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options,
+                 Observer& observer, const Shard& shard = {});
 
 class StudyRun {
 public:

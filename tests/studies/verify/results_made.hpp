@@ -6,7 +6,6 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/results/kinds.hpp"
-#include "studies/results/run_store.hpp"
 #include "studies/results/study_run.hpp"
 
 #include <gtest/gtest.h>
