@@ -1,5 +1,8 @@
 #include "ensemble/experiment.hpp"
 
+#include "ensemble/motion/base_motion.hpp"
+
+#include <algorithm>
 #include <utility>
 
 namespace stylobate {
@@ -50,6 +53,19 @@ const Motions& Experiment::motions() const
 const Sampler& Experiment::sampler() const
 {
     return parts_->sampler;
+}
+
+double shaking_s(const Experiment& experiment, const Realization& r)
+{
+    const double end = BaseMotion(experiment.study().excitation, r, experiment.record()).duration_s();
+    if (r.vertical == nullptr)
+        return end;
+    return std::max(end, BaseMotion::along(r.vertical, r.step_s, r.change.offset_s).duration_s());
+}
+
+double longest_s(const Experiment& experiment, const Realization& r)
+{
+    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, r);
 }
 
 } // namespace stylobate

@@ -37,4 +37,11 @@ private:
     std::shared_ptr<const Parts> parts_;
 };
 
+/// The end of a realization's shaking [s].
+double shaking_s(const Experiment& experiment, const Realization& realization);
+
+/// How long it lasts at most: its shaking and what is watched after it. One that falls or comes to rest ends earlier
+/// [s].
+double longest_s(const Experiment& experiment, const Realization& realization);
+
 } // namespace stylobate

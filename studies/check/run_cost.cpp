@@ -1,10 +1,10 @@
 #include "studies/check/run_cost.hpp"
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/time_counts.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "io/store/result_layout.hpp"
 #include "studies/check/study_trial.hpp"
-#include "studies/experiment/duration.hpp"
 #include "studies/kinds/single/single_kind.hpp"
 
 #include <sys/resource.h>

@@ -1,10 +1,10 @@
 #include "studies/check/study_trial.hpp"
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "ensemble/statics/scales.hpp"
 #include "studies/check/run_cost.hpp"
-#include "studies/experiment/duration.hpp"
 #include "studies/experiment/trajectory.hpp"
 
 #include <algorithm>

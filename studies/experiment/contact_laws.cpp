@@ -1,9 +1,9 @@
 #include "studies/experiment/contact_laws.hpp"
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/experiment/duration.hpp"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,13 @@
 #include "studies/experiment/loaded_study.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/structure.hpp"
 #include "io/keys/words.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/experiment/block_names.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/motions.hpp"
 #include "studies/version.hpp"
@@ -23,6 +23,19 @@
 namespace stylobate {
 
 namespace {
+
+/// Of the beds, in the order of `lay_out`: "drum 2 on drum 1".
+std::vector<std::string> bed_names(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    const auto name = [&](int block) {
+        return block < 0 ? std::string("the ground") : layout.blocks[static_cast<std::size_t>(block)].name;
+    };
+    std::vector<std::string> names;
+    for (const PlacedBed& bed : layout.beds)
+        names.push_back(name(bed.upper) + " on " + name(bed.lower));
+    return names;
+}
 
 // the only settings that results take: where a record lies now
 constexpr char of_record[] = "excitation.file=", of_vertical[] = "mechanisms.vertical_motion.file=";
@@ -259,6 +272,14 @@ ResultHeader LoadedStudy::plain_header() const
         header.pga_m_s2 = values(study().surface->pga_m_s2);
     }
     return header;
+}
+
+std::vector<std::string> block_names(const Study& study)
+{
+    std::vector<std::string> names;
+    for (const PlacedBlock& block : lay_out(study.structure).blocks)
+        names.push_back(block.name);
+    return names;
 }
 
 std::uint64_t realizations_end(const ResultHeader& header, const Study& study)

@@ -59,6 +59,9 @@ private:
     std::string text_;    ///< of the study, and what identifies its motions
 };
 
+/// The names of the blocks of a study but the ground, in layout order.
+std::vector<std::string> block_names(const Study& study);
+
 /// The study of results is fixed: all that may be set is where its record lies now. For verbs that may not even need
 /// it.
 /// @throws InputError for any other setting, and if the study has no record

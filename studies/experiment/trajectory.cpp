@@ -4,7 +4,7 @@
 #include "ensemble/planar/hand_over.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "ensemble/statics/compliant_form.hpp"
-#include "studies/experiment/block_names.hpp"
+#include "studies/experiment/loaded_study.hpp"
 
 #include <algorithm>
 #include <atomic>

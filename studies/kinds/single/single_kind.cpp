@@ -1,8 +1,8 @@
 #include "studies/kinds/single/single_kind.hpp"
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_poses.hpp"
-#include "studies/experiment/duration.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 #include "ensemble/planar/planar_model.hpp"
 #include "io/store/result_store.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/experiment/block_names.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
