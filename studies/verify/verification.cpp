@@ -125,22 +125,6 @@ Json json_of(const FileVerification& v)
         .member("checks", checks);
 }
 
-namespace {
-
-/// The header that a replay of one realization has, of the study's.
-ResultHeader replay_header(ResultHeader study, std::uint64_t index)
-{
-    study.kind = "replay";
-    study.first = index;
-    study.total = 1;
-    study.selected = false;
-    study.limit_states.clear();
-    study.frequency_hz.clear();
-    study.pga_m_s2.clear();
-    return study;
-}
-
-/// At most `most` realizations whose rows are in the file, ascending, spread evenly over the cells.
 std::vector<std::uint64_t> replay_sample(const ResultReader& reader, std::uint64_t most, std::uint64_t seed)
 {
     using Keyed = std::pair<std::uint64_t, std::uint64_t>;   // key, index
@@ -164,6 +148,21 @@ std::vector<std::uint64_t> replay_sample(const ResultReader& reader, std::uint64
         sample.push_back(std::get<2>(all[i]));
     std::ranges::sort(sample);
     return sample;
+}
+
+namespace {
+
+/// The header that a replay of one realization has, of the study's.
+ResultHeader replay_header(ResultHeader study, std::uint64_t index)
+{
+    study.kind = "replay";
+    study.first = index;
+    study.total = 1;
+    study.selected = false;
+    study.limit_states.clear();
+    study.frequency_hz.clear();
+    study.pga_m_s2.clear();
+    return study;
 }
 
 /// What is asked of the file, and what takes the realizations that are run again; the takers are called from one thread

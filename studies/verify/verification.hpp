@@ -4,6 +4,7 @@
 
 #include "ensemble/model/observer.hpp"
 #include "ensemble/run/executor.hpp"
+#include "io/store/result_store.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstdint>
@@ -75,5 +76,8 @@ Json json_of(const FileVerification& verification);
 
 /// A number that orders indices by chance: the same for the same seed, whatever else is chosen from.
 std::uint64_t sample_key(std::uint64_t seed, std::uint64_t index);
+
+/// At most `most` realizations whose rows are in the file, ascending, spread evenly over the cells.
+std::vector<std::uint64_t> replay_sample(const ResultReader& reader, std::uint64_t most, std::uint64_t seed);
 
 } // namespace stylobate
