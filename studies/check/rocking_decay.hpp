@@ -13,7 +13,7 @@ namespace stylobate {
 struct RockingDecay {
     double slenderness_rad = 0; ///< atan(B / H) of the free part of the column
     double law = 0;             ///< largest lean to the other side after the first impact, over the slenderness
-    /// The same with rigid contacts without rebound; none: the study cannot be run so.
+    /// This lean with rigid contacts without rebound; none: the study cannot be run so.
     std::optional<double> rigid;
     double housner = 0; ///< of a rigid monolith: cos(a - x) = cos a + e2 (cos(a / 2) - cos a), e = 1 - 1.5 sin2 a
 

@@ -13,7 +13,7 @@ std::string percent_text(double share);
 
 /// "41 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
-/// The same with two digits at least: "0.42 s", "3.2 s", "41 s".
+/// A duration with two digits at least: "0.42 s", "3.2 s", "41 s".
 std::string seconds_text(double seconds);
 
 } // namespace stylobate

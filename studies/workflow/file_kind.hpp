@@ -51,7 +51,7 @@ std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name
 /// @throws InputError if it was recognised and is none that the verb takes, and as `recognise`
 void check_kind(const std::string& file, std::string_view verb);
 
-/// The same of the file of an option: "--study", "-o". One that is not there, or is damaged, passes.
+/// Checks the file of an option ("--study", "-o") as `check_kind` does. One that is not there, or is damaged, passes.
 /// @throws InputError if it was recognised and is of another kind
 void check_option_kind(const std::string& file, FileKind wanted, const std::string& option);
 

@@ -29,7 +29,8 @@ void check_not_input(const std::string& input, const std::filesystem::path& outp
 /// @throws InputError if the output is the input, or if it exists and is not to be replaced
 void check_output(const std::string& input, const std::filesystem::path& output, bool force);
 
-/// The same for a folder of several files: it may be there, but empty.
+/// Checks a folder of several files before they are written: it may be there, but empty.
+/// @throws InputError as `check_output`
 void check_output_folder(const std::string& input, const std::filesystem::path& folder, bool force);
 
 } // namespace stylobate

@@ -40,7 +40,7 @@ struct StudyFiles {
 /// @throws InputError for what is wrong with a study, for one that cannot be compared with the base, for two of one
 ///         name, and for a results file that is another study's
 StudyRuns studies_to_compare(const StudyFiles& asked);
-/// The same of finished results.
+/// The studies of finished results, the base first.
 /// @throws InputError also if one is not complete
 std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::string>& files);
 

@@ -263,7 +263,7 @@ void search_forms(Calibration& result, Begin begin, const CalibrationOptions& op
     result.complete = true;
 }
 
-/// The same with what is predicted kept in a file, where one is named.
+/// Searches, with what is predicted kept in a file where one is named.
 void search_and_keep(Calibration& result, Begin begin, const CalibrationOptions& options,
                      std::unique_ptr<CalibrationEvidence> evidence, const std::vector<CalibrationRun>& all,
                      const RunOptions& run, Observer& observer)

@@ -126,7 +126,7 @@ Study default_study(const Campaign& campaign);
 Calibration calibrate(const Campaign& campaign, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer);
 
-/// The same from a table of outcomes, which does not describe the specimen.
+/// Calibrates from a table of outcomes, which does not describe the specimen.
 ///
 /// @param start the structure too, and the excitation, for whatever the table leaves open (`outcome_tests.hpp`); its
 ///              perturbations are drawn (none: friction by 5 % from joint to joint, and a specimen's usual tolerances)

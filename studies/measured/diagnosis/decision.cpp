@@ -72,7 +72,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     return j;
 }
 
-/// The same cause in the balance of forces, where this sees it clearly; else null.
+/// The fit of a cause in the balance of forces, where this sees the cause clearly; else null.
 const CauseFit* seen_by_forces(const BalanceEvidence& balance, const CauseFit& wanted)
 {
     for (const CauseFit& fit : balance.causes)

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double farthest_px = 50; ///< that a corner is drawn away from where it rests, or half of the widest block
 constexpr double apart_px = 25;    ///< that it is drawn away from the measured one in the first window, or a quarter
-constexpr double inside_px = 60;   ///< the same in any window
+constexpr double inside_px = 60;   ///< that it is drawn away from the measured one in any window
 constexpr double even = 0.02;      ///< of the spacing of samples
 
 constexpr double sizes[] = {100, 50, 20, 10, 5, 2};

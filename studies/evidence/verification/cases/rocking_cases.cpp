@@ -167,7 +167,7 @@ double least_amplitude(double frequency_hz, double from, double to, Test happens
     return -1;
 }
 
-/// The same by the second solver, looked for on the grid near the engine's; -1 where it is not there.
+/// The amplitude by the second solver, looked for on the grid near the engine's; -1 where it is not there.
 template <class Test>
 double reference_amplitude(double frequency_hz, double engine, Test happens)
 {

@@ -68,8 +68,9 @@ double static_capacity(double K_n)
     return largest_held_acceleration(r, 1.5, 2.75, 5e-4);
 }
 
-/// The same in equilibrium. Leaned by `turn`, the block presses a triangle of area W / K_N into the base; the resultant
-/// is vertical and acts at the triangle's centroid, about which weight and inertia balance. The largest over the lean.
+/// Largest acceleration that equilibrium allows the monolith [m/s2]. Leaned by `turn`, the block presses a triangle of
+/// area W / K_N into the base; the resultant is vertical and acts at the triangle's centroid, about which weight and
+/// inertia balance. The largest over the lean.
 double equilibrium_capacity(double K_n)
 {
     const double b = 0.5 * model::mono_stone.width, h = 0.5 * model::mono_stone.height;

@@ -36,7 +36,7 @@ struct ForceTest {
     int variant = -1; ///< -1: none is shown
     double score = 0;
     double p_value = 1;
-    std::vector<double> nulls;    ///< the same of each healthy campaign
+    std::vector<double> nulls;    ///< largest score of each healthy campaign
     std::vector<double> likeness; ///< (nulls) as of the evidence
     std::vector<double> unit;     ///< (variants) what a score is counted in
 };

@@ -174,12 +174,13 @@ private:
 struct LeftOut {
     std::vector<double> null_gains, null_left, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
-    std::vector<CalibratedProbability::Case> near;  ///< the same of the best and its nearest rivals together
-    std::vector<bool> right;                        ///< (labelled) named, with the right mechanism
-    std::map<std::pair<int, int>, double> taken;    ///< (true mechanism, named mechanism)
-    std::map<int, double> labelled_of;              ///< mechanism: in all
-    std::vector<double> labelled_left;              ///< distance beside the best cause
-    std::vector<double> second_gains;               ///< of the best other mechanism, with the best cause given
+    std::vector<CalibratedProbability::Case>
+        near;                ///< lead of the best and its nearest rivals together, and whether right
+    std::vector<bool> right; ///< (labelled) named, with the right mechanism
+    std::map<std::pair<int, int>, double> taken; ///< (true mechanism, named mechanism)
+    std::map<int, double> labelled_of;           ///< mechanism: in all
+    std::vector<double> labelled_left;           ///< distance beside the best cause
+    std::vector<double> second_gains;            ///< of the best other mechanism, with the best cause given
 };
 
 void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out)

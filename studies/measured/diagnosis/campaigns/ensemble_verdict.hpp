@@ -16,7 +16,7 @@ namespace stylobate {
 /// The fixed numbers of the rule.
 struct EnsembleRule {
     double named = 0.015;      ///< largest p-value at which a cause is named
-    double force = 0.0075;     ///< the same of a force of no known kind
+    double force = 0.0075;     ///< largest p-value at which a force of no known kind is named
     double outside = 0.01;     ///< p-value of the law below which it is outside the family
     double apart = 3;          ///< nats within which rivals are in the set with the best
     int rivals = 2;            ///< most of them that are named with the best: more would be no answer

@@ -23,8 +23,8 @@ struct NearnessRule {
 
 struct NearnessEvidence {
     std::vector<double> distance; ///< (candidates) of the nearest campaigns of each; infinite where there are none
-    double healthy = 0;           ///< the same of healthy campaigns
-    std::vector<double> nulls;    ///< the same of healthy campaigns that are like the measured one, from the others
+    double healthy = 0;           ///< distance of the nearest healthy campaigns
+    std::vector<double> nulls;    ///< distance of healthy campaigns that are like the measured one, from the others
     double numbers = 0;           ///< that are independent
     std::vector<int> mechanism;   ///< (candidates)
     double gain_p_value = 1;      ///< of the likelihood's largest gain

@@ -122,7 +122,7 @@ struct BaseFit {
     double offset_s = 0, offset_sd = 0;
     TableDistortion distortion;
     double apart_of_noise = 0;  ///< what the fit leaves, over the cameras' noise
-    double apart_of_motion = 0; ///< the same, over the motion (rms)
+    double apart_of_motion = 0; ///< what the fit leaves, over the motion (rms)
 };
 
 /// Root mean square of the base motion, each ride about its own mean [m].

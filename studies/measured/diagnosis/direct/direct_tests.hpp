@@ -65,7 +65,7 @@ struct DirectResult {
     std::vector<DataTest> sensor_tests;           ///< at rest
     std::vector<CauseFit> found;                  ///< named causes, gain in nats; sizes in the parameters' units
     std::vector<std::vector<double>> corrected_m; ///< (runs)(nt) corrected base displacement; empty where there is none
-    std::vector<std::vector<double>> base_m;      ///< the same with the zero of the cameras
+    std::vector<std::vector<double>> base_m;      ///< (runs)(nt) `corrected_m` with the zero of the cameras
     // what the correction is made of
     double gain = 1;
     double offset_s = 0;

@@ -43,8 +43,8 @@ struct FrictionJudgement {
 FrictionJudgement judge_friction(const Campaign& campaign, const CampaignScales& scales,
                                  const std::vector<std::vector<double>>& base_m);
 
-/// The same by itself: with the direct tests of base and sensors before it. What cannot be judged (no rotations,
-/// cameras too slow) is not determined.
+/// Judges the friction after direct tests of base and sensors of its own. What cannot be judged (no rotations, cameras
+/// too slow) is not determined.
 FrictionJudgement judge_friction(const Campaign& campaign);
 
 /// From the samples of all runs, which were written with `friction`.

@@ -64,7 +64,7 @@ struct Scatter {
     double common_friction = 0.05; ///< relative: all joints together, against the nominal one
     double friction = 0.04;        ///< relative: each joint by itself
     double turning_point = 0.01;   ///< over the half width: how far inside its corner a joint turns, beside the common
-    double common_turning = 0.05;  ///< the same, common to all: inside the corners, never outside
+    double common_turning = 0.05;  ///< turning point common to all joints: inside the corners, never outside
     double mass_centre = 0.004;    ///< over the half width: of each block, to one side
 };
 

@@ -150,7 +150,7 @@ RideFit fit_rides(const std::vector<Ride>& rides, int regressors, Value&& value,
     return out;
 }
 
-/// The same fit with standard deviations that also hold what differs from run to run (the jackknife's): soft contacts
+/// `fit_rides` with standard deviations that also hold what differs from run to run (the jackknife's): soft contacts
 /// and what else rides along is alike within a run, and no noise.
 template <class Value, class Column>
 RideFit fit_over_runs(const std::vector<Ride>& rides, int regressors, Value&& value, Column&& column)

@@ -24,7 +24,7 @@ public:
     /// Smoothed value (derivative 0), rate (1) or acceleration (2) of every sample; within a half width of the ends 0.
     /// @param series (n)   @return (n)
     std::vector<double> apply(int derivative, const std::vector<double>& series) const;
-    /// The same of one sample.
+    /// Smoothed value, rate or acceleration of one sample.
     double at(int derivative, const std::vector<double>& series, std::size_t sample) const;
 
     /// Standard deviation of the result where the samples have independent noise of standard deviation 1.

@@ -115,7 +115,7 @@ struct NullEnsemble {
 struct RegressionFeature {
     std::string name;    ///< "velocity", "amplitude", "cycle", ...
     MaybeReal gain;      ///< share of the remaining variance that it explains on runs left out, 0 to 1
-    MaybeReal threshold; ///< the same by chance (95 %)
+    MaybeReal threshold; ///< share that chance explains at most (95 %)
     friend bool operator==(const RegressionFeature&, const RegressionFeature&) = default;
 };
 
@@ -133,7 +133,7 @@ struct Unexplained {
 struct CollapsePrediction {
     std::uint64_t runs = 0;         ///< left out, with a known end
     MaybeReal score_before;         ///< mean squared error of the probability of collapse (Brier), calibrated baseline
-    MaybeReal score_after;          ///< the same of the extended model
+    MaybeReal score_after;          ///< mean squared error of the extended model
     std::uint64_t right_before = 0; ///< runs whose end was predicted (probability on its side of 1/2)
     std::uint64_t right_after = 0;
     std::string text;
