@@ -172,26 +172,6 @@ void check_comparable(const ResultHeader& base, const std::string& base_name, co
                                          i < records.size() ? records[i] : "none"));
 }
 
-std::vector<std::string> differences_to_know(const ResultHeader& base, const ResultHeader& variant)
-{
-    if (base.study_toml == variant.study_toml)
-        return {"It is the study of the base: the variant changes nothing."};
-    std::vector<std::string> notes;
-    const Keys a = keys_of(base, "base"), b = keys_of(variant, "variant");
-    const auto numeric = [](const std::string& key) {
-        return key.starts_with("run.") && key != "run.max_invalid_fraction";
-    };
-    if (const std::string key = first_difference(a, b, numeric); !key.empty())
-        notes.push_back(fmt::format("The numerics differ ({} {} in the base, {} in the variant): a part of the "
-                                    "difference may be theirs.",
-                                    key, value_or_absent(a, key), value_or_absent(b, key)));
-    if (base.block_names != variant.block_names)
-        notes.push_back(fmt::format("The base has {} blocks, the variant {}: draws of blocks and joints are common "
-                                    "where both have one of the same number.",
-                                    base.block_names.size(), variant.block_names.size()));
-    return notes;
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,6 +211,66 @@ struct ReadStudy {
     const Study study;
     const StudySide side;
 };
+
+/// What differs and is not refused, and yet no intervention or no common draw, in sentences: numerics, and the number
+/// of blocks.
+std::vector<std::string> differences_to_know(const ResultHeader& base, const ResultHeader& variant)
+{
+    if (base.study_toml == variant.study_toml)
+        return {"It is the study of the base: the variant changes nothing."};
+    std::vector<std::string> notes;
+    const Keys a = keys_of(base, "base"), b = keys_of(variant, "variant");
+    const auto numeric = [](const std::string& key) {
+        return key.starts_with("run.") && key != "run.max_invalid_fraction";
+    };
+    if (const std::string key = first_difference(a, b, numeric); !key.empty())
+        notes.push_back(fmt::format("The numerics differ ({} {} in the base, {} in the variant): a part of the "
+                                    "difference may be theirs.",
+                                    key, value_or_absent(a, key), value_or_absent(b, key)));
+    if (base.block_names != variant.block_names)
+        notes.push_back(fmt::format("The base has {} blocks, the variant {}: draws of blocks and joints are common "
+                                    "where both have one of the same number.",
+                                    base.block_names.size(), variant.block_names.size()));
+    return notes;
+}
+
+/// A comparison with the base and without variants. @param file of its results
+Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
+                            const std::string& file, double level)
+{
+    const PairLayout layout = pair_layout(base, header.motions, level);
+    Comparison comparison;
+    comparison.kind = header.kind;
+    comparison.title = base.title;
+    comparison.base_name = name;
+    comparison.base_results = fs::path(file).filename().string();
+    comparison.base_toml = header.study_toml;
+    comparison.code_version = code_version();
+    comparison.level = level;
+    comparison.adjustment = layout.cells == 1 ? "" : layout.groups > 0 ? "holm" : "benjamini-hochberg";
+    comparison.frequency_hz = header.frequency_hz;
+    comparison.pga_m_s2 = header.pga_m_s2;
+    comparison.motions = layout.groups;
+    if (const MotionSetSpec* motions = base.design().motions) {
+        comparison.measure = measure_name(motions->measure, motions->period_s);
+        if (motions->method == FragilityMethod::stripes)
+            for (int i = 0; i < motions->intensity.count; ++i)
+                comparison.intensity.push_back(motions->intensity.value(i));
+    }
+    return comparison;
+}
+
+/// Adds a variant to a comparison with the base: its name, results file and study, and what else differs.
+/// @param found of the pairs   @param file of its results
+void add_variant(Comparison& comparison, VariantComparison found, const std::string& name, const std::string& file,
+                 const ResultHeader& base, const ResultHeader& variant)
+{
+    found.name = name;
+    found.results = fs::path(file).filename().string();
+    found.study_toml = variant.study_toml;
+    found.notes = differences_to_know(base, variant);
+    comparison.variants.push_back(std::move(found));
+}
 
 } // namespace
 
@@ -280,41 +320,6 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
             check_comparable(all.front()->header(), files.front(), all.back()->header(), file);
     }
     return all;
-}
-
-Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
-                            const std::string& file, double level)
-{
-    const PairLayout layout = pair_layout(base, header.motions, level);
-    Comparison comparison;
-    comparison.kind = header.kind;
-    comparison.title = base.title;
-    comparison.base_name = name;
-    comparison.base_results = fs::path(file).filename().string();
-    comparison.base_toml = header.study_toml;
-    comparison.code_version = code_version();
-    comparison.level = level;
-    comparison.adjustment = layout.cells == 1 ? "" : layout.groups > 0 ? "holm" : "benjamini-hochberg";
-    comparison.frequency_hz = header.frequency_hz;
-    comparison.pga_m_s2 = header.pga_m_s2;
-    comparison.motions = layout.groups;
-    if (const MotionSetSpec* motions = base.design().motions) {
-        comparison.measure = measure_name(motions->measure, motions->period_s);
-        if (motions->method == FragilityMethod::stripes)
-            for (int i = 0; i < motions->intensity.count; ++i)
-                comparison.intensity.push_back(motions->intensity.value(i));
-    }
-    return comparison;
-}
-
-void add_variant(Comparison& comparison, VariantComparison found, const std::string& name, const std::string& file,
-                 const ResultHeader& base, const ResultHeader& variant)
-{
-    found.name = name;
-    found.results = fs::path(file).filename().string();
-    found.study_toml = variant.study_toml;
-    found.notes = differences_to_know(base, variant);
-    comparison.variants.push_back(std::move(found));
 }
 
 Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level)

@@ -26,10 +26,6 @@ void check_comparable(const ResultHeader& base, const std::string& base_name, co
 /// @throws InputError
 void check_can_be_compared(const ResultHeader& header, const std::string& name);
 
-/// What differs and is not refused, and yet no intervention or no common draw, in sentences: numerics, and the number
-/// of blocks.
-std::vector<std::string> differences_to_know(const ResultHeader& base, const ResultHeader& variant);
-
 struct StudyFiles {
     std::vector<std::string> files;    ///< the base's, then the variants'; one file: its [variants]
     std::vector<std::string> settings; ///< laid over every study
@@ -47,15 +43,6 @@ std::vector<std::unique_ptr<Results>> results_to_compare(const std::vector<std::
 /// What the results of the studies come to, the base's first.
 /// @param names of the studies   @param files their results   @param level of intervals and verdicts
 Comparison comparison_of(const std::vector<std::string>& names, const std::vector<std::string>& files, double level);
-
-/// Adds a variant to a comparison with the base: its name, results file and study, and what else differs.
-/// @param found of the pairs   @param file of its results
-void add_variant(Comparison& comparison, VariantComparison found, const std::string& name, const std::string& file,
-                 const ResultHeader& base, const ResultHeader& variant);
-
-/// A comparison with the base and without variants. @param file of its results
-Comparison comparison_facts(const Study& base, const ResultHeader& header, const std::string& name,
-                            const std::string& file, double level);
 
 struct AdaptiveChoice {
     std::uint64_t budget = 0; ///< pairs of each variant, at most

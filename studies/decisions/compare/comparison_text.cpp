@@ -147,6 +147,16 @@ Json variant_json(const Comparison& comparison, const VariantComparison& variant
     return add_members(json, variant, {"notes"}).member("limit_states", limits);
 }
 
+/// "friction: same numbers; drum_offset: same quantiles".
+std::string inputs_text(const VariantComparison& variant)
+{
+    std::string text;
+    for (const CommonInput& input : variant.inputs)
+        text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", input.name,
+                            input.numbers > 1 ? fmt::format(" ({})", input.numbers) : "", to_string(input.draws));
+    return text;
+}
+
 std::string variant_text(const Comparison& comparison, const VariantComparison& variant)
 {
     std::string text = fmt::format("{}: {} {}", variant.name, variant.pairs, variant.pairs == 1 ? "pair" : "pairs");
@@ -222,15 +232,6 @@ std::string saving_text(const PlaceComparison& place)
         return "what pairing saved is not known";
     return place.saving() < 1.05 ? fmt::format("pairing saved nothing (a factor of {:.1f})", place.saving())
                                  : fmt::format("pairing saved a factor of {:.2g}", place.saving());
-}
-
-std::string inputs_text(const VariantComparison& variant)
-{
-    std::string text;
-    for (const CommonInput& input : variant.inputs)
-        text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", input.name,
-                            input.numbers > 1 ? fmt::format(" ({})", input.numbers) : "", to_string(input.draws));
-    return text;
 }
 
 std::string adjustment_text(const Comparison& comparison)

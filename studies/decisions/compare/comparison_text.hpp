@@ -32,8 +32,6 @@ std::string capacity_text(const CapacityRatio& ratio);
 
 /// How many times as many realizations an unpaired comparison would need: "pairing saved a factor of 20".
 std::string saving_text(const PlaceComparison& place);
-/// "friction: same numbers; drum_offset: same quantiles".
-std::string inputs_text(const VariantComparison& variant);
 /// What names of cells mean: "Benjamini-Hochberg, false names at most 5 %".
 std::string adjustment_text(const Comparison& comparison);
 /// How draws and motions are common by construction, in a sentence.

@@ -101,6 +101,12 @@ LawBand band_of(const Comparison& comparison, const std::vector<ContactLaw>& law
     return band;
 }
 
+/// The file of the band beside the results: "column.h5" -> "column_laws.h5".
+std::string law_file(const std::string& results)
+{
+    return beside(results, "_laws");
+}
+
 std::optional<LawBand> band_beside(const std::string& results, const ResultHeader& header,
                                    const std::vector<ContactLaw>& laws)
 {
@@ -112,11 +118,6 @@ std::optional<LawBand> band_beside(const std::string& results, const ResultHeade
 }
 
 } // namespace
-
-std::string law_file(const std::string& results)
-{
-    return beside(results, "_laws");
-}
 
 std::optional<LawBand> law_band_beside(const std::string& results, const Study& study, const ResultHeader& header)
 {

@@ -18,9 +18,6 @@
 
 namespace stylobate {
 
-/// The file of the band beside the results: "column.h5" -> "column_laws.h5".
-std::string law_file(const std::string& results);
-
 /// The band beside the results, if there is one and it is of the same study under the same laws.
 /// A file of that name that is no comparison, or that is damaged, is left out. @param study, header of the results
 std::optional<LawBand> law_band_beside(const std::string& results, const Study& study, const ResultHeader& header);

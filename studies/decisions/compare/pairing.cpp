@@ -31,8 +31,8 @@ std::vector<LimitDefinition> damage_definitions(const Study& study, const Result
     return all;
 }
 
-} // namespace
-
+/// The limit states of a study: those of surfaces (limit_state.hpp), or the damage states of a fragility study.
+/// @param study, header must outlive what is returned
 std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultHeader& header)
 {
     if (study.design().motions)
@@ -49,6 +49,8 @@ std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultH
     }
     return all;
 }
+
+} // namespace
 
 StudySide::StudySide(const Study& study, const ResultHeader& header)
     : limits_(limit_definitions(study, header)), state_(study.originals()), per_cell_(study.realizations),

@@ -21,10 +21,6 @@ struct LimitDefinition {
     std::function<std::optional<bool>(const ResultRow&)> reached; ///< of a valid realization; nothing: not known
 };
 
-/// The limit states of a study: those of surfaces (limit_state.hpp), or the damage states of a fragility study.
-/// @param study, header must outlive what is returned
-std::vector<LimitDefinition> limit_definitions(const Study& study, const ResultHeader& header);
-
 /// What became of the realizations of a study, by index.
 class StudySide {
 public:

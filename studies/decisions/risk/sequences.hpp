@@ -37,14 +37,6 @@ struct SequenceOptions {
 /// @throws InputError if the results are of sequences already, or if their motions cannot be scaled
 void check_sequences(const Results& results);
 
-/// The strongest stripe up to which no structure has fallen and 99 of 100 keep no dislocation above 0.001 of a width;
-/// else the weakest stripe.
-struct Threshold {
-    double intensity = 0;
-    std::string says;
-};
-Threshold harmless_intensity(const Results& results);
-
 /// @param risk of the same results: its hazard, and the frequency of the collapse that the histories are compared with
 /// @return nothing if the observer asked to stop
 /// @throws InputError if a history would have too many earthquakes

@@ -270,6 +270,44 @@ Figure read_figure(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     return figure;
 }
 
+/// "the probability that it collapses", "the median total sliding", for sentences.
+std::string measure_text(const Measure& m)
+{
+    std::string text;
+    switch (m.kind) {
+    case Measure::Kind::probability:
+        text = fmt::format("the probability that it {}", event_phrase(m, m.event));
+        break;
+    case Measure::Kind::minority:
+        text =
+            fmt::format("the smaller of the probabilities that it {} and that it does not", event_phrase(m, m.event));
+        break;
+    case Measure::Kind::median:
+        text = fmt::format("the median {}", word_of(amount_words, m.amount).text);
+        break;
+    case Measure::Kind::onset:
+        text = fmt::format("the lowest PGA at which it {} with probability 1/2", event_phrase(m, m.event));
+        break;
+    }
+    if (m.given)
+        text += fmt::format(" (given that it {})", event_phrase(m, *m.given));
+    return text;
+}
+
+/// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; empty for everything.
+std::string window_text(const Window& w, const char* unit)
+{
+    const std::string of = w.over_f1 ? "of the first natural frequency" : unit;
+    const bool open_end = std::isinf(w.to);
+    if (!w.values.empty())
+        return fmt::format("at {:g} {}", fmt::join(w.values, ", "), of);
+    if (open_end)
+        return w.from > 0 ? fmt::format("from {:g} {} on", w.from, of) : "";
+    if (w.from == w.to)
+        return fmt::format("at {:g} {}", w.from, of);
+    return w.from > 0 ? fmt::format("from {:g} to {:g} {}", w.from, w.to, of) : fmt::format("up to {:g} {}", w.to, of);
+}
+
 } // namespace
 
 std::size_t axis_index(const std::vector<VariantAxis>& axes, const std::string& name)
@@ -369,45 +407,9 @@ std::string unit_text(const Measure& m)
     return m.kind == Measure::Kind::median && m.amount == Amount::total_rocking_rad ? "rad" : "";
 }
 
-std::string measure_text(const Measure& m)
-{
-    std::string text;
-    switch (m.kind) {
-    case Measure::Kind::probability:
-        text = fmt::format("the probability that it {}", event_phrase(m, m.event));
-        break;
-    case Measure::Kind::minority:
-        text =
-            fmt::format("the smaller of the probabilities that it {} and that it does not", event_phrase(m, m.event));
-        break;
-    case Measure::Kind::median:
-        text = fmt::format("the median {}", word_of(amount_words, m.amount).text);
-        break;
-    case Measure::Kind::onset:
-        text = fmt::format("the lowest PGA at which it {} with probability 1/2", event_phrase(m, m.event));
-        break;
-    }
-    if (m.given)
-        text += fmt::format(" (given that it {})", event_phrase(m, *m.given));
-    return text;
-}
-
 std::string short_text(const Measure& m)
 {
     return m.kind == Measure::Kind::median ? word_of(amount_words, m.amount).text : event_text(m.event);
-}
-
-std::string window_text(const Window& w, const char* unit)
-{
-    const std::string of = w.over_f1 ? "of the first natural frequency" : unit;
-    const bool open_end = std::isinf(w.to);
-    if (!w.values.empty())
-        return fmt::format("at {:g} {}", fmt::join(w.values, ", "), of);
-    if (open_end)
-        return w.from > 0 ? fmt::format("from {:g} {} on", w.from, of) : "";
-    if (w.from == w.to)
-        return fmt::format("at {:g} {}", w.from, of);
-    return w.from > 0 ? fmt::format("from {:g} to {:g} {}", w.from, w.to, of) : fmt::format("up to {:g} {}", w.to, of);
 }
 
 std::string criterion_text(const ClaimFile& file, const Test& test)

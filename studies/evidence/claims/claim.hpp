@@ -236,12 +236,8 @@ std::string event_text(Event event);
 std::string unit_text(const Measure& measure);
 /// Whether it is a length, whose texts are in mm.
 bool is_length(const Measure& measure);
-/// "the probability that it collapses", "the median total sliding", for sentences.
-std::string measure_text(const Measure& measure);
 /// "collapses", "total sliding", for the key of a figure.
 std::string short_text(const Measure& measure);
-/// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; empty for everything.
-std::string window_text(const Window& window, const char* unit);
 /// The criterion as a sentence, from its parameters alone, so that the text of the page is what is computed.
 std::string criterion_text(const ClaimFile& file, const Test& test);
 

@@ -236,6 +236,38 @@ LoadedStudy load(const std::string& file, const std::vector<std::string>& settin
                                  law));
 }
 
+/// @pre the rows are of this study; invalid ones are counted and left out
+Sample make_sample(const Study& study, const Sampler& sampler, const Motion* record, const std::vector<ResultRow>& rows,
+                   bool path_needed)
+{
+    Sample sample;
+    const Realization nominal = nominal_realization(study, record);
+    sample.f1_hz = study.contact.form == ContactForm::rigid ? std::numeric_limits<double>::infinity()
+                                                            : first_mode_of_paper(nominal).frequency_hz;
+    sample.rigid_m_s2 = rigid_limit(study, nominal);
+    if (study.surface) {
+        for (int i = 0; i < study.surface->frequency_hz.count; ++i)
+            sample.frequency_hz.push_back(study.surface->frequency_hz.value(i));
+        for (int i = 0; i < study.surface->pga_m_s2.count; ++i)
+            sample.pga_m_s2.push_back(study.surface->pga_m_s2.value(i));
+    } else {
+        sample.frequency_hz = {nominal.frequency_hz};
+        sample.pga_m_s2 = {nominal.pga_m_s2};
+    }
+    sample.cells.resize(sample.frequency_hz.size() * sample.pga_m_s2.size());
+    for (const ResultRow& row : rows) {
+        if (row.outcome.state == State::invalid)
+            ++sample.invalid;
+        else
+            sample.cells.at(row.cell).push_back(
+                observe(study, sampler.realization(row.index), record, row.outcome, path_needed));
+    }
+    for (std::vector<Observation>& cell : sample.cells)
+        std::sort(cell.begin(), cell.end(),
+                  [](const Observation& a, const Observation& b) { return a.index < b.index; });
+    return sample;
+}
+
 } // namespace
 
 bool Observation::has(Event event, double within_cycles) const
@@ -289,37 +321,6 @@ Observation observe(const Study& study, const Realization& realization, const Mo
     set(Amount::friction_share, dissipated > 0 ? o.energy_friction_j / dissipated : nan);
     set(Amount::collapse_cycles, seen.collapsed ? o.collapse_time_s * realization.frequency_hz : nan);
     return seen;
-}
-
-Sample make_sample(const Study& study, const Sampler& sampler, const Motion* record, const std::vector<ResultRow>& rows,
-                   bool path_needed)
-{
-    Sample sample;
-    const Realization nominal = nominal_realization(study, record);
-    sample.f1_hz = study.contact.form == ContactForm::rigid ? std::numeric_limits<double>::infinity()
-                                                            : first_mode_of_paper(nominal).frequency_hz;
-    sample.rigid_m_s2 = rigid_limit(study, nominal);
-    if (study.surface) {
-        for (int i = 0; i < study.surface->frequency_hz.count; ++i)
-            sample.frequency_hz.push_back(study.surface->frequency_hz.value(i));
-        for (int i = 0; i < study.surface->pga_m_s2.count; ++i)
-            sample.pga_m_s2.push_back(study.surface->pga_m_s2.value(i));
-    } else {
-        sample.frequency_hz = {nominal.frequency_hz};
-        sample.pga_m_s2 = {nominal.pga_m_s2};
-    }
-    sample.cells.resize(sample.frequency_hz.size() * sample.pga_m_s2.size());
-    for (const ResultRow& row : rows) {
-        if (row.outcome.state == State::invalid)
-            ++sample.invalid;
-        else
-            sample.cells.at(row.cell).push_back(
-                observe(study, sampler.realization(row.index), record, row.outcome, path_needed));
-    }
-    for (std::vector<Observation>& cell : sample.cells)
-        std::sort(cell.begin(), cell.end(),
-                  [](const Observation& a, const Observation& b) { return a.index < b.index; });
-    return sample;
 }
 
 Estimate probability(const std::vector<Observation>& cell, const Measure& measure, double level)

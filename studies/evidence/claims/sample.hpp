@@ -52,10 +52,6 @@ struct Sample {
 Observation observe(const Study& study, const Realization& realization, const Motion* record, const Outcome& outcome,
                     bool path_needed);
 
-/// @pre the rows are of this study; invalid ones are counted and left out
-Sample make_sample(const Study& study, const Sampler& sampler, const Motion* record, const std::vector<ResultRow>& rows,
-                   bool path_needed);
-
 /// A number that lies between `lower` and `upper` with the confidence asked for.
 struct Estimate {
     double value = 0;

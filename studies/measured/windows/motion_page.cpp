@@ -53,6 +53,16 @@ std::pair<std::size_t, double> place_of(const std::vector<MotionSample>& samples
     return {static_cast<std::size_t>(row), std::clamp((time - a.time_s) / (b.time_s - a.time_s), 0.0, 1.0)};
 }
 
+/// "the calibrated baseline".
+std::string model_words(const std::string& model)
+{
+    return model == "baseline"     ? "the calibrated baseline"
+           : model == "extended"   ? "the extended study"
+           : model == "calibrated" ? "the calibrated study"
+           : model == "start"      ? "the start study"
+                                   : model;
+}
+
 } // namespace
 
 MotionStage::MotionStage(const WindowMotions& motion) : motion_(motion), free_(motion.free_blocks())
@@ -181,22 +191,6 @@ std::array<double, 3> MotionStage::drawn(const Trajectory& t, std::size_t sample
     return place;
 }
 
-std::string model_words(const std::string& model)
-{
-    return model == "baseline"     ? "the calibrated baseline"
-           : model == "extended"   ? "the extended study"
-           : model == "calibrated" ? "the calibrated study"
-           : model == "start"      ? "the start study"
-                                   : model;
-}
-
-std::string choice_words(const WindowMotion& window)
-{
-    return window.choice == WindowChoice::typical ? "typical: the median"
-           : window.rank == 1                     ? "worst of all"
-                                                  : "worst of its run";
-}
-
 namespace {
 
 constexpr double least_watched_s = 3; ///< that the longest window lasts on the screen
@@ -206,6 +200,14 @@ std::string excess_words(const MotionTrack& track)
 {
     return track.excess ? fmt::format("{:.1f} (block {}, {})", *track.excess, track.block, track.coordinate)
                         : std::string("not known");
+}
+
+/// "worst of all".
+std::string choice_words(const WindowMotion& window)
+{
+    return window.choice == WindowChoice::typical ? "typical: the median"
+           : window.rank == 1                     ? "worst of all"
+                                                  : "worst of its run";
 }
 
 std::string title_of(const WindowMotion& window)
@@ -315,38 +317,6 @@ HtmlTable motion_table(const WindowMotions& motion)
     return table;
 }
 
-} // namespace
-
-void add_motion(HtmlPage& page, const WindowMotions& motion)
-{
-    const MotionStage stage(motion);
-    page.heading("Measured and simulated blocks in motion");
-    page.paragraph("Outlined: the measured blocks. Filled: simulations, which followed the measured motion up to the "
-                   "start of a window and run freely from there to its end. " +
-                   size_words(stage));
-    page.data("animations", motion_json(motion, stage));
-    page.player();
-    page.figure(motion_svg(motion, stage), fmt::format("The moment of each window at which {} is farthest from the "
-                                                       "measured blocks.",
-                                                       model_words(motion.windows.front().tracks[1].model)));
-    page.table(motion_table(motion));
-    page.note(fmt::format("Excess: error in units of what noise and a lag of some milliseconds cause, of the block and "
-                          "coordinate that is off most; a fast block may be far off and within it. Rank: by the excess "
-                          "of {} among all windows. Shown are the worst window of all, the median one, and the worst "
-                          "ones of other runs.",
-                          model_words(motion.windows.front().tracks[1].model)));
-}
-
-std::string no_motion_words(const std::string& file, const std::string& code_version)
-{
-    return fmt::format(
-        "The measured and simulated blocks are not shown in motion: {} was written by an earlier version "
-        "of the program ({}), which did not store them. Make it again to see them.",
-        file, code_version);
-}
-
-namespace {
-
 constexpr double picture_px = 900, gap_px = 12, heading_px = 40, legend_px = 34;
 constexpr double beside_px = 65; ///< at each side of a structure
 constexpr double letter_px = 7.5;
@@ -385,8 +355,7 @@ std::string legend(const MotionStage& stage, double y)
     return out;
 }
 
-} // namespace
-
+/// Where the first model is farthest from what was measured, in the sizes with which the player (windows.js) begins.
 Html motion_svg(const WindowMotions& motion, const MotionStage& stage)
 {
     const AnimationStage& scale = stage.scale();
@@ -417,6 +386,36 @@ Html motion_svg(const WindowMotions& motion, const MotionStage& stage)
         "errors\" "
         "font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
         picture_px, heading_px + height + legend_px, motion.windows.size(), out));
+}
+
+} // namespace
+
+void add_motion(HtmlPage& page, const WindowMotions& motion)
+{
+    const MotionStage stage(motion);
+    page.heading("Measured and simulated blocks in motion");
+    page.paragraph("Outlined: the measured blocks. Filled: simulations, which followed the measured motion up to the "
+                   "start of a window and run freely from there to its end. " +
+                   size_words(stage));
+    page.data("animations", motion_json(motion, stage));
+    page.player();
+    page.figure(motion_svg(motion, stage), fmt::format("The moment of each window at which {} is farthest from the "
+                                                       "measured blocks.",
+                                                       model_words(motion.windows.front().tracks[1].model)));
+    page.table(motion_table(motion));
+    page.note(fmt::format("Excess: error in units of what noise and a lag of some milliseconds cause, of the block and "
+                          "coordinate that is off most; a fast block may be far off and within it. Rank: by the excess "
+                          "of {} among all windows. Shown are the worst window of all, the median one, and the worst "
+                          "ones of other runs.",
+                          model_words(motion.windows.front().tracks[1].model)));
+}
+
+std::string no_motion_words(const std::string& file, const std::string& code_version)
+{
+    return fmt::format(
+        "The measured and simulated blocks are not shown in motion: {} was written by an earlier version "
+        "of the program ({}), which did not store them. Make it again to see them.",
+        file, code_version);
 }
 
 } // namespace stylobate

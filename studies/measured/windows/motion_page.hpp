@@ -72,11 +72,6 @@ private:
     double larger_ = 1, apart_ = 1;
 };
 
-/// "the calibrated baseline".
-std::string model_words(const std::string& model);
-/// "worst of all".
-std::string choice_words(const WindowMotion& window);
-
 /// Adds the player of the animations (windows.js), a picture of a moment of each window, and a table of their errors;
 /// the latter two need no script.
 /// @pre the motion has a window, and no fault
@@ -86,8 +81,5 @@ void add_motion(HtmlPage& page, const WindowMotions& motion);
 std::string no_motion_words(const std::string& file, const std::string& code_version);
 
 // ---- A moment of each window side by side: what is printed, and seen where no scripts run.
-
-/// Where the first model is farthest from what was measured, in the sizes with which the player (windows.js) begins.
-Html motion_svg(const WindowMotions& motion, const MotionStage& stage);
 
 } // namespace stylobate

@@ -305,12 +305,12 @@ private:
     std::vector<Impact> training_, other_;
 };
 
-} // namespace
-
 bool in_training(const Impact& impact)
 {
     return impact.index / split_block % 2 == 0;
 }
+
+} // namespace
 
 ImpactStudy study_impacts(std::vector<Impact> impacts, const std::function<void(const std::string&)>& progress)
 {

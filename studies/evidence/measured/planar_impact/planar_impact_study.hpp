@@ -13,7 +13,6 @@ namespace stylobate::measured::impact {
 /// The halves: blocks of 50 consecutive numbers of the published order, by turns. Neighbours in time, which could share
 /// a drift, then mostly fall into the same half.
 inline constexpr long split_block = 50;
-bool in_training(const Impact& impact);
 
 /// A law fitted on the training half.
 struct JudgedLaw {

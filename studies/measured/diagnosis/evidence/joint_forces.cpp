@@ -81,6 +81,18 @@ std::vector<double> limited_residuals(const std::vector<RockingSample>& samples)
     return r;
 }
 
+/// Least slip speeds of the classes [m/s]: 0.01, 0.03 and 0.1 of sqrt(g x height).
+std::array<double, slip_classes> slip_class_speeds(const Specimen& s)
+{
+    double top = 0, bottom = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < s.rest_y_m.size(); ++b) {
+        top = std::max(top, s.rest_y_m[b] + s.half_height_m[b]);
+        bottom = std::min(bottom, s.rest_y_m[b] - s.half_height_m[b]);
+    }
+    const double speed = std::sqrt(s.gravity_m_s2 * (top - bottom));
+    return {0.01 * speed, 0.03 * speed, 0.1 * speed};
+}
+
 } // namespace
 
 std::vector<std::vector<int>> carried_blocks(const Specimen& s)
@@ -99,17 +111,6 @@ std::vector<std::vector<int>> carried_blocks(const Specimen& s)
                     above[j].push_back(upper);
     }
     return above;
-}
-
-std::array<double, slip_classes> slip_class_speeds(const Specimen& s)
-{
-    double top = 0, bottom = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < s.rest_y_m.size(); ++b) {
-        top = std::max(top, s.rest_y_m[b] + s.half_height_m[b]);
-        bottom = std::min(bottom, s.rest_y_m[b] - s.half_height_m[b]);
-    }
-    const double speed = std::sqrt(s.gravity_m_s2 * (top - bottom));
-    return {0.01 * speed, 0.03 * speed, 0.1 * speed};
 }
 
 JointForces::JointForces(const Specimen& specimen)

@@ -45,7 +45,4 @@ private:
     std::vector<std::vector<RockingSample>> samples_; ///< (n_joint)
 };
 
-/// Least slip speeds of the classes [m/s]: 0.01, 0.03 and 0.1 of sqrt(g x height).
-std::array<double, slip_classes> slip_class_speeds(const Specimen& specimen);
-
 } // namespace stylobate
