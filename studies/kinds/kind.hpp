@@ -9,8 +9,8 @@
 
 #include "io/store/result_store.hpp"
 #include "studies/experiment/limit_state.hpp"
-#include "studies/kinds/page_writer.hpp"
 #include "studies/kinds/rounds.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstdint>

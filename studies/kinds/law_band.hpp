@@ -3,7 +3,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/tables/table.hpp"
-#include "studies/kinds/page_writer.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstddef>

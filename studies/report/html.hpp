@@ -3,6 +3,7 @@
 /// not needed to read them.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -86,5 +87,13 @@ std::string base64(std::string_view bytes);
 /// `studies/report/page`, which the build embeds into the program.
 std::string_view page_style();
 std::string_view page_script();
+
+/// A page and its pictures.
+struct PageWriter {
+    HtmlPage& page;
+    /// Puts a picture into the page, or a note why it could not be drawn. The function draws a PNG.
+    std::function<void(const std::string& caption, const std::function<void(const std::filesystem::path& png)>& draw)>
+        picture;
+};
 
 } // namespace stylobate

@@ -2,9 +2,9 @@
 /// A survival study as lines for a terminal, as JSON, as tables, as pictures and as sections of a page.
 
 #include "io/tables/table.hpp"
-#include "studies/kinds/page_writer.hpp"
 #include "studies/kinds/survival/survival.hpp"
 #include "studies/report/figure.hpp"
+#include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>
