@@ -4,7 +4,7 @@
 /// A motion is a displacement U(t) that is 0 for t <= 0. What drives the structure is its second difference
 /// U(n+1) - 2 U(n) + U(n-1): with that, stepping in the frame of the base is the same, to rounding, as moving the base.
 
-#include "kernels/planar/bundle.hpp"
+#include "kernels/row_list.hpp"
 #include "kernels/trig.hpp"
 
 namespace stylobate {

@@ -11,6 +11,9 @@
 
 namespace stylobate {
 
+/// Steps between two termination checks of a realization, and the length of the table of base motion.
+inline constexpr int chunk_steps = 64;
+
 /// What has a row of a list.
 enum class RowOf { block, joint, edge, realization, step };
 

@@ -3,7 +3,7 @@
 #include "bench/peers/contender.hpp"
 #include "bench/peers/rocking.hpp"
 #include "ensemble/run/executor.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/trials.hpp"
 #include "studies/version.hpp"

@@ -1,6 +1,6 @@
 #include "bench/rigid_reference/column.hpp"
 
-#include "ensemble/statics/scales.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/run/executor.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 #include "studies/evidence/verification/trials.hpp"

@@ -5,6 +5,7 @@
 ///   Realization, HandOver              what is put in, and what goes on in another set (`Model::leaves`)
 ///   Measured                           what it keeps of a lane from check to check
 ///   Model(study, kernels, pattern, waiting)
+///   scales(realization)
 ///   lanes(), twice(), check_steps()    of its bundle; steps between two checks
 ///   clear(lane)                        an empty lane, which is at rest and does nothing
 ///   begin(lane, place)                 parameters and static rest of `place.realization`, scales, start of the watch
@@ -21,7 +22,6 @@
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/base_motion.hpp"
-#include "ensemble/statics/scales.hpp"
 #include "kernels/isa.hpp"
 
 #include <algorithm>
@@ -214,7 +214,7 @@ private:
     void start_watch(Place& of) const
     {
         const Realization& r = of.realization;
-        of.scales = scales_of(r);
+        of.scales = Model::scales(r);
         const bool shaken = study_.excitation.kind != ExcitationKind::none;
         const int interval = model_.check_steps();
         const double end_s = std::max(of.motion.duration_s(), of.vertical ? of.vertical->duration_s() : 0.0);
@@ -225,7 +225,7 @@ private:
         w.rest_energy_j = rest_energy * of.scales.barrier_j;
         w.rest_slip_m = rest_slip * of.scales.width_m * of.scales.p_rad_s * interval * r.step_s;
         w.may_rest = shaken;
-        w.last_step = whole_checks(end_s + tail_s(study_.excitation, r), r.step_s, interval);
+        w.last_step = whole_checks(end_s + tail_s(study_.excitation, of.scales), r.step_s, interval);
         w.rest_steps = whole_checks(rest_time / of.scales.p_rad_s, r.step_s, interval);
     }
 

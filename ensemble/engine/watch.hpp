@@ -8,8 +8,8 @@
 ///   energy_balance(T, B, lane, watch)    after the last step of a chunk
 ///   rest_signs(T, B, lane)               what a check of rest reads
 
-#include "kernels/planar/topology.hpp"
 #include "kernels/real.hpp"
+#include "kernels/row_list.hpp"
 
 #include <cstdint>
 

@@ -2,6 +2,7 @@
 /// The mechanisms that a study can name: one table defines them, from which studies are read, written, perturbed
 /// and explained. The equations are in `kernels/planar/mechanisms/` and, for the base, in `base_motion.hpp`.
 
+#include "ensemble/model/realization.hpp"
 #include "ensemble/model/structure.hpp"
 
 #include <array>
@@ -66,6 +67,75 @@ enum class ParameterRole {
     needed, ///< defines how the mechanism acts, and must be given
     detail, ///< defines how the mechanism acts; has a default
     extra   ///< the same; a study's text has it only where it is not the default
+};
+
+/// What the mechanisms (`kernels/planar/mechanisms/`) make of a joint. Every default is neutral.
+struct JointMechanisms {
+    double dynamic_ratio = 1;         ///< stribeck: mu_d / mu
+    double stribeck_velocity_m_s = 1; ///< stribeck: v_s
+    double wear_per_m = 0;            ///< friction_wear: mu (1 - k S), S the slip of the joint so far
+    double adhesion_n_m = 0;          ///< adhesion: c, force per contact length, until the joint first slips
+    double dowel_stiffness_n_m = 0;   ///< dowel: k_d
+    double dowel_yield_n = 0;         ///< dowel: F_d
+    double dowel_gap_m = 0;           ///< dowel: free play to either side
+    double force_exponent = 1;        ///< hertz: q in F = K A^q, scaled to the force at the reference overlap
+    double reference_overlap_m2 = 1;  ///< hertz: where the law has the force of the linear one
+    double rate_s_m = 0;              ///< rate_damping: Hunt and Crossley's lambda
+    double face_damping = 0;          ///< share of the normal dashpot that acts at the ends of the contact
+    double chip_left_m = 0;           ///< corner_loss: contact face lost at its left end
+    double chip_right_m = 0;          ///< corner_loss: at its right end
+    double corner_wear_m_rad = 0;     ///< corner_wear: further loss at both ends per path of the relative rotation
+    double wedge_rad = 0;             ///< wedge: the lower block's face is turned by this, counter-clockwise
+    friend bool operator==(const JointMechanisms&, const JointMechanisms&) = default;
+};
+
+/// What the mechanisms make of a block. Every default is neutral.
+struct BlockMechanisms {
+    double drag_n_s2_m2 = 0;   ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
+    double eccentricity_m = 0; ///< eccentricity: centre of mass from the geometric centre, along the width
+    double tie_n_m = 0;        ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative
+    double tie_n_s_m = 0;      ///< tie: c
+    double tie_n = 0;          ///< tie: f
+    double tie_n_m_s = 0;      ///< tie: moment against the rotation, per rate of rotation
+    friend bool operator==(const BlockMechanisms&, const BlockMechanisms&) = default;
+};
+
+/// What strengthens a joint (`kernels/planar/mechanisms/strengthening.hpp`). Every default is neutral. All of it was
+/// put in when the structure was at rest.
+struct JointStrengthening {
+    double bearing_n_m = 0;        ///< bearing: k
+    double bearing_n_s_m = 0;      ///< bearing: c
+    double bearing_per_m = 0;      ///< bearing: 1 / R, the curvature of its dish
+    double bond_tension_n_m = 0;   ///< mortar: tensile strength times depth, f_t D
+    double bond_cohesion_n_m = 0;  ///< mortar: cohesion times depth, c D
+    double hold_n = 0;             ///< pull_out: F_a of one dowel
+    double hold_stiffness_n_m = 0; ///< pull_out: axial stiffness of one dowel
+    double hold_length_m = 0;      ///< pull_out: opening at which a dowel is out
+    double hold_spread_m = 0;      ///< pull_out: of the two dowels from the middle of the upper face
+    bool bonded() const { return bond_tension_n_m > 0; }
+    friend bool operator==(const JointStrengthening&, const JointStrengthening&) = default;
+};
+
+/// What strengthens a block, as `JointStrengthening` a joint.
+struct BlockStrengthening {
+    double tendon_n_m = 0;         ///< tendon: k, from the middle of the block's top face down to the fixed ground
+    double tendon_prestress_n = 0; ///< tendon: T0, at rest
+    double tendon_yield_n = 1e12;  ///< tendon: T_y
+    double clamp_n_m = 0;          ///< clamp: k, to the block `clamp_to`
+    double clamp_strength_n = 0;   ///< clamp: F_y
+    double clamp_gap_m = 0;        ///< clamp: free play to either side
+    double clamp_compression = 1;  ///< clamp: its stiffness in compression over that in tension
+    double clamp_height_m = 0;     ///< clamp: above the middle of this block
+    double clamp_break_m = 10;     ///< clamp: elongation at which it breaks
+    int clamp_to = -1;             ///< the block beside it at the right; -1: no clamp
+    friend bool operator==(const BlockStrengthening&, const BlockStrengthening&) = default;
+};
+
+/// What the mechanisms make of the base, beside what changes its horizontal motion alone (`BaseChange`).
+struct BaseMechanisms {
+    double pitch_rad_s2_m = 0; ///< table_pitch: rotation of the table about the middle of the base, per acceleration
+    double vertical_ratio = 0; ///< vertical_motion: vertical over horizontal acceleration of the base
+    friend bool operator==(const BaseMechanisms&, const BaseMechanisms&) = default;
 };
 
 struct MechanismParameter {

@@ -68,15 +68,15 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
 
 double nominal_tail_s(const StructureSpec& structure)
 {
-    double top = -std::numeric_limits<double>::infinity(), bottom = -top, half_width = 0;
+    double top = -std::numeric_limits<double>::infinity(), bottom = -top, widest = 0;
     for (const PlacedBlock& block : lay_out(structure).blocks) {
         if (block.fixed || block.role != BlockRole::drum)
             continue;
         top = std::max(top, block.top());
         bottom = std::min(bottom, block.bottom());
-        half_width = std::max(half_width, block.width_m / 2);
+        widest = std::max(widest, block.width_m);
     }
-    return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(half_width, 0.5 * (top - bottom)));
+    return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(widest / 2, 0.5 * (top - bottom)));
 }
 
 double shaking_pause_s(const Study& study)

@@ -2,13 +2,19 @@
 /// What stands on the ground: columns of drums, and the epistyles that lie on them. Plain data, SI units; and where
 /// each block of it stands at rest.
 
-#include "ensemble/model/realization.hpp"
-
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+/// What a block is, for names, limit states and pictures.
+enum class BlockRole : std::uint8_t {
+    drum,     ///< of a column, a capital or a whole shaft included
+    epistyle, ///< spans from column to column
+    ground    ///< what a structure stands on, and what has fallen lies on
+};
 
 enum class StructureKind {
     column,   ///< one column: where it stands is all that its blocks can meet

@@ -2,7 +2,6 @@
 
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/numerics/elementary.hpp"
-#include "ensemble/statics/scales.hpp"
 
 #include <algorithm>
 #include <array>
@@ -261,28 +260,28 @@ Motion sampled(const BaseMotion& motion, double fastest_hz)
     return motion_of(acceleration_through(u, dt), dt);
 }
 
-double tail_after_shaking(const Realization& realization)
+double tail_after_shaking(const Scales& scales)
 {
-    return 12 / scales_of(realization).p_rad_s;
+    return 12 / scales.p_rad_s;
 }
 
-double longest_tail(const Realization& realization)
+double longest_tail(const Scales& scales)
 {
-    return rest_tails * tail_after_shaking(realization);
+    return rest_tails * tail_after_shaking(scales);
 }
 
-double pause_until_rest(const Realization& realization)
+double pause_until_rest(const Scales& scales)
 {
-    return pause_tails * tail_after_shaking(realization);
+    return pause_tails * tail_after_shaking(scales);
 }
 
-double tail_s(const ExcitationSpec& excitation, const Realization& realization)
+double tail_s(const ExcitationSpec& excitation, const Scales& scales)
 {
     if (excitation.kind == ExcitationKind::none)
         return 0;
     if (excitation.tail_s)
         return *excitation.tail_s;
-    return excitation.tail == Tail::rest ? longest_tail(realization) : tail_after_shaking(realization);
+    return excitation.tail == Tail::rest ? longest_tail(scales) : tail_after_shaking(scales);
 }
 
 } // namespace stylobate

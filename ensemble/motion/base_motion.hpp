@@ -95,14 +95,14 @@ Motion sampled(const BaseMotion& motion, double fastest_hz);
 /// inverted pendulum structures during earthquakes", Bulletin of the Seismological Society of America 53 (1963) 403)
 /// and R half the diagonal of the whole structure. This is about three times the time in which it overturns from near
 /// its unstable equilibrium (own choice).
-double tail_after_shaking(const Realization& realization);
+double tail_after_shaking(const Scales& scales);
 /// Limit of the simulated time after the shaking where a study reports what remains of the motion (`Tail::rest`):
 /// `rest_tails` times as long.
-double longest_tail(const Realization& realization);
+double longest_tail(const Scales& scales);
 /// Default of the time between earthquakes that follow each other: 10 times `tail_after_shaking`. A stack rocks on for
 /// long: after a short pause the next earthquake meets it in motion, which topples it more easily.
-double pause_until_rest(const Realization& realization);
+double pause_until_rest(const Scales& scales);
 /// The most that is simulated after the shaking of a realization [s]; 0 where nothing shakes.
-double tail_s(const ExcitationSpec& excitation, const Realization& realization);
+double tail_s(const ExcitationSpec& excitation, const Scales& scales);
 
 } // namespace stylobate

@@ -96,10 +96,9 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
     }
 }
 
-void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& realization) const
+void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales& scales, RealizationHeader& realization) const
 {
     const ExcitationSpec& excitation = study.excitation;
-    realization.base_tilt_rad = drawn.base_tilt_rad;
     realization.phase_rad = drawn.phase_rad;
     realization.pulse_gamma = drawn.pulse_gamma;
     const StudyDesign design = study.design();
@@ -127,15 +126,15 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, Realization& 
     if (vertical_)
         move_vertically(realization);
     if (const int events = design.events_of(realization.index); events > 1)
-        repeat(study, events, row, realization);
+        repeat(study, events, row, scales, realization);
 }
 
-void Shaking::repeat(const Study& study, int events, std::size_t row, Realization& realization) const
+void Shaking::repeat(const Study& study, int events, std::size_t row, const Scales& scales, RealizationHeader& realization) const
 {
     const ExcitationSpec& excitation = study.excitation;
     std::vector<Motion> motions;
     const StudyDesign design = study.design();
-    double pause_s = design.event_pause_s.value_or(pause_until_rest(realization));
+    double pause_s = design.event_pause_s.value_or(pause_until_rest(scales));
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
         for (int k = 0; k < events; ++k) { // the first one is the realization's own
@@ -160,7 +159,7 @@ void Shaking::repeat(const Study& study, int events, std::size_t row, Realizatio
     realization.motion = std::make_shared<const Motion>(repeated_motion(motions, pause_s));
 }
 
-void Shaking::apply_motion(const StudyDesign& design, Realization& realization) const
+void Shaking::apply_motion(const StudyDesign& design, RealizationHeader& realization) const
 {
     const std::uint64_t cell = design.cell(realization.index);
     const auto motion = static_cast<std::size_t>(cell / design.columns);
@@ -172,7 +171,7 @@ void Shaking::apply_motion(const StudyDesign& design, Realization& realization) 
 }
 
 /// Of a harmonic motion the formula does it (`BaseMotion`).
-void Shaking::distort(const ExcitationSpec& excitation, Realization& realization) const
+void Shaking::distort(const ExcitationSpec& excitation, RealizationHeader& realization) const
 {
     if (is_sampled(excitation.kind)) {
         realization.motion = distorted_
@@ -187,7 +186,7 @@ void Shaking::distort(const ExcitationSpec& excitation, Realization& realization
 }
 
 /// A vertical record is stretched and scaled as the horizontal one is: they are components of one shaking.
-void Shaking::move_vertically(Realization& realization) const
+void Shaking::move_vertically(RealizationHeader& realization) const
 {
     const bool alone = predominant_hz_ == 0;
     const double stretch = alone ? 1 : predominant_hz_ / realization.frequency_hz;
@@ -197,7 +196,7 @@ void Shaking::move_vertically(Realization& realization) const
 }
 
 /// Frequency and PGA of a study that is no surface.
-void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const
+void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const
 {
     if (excitation.kind != ExcitationKind::none)
         realization.pga_m_s2 = excitation.pga_m_s2;

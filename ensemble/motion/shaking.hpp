@@ -15,7 +15,6 @@ namespace stylobate {
 
 /// The drawn parameters of the shaking, or their nominal values.
 struct DrawnShaking {
-    double base_tilt_rad = 0;
     double phase_rad = 0;
     double pulse_frequency_hz = 0; ///< of a study other than a surface
     double pulse_gamma = 0;
@@ -33,16 +32,17 @@ public:
             std::shared_ptr<const MotionSet> motions = nullptr);
 
     /// Fills in the shaking of a realization whose index and whose `change` of the base motion are set.
-    /// @param study the one this was made for
-    void apply(const Study& study, const DrawnShaking& drawn, Realization& realization) const;
+    /// @param study  the one this was made for
+    /// @param scales of the realization: a pause between several events follows from them
+    void apply(const Study& study, const DrawnShaking& drawn, const Scales& scales, RealizationHeader& realization) const;
 
 private:
-    void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, Realization& realization) const;
-    void apply_motion(const StudyDesign& design, Realization& realization) const;
-    void distort(const ExcitationSpec& excitation, Realization& realization) const;
-    void move_vertically(Realization& realization) const;
+    void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const;
+    void apply_motion(const StudyDesign& design, RealizationHeader& realization) const;
+    void distort(const ExcitationSpec& excitation, RealizationHeader& realization) const;
+    void move_vertically(RealizationHeader& realization) const;
     /// Several events instead of one. @param row of the surface
-    void repeat(const Study& study, int events, std::size_t row, Realization& realization) const;
+    void repeat(const Study& study, int events, std::size_t row, const Scales& scales, RealizationHeader& realization) const;
 
     Motion record_;                           ///< where it is distorted, or repeated
     Distortion distortion_;                   ///< of it

@@ -1,7 +1,7 @@
 #include "ensemble/planar/compliant_set.hpp"
 
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/statics/compliant_form.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 
 namespace stylobate {
 

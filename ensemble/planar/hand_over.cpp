@@ -1,7 +1,7 @@
 /// How a realization goes from rigid contacts to contacts that yield (`planar_model.hpp`, `compliant_set.hpp`).
 
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/statics/compliant_form.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 
 #include <cassert>
 #include <cmath>

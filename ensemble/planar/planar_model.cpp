@@ -1,6 +1,6 @@
 #include "ensemble/planar/planar_model.hpp"
 
-#include "ensemble/statics/mechanisms.hpp"
+#include "ensemble/planar/structure/mechanisms.hpp"
 #include "kernels/planar/step.hpp"
 
 #include <algorithm>

@@ -2,13 +2,14 @@
 /// The planar model: rectangles of a stack or a colonnade in the lanes of a bundle (`ensemble/engine/lanes.hpp`).
 
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/numerics/aligned.hpp"
 #include "ensemble/planar/limit_states.hpp"
 #include "ensemble/planar/planar_poses.hpp"
 #include "ensemble/planar/planar_watch.hpp"
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/planar/single_bundle.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>
@@ -58,6 +59,7 @@ public:
     ///         model
     PlanarModel(const Study& study, const KernelTable& kernels, const Realization& pattern, std::uint64_t waiting);
 
+    static Scales scales(const Realization& realization) { return scales_of(realization); }
     int lanes() const { return static_cast<int>(lanes_); }
     bool twice() const { return twice_; }
     int check_steps() const { return stylobate::check_steps(topology_); }

@@ -4,7 +4,7 @@
 #include "ensemble/model/fields.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/statics/scales.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <atomic>

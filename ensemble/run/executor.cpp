@@ -1,6 +1,6 @@
 #include "ensemble/run/executor.hpp"
 
-#include "ensemble/device/slots.hpp"
+#include "ensemble/planar/device/slots.hpp"
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/planar/compliant_set.hpp"

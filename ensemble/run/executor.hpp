@@ -1,7 +1,7 @@
 #pragma once
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
-#include "ensemble/device/device.hpp"
+#include "ensemble/planar/device/device.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"

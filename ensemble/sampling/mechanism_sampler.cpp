@@ -1,7 +1,7 @@
 #include "ensemble/sampling/mechanism_sampler.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/statics/bed.hpp"
+#include "ensemble/planar/structure/bed.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// The mechanisms of a study, applied to a realization.
 
 #include "ensemble/model/mechanism_spec.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/random.hpp"

@@ -3,8 +3,8 @@
 #include "ensemble/model/structure.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/limit_analysis.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/limit_analysis.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 /// `Study::allow`.
 
 #include "ensemble/model/motion.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/study.hpp"
 
 #include <cstdint>
@@ -58,7 +58,7 @@ std::vector<double> static_sinkage_m(const Study& study);
 double first_frequency_hz(const Study& study);
 
 /// The structure of a study as it stands on rigid beds, nothing drawn: the largest base acceleration, held for ever,
-/// at which it can rest [m/s2] (limit analysis, `ensemble/statics/limit_analysis.hpp`).
+/// at which it can rest [m/s2] (limit analysis, `ensemble/planar/structure/limit_analysis.hpp`).
 struct StaticLimit {
     double rocking_m_s2 = 0; ///< if no bed could slide
     double limit_m_s2 = 0;   ///< with the friction of the study

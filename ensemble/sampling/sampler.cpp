@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/nominal.hpp"
-#include "ensemble/statics/bed.hpp"
-#include "ensemble/statics/scales.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/bed.hpp"
+#include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
 #include <fmt/format.h>
 
@@ -192,10 +192,10 @@ Realization Sampler::build(std::uint64_t index, const PointSet& points) const
     join(values, realization);
     watch(values, realization);
     mechanisms_.apply(mechanisms, realization);
+    realization.base_tilt_rad = values[Quantity::tilt][0];
     shaking_.apply(*study_,
-                   {values[Quantity::tilt][0], values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
-                    values[Quantity::pulse_gamma][0]},
-                   realization);
+                   {values[Quantity::phase][0], values[Quantity::pulse_frequency][0], values[Quantity::pulse_gamma][0]},
+                   scales_of(realization), realization);
     realization.step_s = step(realization);
     return realization;
 }

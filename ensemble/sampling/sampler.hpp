@@ -3,7 +3,7 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/motion_set.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/shaking.hpp"

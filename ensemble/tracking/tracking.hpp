@@ -15,7 +15,7 @@
 /// set and the number of threads.
 
 #include "ensemble/model/observer.hpp"
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
 

@@ -17,9 +17,6 @@ struct TopologyJoint {
 /// Numbers of an edge in `Topology::rigid_order`.
 inline constexpr int rigid_edge_numbers = 5;
 
-/// Steps between two termination checks of a realization, and the length of the table of base motion.
-inline constexpr int chunk_steps = 64;
-
 /// Blocks are numbered with the fixed ones first: they move with the base, and are not stepped.
 /// A view: the joints belong to the caller. (No container here: what is compiled for one instruction set must not
 /// leak into functions that others share.)

@@ -2,7 +2,7 @@
 /// How fast a structure stops rocking, by the contact law of its study and by rigid contacts.
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 #include "studies/experiment/numerics.hpp"
 
 #include "ensemble/model/outcome.hpp"
-#include "ensemble/statics/scales.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -2,8 +2,8 @@
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/planar/hand_over.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 #include "ensemble/replicas/replicas.hpp"
-#include "ensemble/statics/compliant_form.hpp"
 #include "studies/experiment/loaded_study.hpp"
 
 #include <algorithm>

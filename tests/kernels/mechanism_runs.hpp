@@ -2,7 +2,7 @@
 /// Realizations with every mechanism, and runs of them whose every bit can be compared.
 
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/statics/mechanisms.hpp"
+#include "ensemble/planar/structure/mechanisms.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 

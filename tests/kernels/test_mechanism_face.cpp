@@ -1,7 +1,7 @@
 /// Mechanisms of the faces and contact forms, each against its closed form, through the real kernel.
 
-#include "ensemble/statics/static_state.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "kernels/planar/mechanisms/corner_wear.hpp"
 #include "studies/evidence/verification/trials.hpp"
 

@@ -1,8 +1,8 @@
 /// What must hold with any mechanism: a structure stays where it rests, the safe step is safe, the energies balance.
 
-#include "ensemble/statics/settle.hpp"
-#include "ensemble/statics/static_state.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/settle.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "tests/kernels/mechanism_runs.hpp"
 #include "tests/kernels/uneven_drums.hpp"
 

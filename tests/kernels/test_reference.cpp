@@ -3,7 +3,7 @@
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/reference_solver.hpp"
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "tests/kernels/uneven_drums.hpp"
 
 #include <gtest/gtest.h>

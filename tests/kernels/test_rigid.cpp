@@ -1,7 +1,7 @@
 /// The rigid form against oracles that share no code with it: Housner's block, sliding under a pulse, limit analysis.
 
 #include "ensemble/planar/rigid_order.hpp"
-#include "ensemble/statics/limit_analysis.hpp"
+#include "ensemble/planar/structure/limit_analysis.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 #include "studies/evidence/verification/trials.hpp"

@@ -1,6 +1,6 @@
 /// Bad input: one message that says where, what, and what to do; exit status 2; nothing written or changed.
 
-#include "ensemble/device/device.hpp"
+#include "ensemble/planar/device/device.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"

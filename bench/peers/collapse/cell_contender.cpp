@@ -4,7 +4,7 @@
 #include "bench/peers/engine.hpp"
 #include "ensemble/planar/limit_states.hpp"
 #include "ensemble/run/executor.hpp"
-#include "ensemble/statics/scales.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

@@ -11,7 +11,7 @@
 /// 660-668, here without softening. The integral is an own derivation: the opening is linear along the face.
 ///
 /// Parameters: f_t D [N/m], c D [N/m] (D the depth).  Neutral: f_t = 0.  Acts beside the contact of a bed, whose
-/// friction waits until it has broken. A bed that opens at rest is closed by it (`ensemble/statics`).
+/// friction waits until it has broken. A bed that opens at rest is closed by it (`ensemble/planar/structure`).
 /// Energy: K_N int_o o2 dx / 2 + V2 / (2 K_T) is stored; what is stored when it breaks is dissipated.
 /// Step bound: none of its own; a full contact has the same stiffness.
 /// Limits: no softening, so a brittle upper limit of the strength and a lower one of the energy; contact form `area`.

@@ -10,7 +10,7 @@
 /// Structures 42 (1992) 97), without compression.
 ///
 /// Parameters: k [N/m], T_0 [N], T_y [N].  Neutral: k = 0.  Acts in the sum of the forces on a block; T_0 changes the
-/// state of rest (`ensemble/statics`).
+/// state of rest (`ensemble/planar/structure`).
 /// Energy: T2 / (2 k) is stored; what yields is dissipated.
 /// Step bound: k at the anchor in both directions.
 /// Limits: it touches no block between its anchors, has no mass, and its lower anchor does not move.

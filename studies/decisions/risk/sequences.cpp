@@ -5,6 +5,7 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
@@ -111,7 +112,7 @@ private:
     const Study& study() const { return experiment_.study(); }
     double pause_s(const Realization& r) const
     {
-        return options_.pause_s.value_or(std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(r)));
+        return options_.pause_s.value_or(std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(scales_of(r))));
     }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 

@@ -6,7 +6,7 @@
 
 #include "ensemble/planar/compliant_set.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 
 #include <algorithm>
 #include <cmath>

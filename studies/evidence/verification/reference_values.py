@@ -16,7 +16,7 @@ Only the standard library is used: double precision, no file of the project is i
   sliding            v' = eta sin t - sign(v) while it slides, Simpson's rule over each phase, its ends by bisection
   frequencies        energy of beds and weight to second order in (x, theta) of each block, inverse iteration. The
                      weight presses along the normal of the lower face, in the middle of the overlap at rest, as in the
-                     engine; with `dead_load` it is vertical and acts at the faces (ensemble/statics/step_bound.hpp)
+                     engine; with `dead_load` it is vertical and acts at the faces (ensemble/planar/structure/step_bound.hpp)
   largest steps      bisection of the step at which 4 M - 2 dt C - dt^2 K is no longer positive definite (Cholesky)
   scheme             the recurrence itself
 """
@@ -308,7 +308,7 @@ def values():
     rocking, overturning, frames, sliding, vibration, scheme = (
         f"{cases}{subject}_cases.cpp" for subject in ("rocking", "overturning", "frame", "sliding", "vibration", "scheme")
     )
-    bound = "tests/ensemble/statics/test_step_bound.cpp"
+    bound = "tests/ensemble/planar/test_step_bound.cpp"
     for part, m, a in ((0.1, "0.20800736", "0.99328373"), (0.5, "0.58467309", "2.79337282"), (0.9, "1.32676631", "6.34056642")):
         yield rocking, m, 4 * quarter_period(*mono, part * mono[0])
         yield rocking, a, 4 * quarter_period(*tall, part * tall[0])

@@ -1,9 +1,9 @@
 #include "studies/evidence/verification/trials.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
-#include "ensemble/statics/bed.hpp"
-#include "ensemble/statics/scales.hpp"
-#include "ensemble/statics/settle.hpp"
+#include "ensemble/planar/structure/bed.hpp"
+#include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/planar/structure/settle.hpp"
 #include "studies/evidence/verification/reference_solver.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/measured_motion.hpp"
 

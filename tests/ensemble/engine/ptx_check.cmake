@@ -6,7 +6,7 @@ separate_arguments(FLAGS)
 set(ptx ${CMAKE_CURRENT_BINARY_DIR}/device_cuda.ptx)
 execute_process(
   COMMAND ${NVCC} -ccbin=${HOST} -std=c++20 -O3 -arch=compute_90 -ptx ${FLAGS} -DSTYLOBATE_CUDA -I${SOURCE_DIR}
-    ${SOURCE_DIR}/ensemble/device/device_cuda.cu -o ${ptx}
+    ${SOURCE_DIR}/ensemble/planar/device/device_cuda.cu -o ${ptx}
   RESULT_VARIABLE status ERROR_VARIABLE text)
 if(status)
   message(FATAL_ERROR "the GPU's code cannot be made: ${text}")

@@ -287,7 +287,7 @@ TEST(Ensemble, RealizationsAtRestEndBeforeTheirTime)
     plan.sink = [&](const Realization& r, const Outcome& o) {
         const double shaking = study.excitation.cycles / r.frequency_hz;
         EXPECT_TRUE(o.state == State::collapsed || o.end_time_s >= shaking) << "ended while it was shaken";
-        early += o.end_time_s < shaking + 0.9 * tail_after_shaking(r);
+        early += o.end_time_s < shaking + 0.9 * tail_after_shaking(scales_of(r));
     };
     Observer observer;
     run_ensemble(Experiment(study), {best_isa(), 2}, plan, observer);

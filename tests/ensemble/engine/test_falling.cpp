@@ -2,7 +2,7 @@
 
 #include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "io/study/study_file.hpp"
 
 #include <fmt/format.h>

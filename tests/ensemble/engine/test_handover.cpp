@@ -3,7 +3,7 @@
 #include "ensemble/experiment.hpp"
 #include "ensemble/planar/compliant_set.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/statics/compliant_form.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"

@@ -2,8 +2,8 @@
 /// set aside with its index and the reason, and the next realization in its lane finds nothing of it.
 
 #include "bench/scenes.hpp"
-#include "ensemble/device/host_device.hpp"
-#include "ensemble/device/slots.hpp"
+#include "ensemble/planar/device/host_device.hpp"
+#include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"

@@ -43,9 +43,9 @@ double table_error(const std::vector<double>& table, double step, const Displace
     return static_cast<double>(worst);
 }
 
-Realization shaken(double frequency, double pga, double step, const BaseChange& change)
+RealizationHeader shaken(double frequency, double pga, double step, const BaseChange& change)
 {
-    Realization r;
+    RealizationHeader r;
     r.frequency_hz = frequency;
     r.pga_m_s2 = pga;
     r.step_s = step;
@@ -66,7 +66,7 @@ TEST(BaseChange, AHarmonicMotionWithEverything)
             ExcitationSpec e;
             e.kind = ExcitationKind::harmonic;
             e.start = e.end = is_abrupt ? HarmonicEdge::abrupt : HarmonicEdge::smooth;
-            Realization r = shaken(2.5, 3, 1e-3, {0.88, offset, 0.02, -0.01, 0.03, 0.04});
+            RealizationHeader r = shaken(2.5, 3, 1e-3, {0.88, offset, 0.02, -0.01, 0.03, 0.04});
             r.phase_rad = 0.7;
             const BaseMotion motion(e, r, nullptr);
             const long double f = 2.5, amplitude = 0.88 * 3 / ((2 * pi * f) * (2 * pi * f));
@@ -116,7 +116,7 @@ TEST(BaseChange, GainAndOffsetOfPulses)
         ExcitationSpec e;
         e.kind = kind;
         e.ramp_cycles = 2;
-        Realization r = shaken(2, 3, 1e-3, {});
+        RealizationHeader r = shaken(2, 3, 1e-3, {});
         r.pulse_gamma = 2;
         const BaseMotion plain(e, r, nullptr);
         for (const double offset : {0.0123, -0.2}) {
@@ -154,7 +154,7 @@ TEST(BaseChange, ARecordIsMovedInTime)
     const Motion record = burst(0.02, 2, 6, 0.005);
     ExcitationSpec e;
     e.kind = ExcitationKind::table;
-    Realization r = shaken(1, 2 * record.pga_m_s2, 1.7e-4, {}); // stretched to twice its time, twice as strong
+    RealizationHeader r = shaken(1, 2 * record.pga_m_s2, 1.7e-4, {}); // stretched to twice its time, twice as strong
     const BaseMotion plain(e, r, &record);
     for (const double offset : {0.0127, -0.0127, -0.5, 1.0}) {
         r.change = {0.9, offset};

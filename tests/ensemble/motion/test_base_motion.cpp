@@ -2,6 +2,7 @@
 
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/synthetic_sine.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 #include "kernels/base_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -415,15 +416,15 @@ TEST(TailAfterShaking, ByHand)
     r.blocks[1].mass_kg = 1;
     r.joints.resize(1);
     r.joints[0].upper = 1;
-    EXPECT_NEAR(tail_after_shaking(r), 12 / 1.88915635, 1e-6);
-    EXPECT_NEAR(longest_tail(r), 240 / 1.88915635, 2e-5);
+    EXPECT_NEAR(tail_after_shaking(scales_of(r)), 12 / 1.88915635, 1e-6);
+    EXPECT_NEAR(longest_tail(scales_of(r)), 240 / 1.88915635, 2e-5);
     ExcitationSpec excitation;
     excitation.kind = ExcitationKind::half_sine;
-    EXPECT_EQ(tail_s(excitation, r), tail_after_shaking(r));
+    EXPECT_EQ(tail_s(excitation, scales_of(r)), tail_after_shaking(scales_of(r)));
     excitation.tail_s = 3;
-    EXPECT_EQ(tail_s(excitation, r), 3);
+    EXPECT_EQ(tail_s(excitation, scales_of(r)), 3);
     excitation.kind = ExcitationKind::none;
-    EXPECT_EQ(tail_s(excitation, r), 0);
+    EXPECT_EQ(tail_s(excitation, scales_of(r)), 0);
 }
 
 } // namespace

@@ -62,7 +62,7 @@ TEST(Elementary, SineAndCosineOfAnyNumberOfCycles)
 struct Case {
     std::string name;
     ExcitationSpec e;
-    Realization r;
+    RealizationHeader r;
 };
 
 Case made(ExcitationKind kind, double frequency, const std::string& name)

@@ -1,6 +1,6 @@
 /// Numbers that are dealt out to ranks, with ranks that are threads.
 
-#include "ensemble/device/device.hpp"
+#include "ensemble/planar/device/device.hpp"
 #include "ensemble/ranks/deal.hpp"
 #include "tests/ensemble/ranks/thread_ranks.hpp"
 

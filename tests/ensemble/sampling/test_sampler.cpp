@@ -3,7 +3,7 @@
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Bearings, each against its closed form or an equation of motion that is integrated here.
 
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "tests/kernels/strengthening/strengthened_runs.hpp"
 
 #include <gtest/gtest.h>

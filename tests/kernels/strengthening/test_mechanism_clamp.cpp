@@ -1,6 +1,6 @@
 /// Clamps between blocks and dowels that are pulled out, each against its closed form.
 
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "kernels/planar/mechanisms/clamp.hpp"
 #include "kernels/planar/mechanisms/pull_out.hpp"
 #include "tests/kernels/strengthening/strengthened_runs.hpp"

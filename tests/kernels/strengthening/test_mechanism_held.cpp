@@ -1,7 +1,7 @@
 /// What holds of all strengthening: energy that they store, steps that are safe for them, and how they begin.
 
-#include "ensemble/statics/static_state.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "tests/kernels/mechanism_runs.hpp"
 #include "tests/kernels/strengthening/strengthened_runs.hpp"
 

@@ -1,6 +1,6 @@
 /// Bonded joints, each against the closed form of a linear elastic joint.
 
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "kernels/planar/mechanisms/mortar.hpp"
 #include "tests/kernels/strengthening/strengthened_runs.hpp"
 

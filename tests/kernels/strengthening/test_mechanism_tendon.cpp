@@ -1,7 +1,7 @@
 /// Tendons, each against its closed form or an equation of motion that is integrated here.
 
-#include "ensemble/statics/settle.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/settle.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "kernels/planar/mechanisms/tendon.hpp"
 #include "tests/kernels/strengthening/strengthened_runs.hpp"
 

@@ -1,7 +1,7 @@
 /// The tools of the verification, by themselves: a check that fails fails, a limit is found, the page says what failed,
 /// and the oracles know cases that can be done by hand.
 
-#include "ensemble/statics/limit_analysis.hpp"
+#include "ensemble/planar/structure/limit_analysis.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"

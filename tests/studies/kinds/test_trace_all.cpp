@@ -2,7 +2,7 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/statics/compliant_form.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 #include "studies/experiment/trajectory.hpp"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 /// Shake-table tests of two boulders: the measured motion of the table and whether each fell (rock_shake_table).
 
 #include "ensemble/model/motion.hpp"
-#include "ensemble/model/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/evidence/measured/parts/fall_table.hpp"
 

@@ -1,6 +1,6 @@
 /// The contact by itself: overlap, static rest, restitution, free fall.
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/reference_solver.hpp"

@@ -1,6 +1,6 @@
 /// How blocks begin to move from rest.
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"

@@ -1,6 +1,6 @@
 /// The integration in time: order, period, what it conserves, when it grows, and the balance of energy.
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/stack_vibration.hpp"

@@ -1,7 +1,7 @@
 /// Loads that are as good as static: where joints open, where a block topples, how much the column bends.
 
-#include "ensemble/statics/limit_analysis.hpp"
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/limit_analysis.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"

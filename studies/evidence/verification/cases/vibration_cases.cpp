@@ -1,6 +1,6 @@
 /// Small vibrations of stacks at rest.
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "studies/evidence/picture/picture.hpp"
 #include "studies/evidence/verification/case.hpp"
 #include "studies/evidence/verification/model.hpp"

@@ -2,7 +2,7 @@
 
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "io/measured/measured_check.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "io/store/result_seal.hpp"

@@ -3,7 +3,7 @@
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "studies/measured/calibration/calibration.hpp"
 #include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"
 #include "studies/measured/windows/window_comparison.hpp"

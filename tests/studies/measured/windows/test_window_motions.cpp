@@ -2,7 +2,7 @@
 /// file and of windows that are simulated anew here.
 
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "ensemble/tracking/tracking_targets.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "studies/measured/calibration/calibration.hpp"

@@ -1,6 +1,6 @@
-#include "ensemble/statics/mechanisms.hpp"
+#include "ensemble/planar/structure/mechanisms.hpp"
 
-#include "ensemble/statics/settle.hpp"
+#include "ensemble/planar/structure/settle.hpp"
 
 #include <algorithm>
 #include <cmath>

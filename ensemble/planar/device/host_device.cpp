@@ -1,6 +1,6 @@
-#include "ensemble/device/host_device.hpp"
+#include "ensemble/planar/device/host_device.hpp"
 
-#include "ensemble/device/slot_tasks.hpp"
+#include "ensemble/planar/device/slot_tasks.hpp"
 
 #include <cstdlib>
 #include <cstring>

@@ -1,7 +1,7 @@
 #pragma once
 /// Where a structure rests under its own weight, or leans, before the shaking.
 
-#include "ensemble/statics/bed.hpp"
+#include "ensemble/planar/structure/bed.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,9 +1,9 @@
 /// Structures that are no stack: their rest, contacts between blocks that were no neighbours, falls.
 
 #include "ensemble/planar/limit_states.hpp"
-#include "ensemble/statics/settle.hpp"
-#include "ensemble/statics/static_state.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/settle.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "tests/kernels/uneven_drums.hpp"
 

@@ -1,7 +1,7 @@
 /// Terms of the safe step by hand: dashpots that grow with the load, clamps.
 
-#include "ensemble/statics/step_bound.hpp"
-#include "tests/ensemble/statics/equal_drums.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
+#include "tests/ensemble/planar/equal_drums.hpp"
 
 #include <gtest/gtest.h>
 

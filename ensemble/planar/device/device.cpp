@@ -1,4 +1,4 @@
-#include "ensemble/device/device.hpp"
+#include "ensemble/planar/device/device.hpp"
 
 #include "ensemble/model/input_error.hpp"
 

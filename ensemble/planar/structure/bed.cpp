@@ -1,4 +1,4 @@
-#include "ensemble/statics/bed.hpp"
+#include "ensemble/planar/structure/bed.hpp"
 
 #include <algorithm>
 #include <cassert>

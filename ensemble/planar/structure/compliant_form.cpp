@@ -1,9 +1,9 @@
-#include "ensemble/statics/compliant_form.hpp"
+#include "ensemble/planar/structure/compliant_form.hpp"
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/statics/bed.hpp"
-#include "ensemble/statics/scales.hpp"
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/bed.hpp"
+#include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "ensemble/statics/scales.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <cmath>

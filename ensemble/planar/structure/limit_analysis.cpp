@@ -1,4 +1,4 @@
-#include "ensemble/statics/limit_analysis.hpp"
+#include "ensemble/planar/structure/limit_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>

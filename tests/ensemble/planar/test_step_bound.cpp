@@ -2,8 +2,8 @@
 /// (the weight as a dead load) and against a stack assembled another way.
 
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/statics/step_bound.hpp"
-#include "tests/ensemble/statics/equal_drums.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
+#include "tests/ensemble/planar/equal_drums.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

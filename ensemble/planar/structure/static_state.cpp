@@ -1,6 +1,6 @@
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 
-#include "ensemble/statics/settle.hpp"
+#include "ensemble/planar/structure/settle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ensemble/statics/settle.hpp"
+#include "ensemble/planar/structure/settle.hpp"
 
 #include "kernels/planar/mechanisms/mortar.hpp"
 

@@ -1,6 +1,6 @@
-#include "ensemble/device/slot_column.hpp"
+#include "ensemble/planar/device/slot_column.hpp"
 
-#include "ensemble/device/slot_tasks.hpp"
+#include "ensemble/planar/device/slot_tasks.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// The processor in the place of a device, for tests.
 
-#include "ensemble/device/device.hpp"
+#include "ensemble/planar/device/device.hpp"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
-#include "ensemble/statics/step_bound.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 
-#include "ensemble/statics/bed.hpp"
-#include "ensemble/statics/mechanisms.hpp"
+#include "ensemble/planar/structure/bed.hpp"
+#include "ensemble/planar/structure/mechanisms.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>

@@ -1,7 +1,7 @@
 #pragma once
 /// The mechanisms of a realization: which model they need, and their rows in a bundle.
 
-#include "ensemble/statics/static_state.hpp"
+#include "ensemble/planar/structure/static_state.hpp"
 #include "kernels/planar/bundle.hpp"
 
 #include <vector>

@@ -1,6 +1,6 @@
-#include "ensemble/device/slots.hpp"
+#include "ensemble/planar/device/slots.hpp"
 
-#include "ensemble/device/slot_column.hpp"
+#include "ensemble/planar/device/slot_column.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 #pragma once
 /// What contacts that yield make of a realization with rigid ones, once its blocks meet otherwise than at beds.
 
-#include "ensemble/model/realization.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 
 namespace stylobate {
 
