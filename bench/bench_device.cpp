@@ -3,11 +3,11 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/device/slot_tasks.hpp"
 #include "ensemble/planar/device/slots.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
-#include "ensemble/run/executor.hpp"
 #include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/run/executor.hpp"
 
 #include <benchmark/benchmark.h>
 

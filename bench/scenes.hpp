@@ -2,8 +2,8 @@
 /// The structures that are timed: the paper's specimen, columns of its drums with other numbers of them, and
 /// colonnades that stand or lie in a heap.
 
-#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <vector>

@@ -2,8 +2,8 @@
 /// Base motion along samples of an acceleration that is linear between them (`ensemble/model/motion.hpp`): of one
 /// realization, on the host and on a device.
 
-#include "kernels/row_list.hpp"
 #include "kernels/real.hpp"
+#include "kernels/row_list.hpp"
 
 #include <cmath>
 

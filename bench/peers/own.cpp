@@ -2,8 +2,8 @@
 
 #include "bench/peers/contender.hpp"
 #include "bench/peers/rocking.hpp"
-#include "ensemble/run/executor.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/trials.hpp"
 #include "studies/version.hpp"

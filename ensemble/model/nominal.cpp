@@ -24,7 +24,58 @@ std::vector<double> of_blocks(const Layout& layout, Value&& value)
     return values;
 }
 
+void add(const MechanismSpec& spec, const Layout& layout, double friction, std::vector<ActingMechanism>& all)
+{
+    const MechanismRule& rule = rule_of(spec.mechanism);
+    auto acting = std::find_if(all.begin(), all.end(), [&](const ActingMechanism& a) { return a.rule == &rule; });
+    if (acting == all.end()) {
+        const std::size_t places = rule.place == MechanismPlace::joint   ? layout.beds.size()
+                                   : rule.place == MechanismPlace::block ? layout.blocks.size()
+                                                                         : 1;
+        const MechanismSpec neutral = neutral_spec(spec.mechanism, friction);
+        ActingMechanism& one = all.emplace_back(ActingMechanism{&rule, std::vector<bool>(places), {}});
+        for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+            one.values[p].assign(places, neutral.values[p]);
+        acting = all.end() - 1;
+    }
+    acting->may_act = acting->may_act || acts(spec, friction);
+    std::vector<int> places = spec.places;
+    if (places.empty())
+        places = rule.place == MechanismPlace::base ? std::vector<int>{0} : usual_places(rule, layout);
+    for (const int place : places) {
+        acting->at[static_cast<std::size_t>(place)] = true;
+        for (std::size_t p = 0; p < rule.parameters.size(); ++p)
+            acting->values[p][static_cast<std::size_t>(place)] = spec.values[p];
+    }
+}
+
 } // namespace
+
+std::vector<ActingMechanism> acting_mechanisms(const Study& study, const Layout& layout)
+{
+    std::vector<ActingMechanism> all;
+    for (const MechanismSpec& spec : study.mechanisms)
+        add(spec, layout, study.contact.friction, all);
+    for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
+        std::find_if(all.begin(), all.end(), [&](const ActingMechanism& a) {
+            return a.rule->mechanism == perturbation.mechanism;
+        })->may_act = true;
+    return all;
+}
+
+RealizationValues nominal_values(const Study& study, const Layout& layout,
+                                 const std::vector<ActingMechanism>& mechanisms)
+{
+    RealizationValues values;
+    for (int q = 0; q < quantity_count; ++q)
+        values.all.push_back(nominal_values(study, layout, static_cast<Quantity>(q)));
+    values[Quantity::friction].push_back(study.contact.friction);
+    values[Quantity::normal_stiffness].push_back(study.contact.normal_stiffness_n_m2);
+    values[Quantity::tangential_stiffness].push_back(study.contact.tangential_stiffness_n_m);
+    for (const ActingMechanism& mechanism : mechanisms)
+        values.all.insert(values.all.end(), mechanism.values.begin(), mechanism.values.end());
+    return values;
+}
 
 std::vector<double> nominal_restitution(const Study& study, const Layout& layout)
 {
@@ -64,6 +115,33 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return {study.excitation.gamma};
     }
     return {0};
+}
+
+std::vector<double> static_sinkage_m(const Study& study)
+{
+    const Layout layout = lay_out(study.structure);
+    const double ground = std::numeric_limits<double>::infinity();
+    std::vector<double> carried(layout.blocks.size(), 0.0); // weight on top of each block
+    std::vector<int> seats(layout.blocks.size(), 0);
+    for (const PlacedBed& bed : layout.beds)
+        ++seats[static_cast<std::size_t>(bed.upper)];
+    std::vector<double> sinkage(layout.beds.size());
+    for (std::size_t i = layout.beds.size(); i-- > 0;) { // from the epistyles down
+        const PlacedBed& bed = layout.beds[i];
+        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(bed.upper)];
+        const auto at = static_cast<std::size_t>(bed.upper);
+        const double weight = (upper.mass_kg * study.structure.gravity_m_s2 + carried[at]) / seats[at];
+        double left = -ground, right = ground;
+        if (bed.lower >= 0) {
+            const PlacedBlock& lower = layout.blocks[static_cast<std::size_t>(bed.lower)];
+            carried[static_cast<std::size_t>(bed.lower)] += weight;
+            left = lower.left();
+            right = lower.right();
+        }
+        const double length = std::min(right, upper.right()) - std::max(left, upper.left());
+        sinkage[i] = weight / (bed.bed.normal_stiffness_n_m2.value_or(study.contact.normal_stiffness_n_m2) * length);
+    }
+    return sinkage;
 }
 
 double nominal_tail_s(const StructureSpec& structure)

@@ -1,6 +1,6 @@
 #pragma once
-/// What the realizations of every model have in common: what shakes them, their step, and what was drawn. Plain data, SI
-/// units.
+/// What the realizations of every model have in common: what shakes them, their step, and what was drawn. Plain data,
+/// SI units.
 
 #include "ensemble/model/motion.hpp"
 

@@ -96,7 +96,8 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
     }
 }
 
-void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales& scales, RealizationHeader& realization) const
+void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales& scales,
+                    RealizationHeader& realization) const
 {
     const ExcitationSpec& excitation = study.excitation;
     realization.phase_rad = drawn.phase_rad;
@@ -129,7 +130,8 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales&
         repeat(study, events, row, scales, realization);
 }
 
-void Shaking::repeat(const Study& study, int events, std::size_t row, const Scales& scales, RealizationHeader& realization) const
+void Shaking::repeat(const Study& study, int events, std::size_t row, const Scales& scales,
+                     RealizationHeader& realization) const
 {
     const ExcitationSpec& excitation = study.excitation;
     std::vector<Motion> motions;
@@ -196,7 +198,8 @@ void Shaking::move_vertically(RealizationHeader& realization) const
 }
 
 /// Frequency and PGA of a study that is no surface.
-void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const
+void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn,
+                          RealizationHeader& realization) const
 {
     if (excitation.kind != ExcitationKind::none)
         realization.pga_m_s2 = excitation.pga_m_s2;

@@ -34,7 +34,8 @@ public:
     /// Fills in the shaking of a realization whose index and whose `change` of the base motion are set.
     /// @param study  the one this was made for
     /// @param scales of the realization: a pause between several events follows from them
-    void apply(const Study& study, const DrawnShaking& drawn, const Scales& scales, RealizationHeader& realization) const;
+    void apply(const Study& study, const DrawnShaking& drawn, const Scales& scales,
+               RealizationHeader& realization) const;
 
 private:
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const;
@@ -42,7 +43,8 @@ private:
     void distort(const ExcitationSpec& excitation, RealizationHeader& realization) const;
     void move_vertically(RealizationHeader& realization) const;
     /// Several events instead of one. @param row of the surface
-    void repeat(const Study& study, int events, std::size_t row, const Scales& scales, RealizationHeader& realization) const;
+    void repeat(const Study& study, int events, std::size_t row, const Scales& scales,
+                RealizationHeader& realization) const;
 
     Motion record_;                           ///< where it is distorted, or repeated
     Distortion distortion_;                   ///< of it

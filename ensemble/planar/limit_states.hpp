@@ -2,8 +2,8 @@
 /// What of a structure has fallen, in which order, and which epistyle has lost its seat.
 
 #include "ensemble/model/outcome.hpp"
-#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -2,13 +2,13 @@
 /// The planar model: rectangles of a stack or a colonnade in the lanes of a bundle (`ensemble/engine/lanes.hpp`).
 
 #include "ensemble/engine/lanes.hpp"
-#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/numerics/aligned.hpp"
 #include "ensemble/planar/limit_states.hpp"
 #include "ensemble/planar/planar_poses.hpp"
 #include "ensemble/planar/planar_watch.hpp"
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/planar/single_bundle.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 #include "kernels/isa.hpp"
 

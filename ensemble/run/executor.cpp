@@ -1,9 +1,9 @@
 #include "ensemble/run/executor.hpp"
 
-#include "ensemble/planar/device/slots.hpp"
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/planar_model.hpp"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 #pragma once
 /// Many realizations: every core steps bundles, and a lane whose realization has ended takes the next one.
 
-#include "ensemble/planar/device/device.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
+#include "ensemble/planar/device/device.hpp"
 #include "ensemble/ranks/ranks.hpp"
 #include "kernels/isa.hpp"
 

@@ -1,7 +1,9 @@
 #include "ensemble/sampling/plausible.hpp"
 
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/numerics/unit_slip.hpp"
+#include "ensemble/planar/structure/nominal_statics.hpp"
 
 #include <fmt/format.h>
 

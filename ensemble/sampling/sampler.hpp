@@ -3,19 +3,14 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/motion_set.hpp"
-#include "ensemble/planar/structure/realization.hpp"
-#include "ensemble/model/structure.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/shaking.hpp"
-#include "ensemble/numerics/random.hpp"
-#include "ensemble/sampling/distribution.hpp"
-#include "ensemble/sampling/mechanism_sampler.hpp"
-#include "ensemble/sampling/point_set.hpp"
+#include "ensemble/planar/structure/builder.hpp"
+#include "ensemble/sampling/draws.hpp"
 
-#include <array>
+#include <cassert>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,97 +18,115 @@
 
 namespace stylobate {
 
-/// Draws the realizations of a study. Each is a pure function of (study, index): requesting them in another order,
-/// twice, or from several threads at once changes nothing.
+/// Draws the realizations of a study, which a model's builder makes of the drawn values. Each is a pure function of
+/// (study, index): requesting them in another order, twice, or from several threads at once changes nothing.
 ///
 /// It refers to its study, which must outlive it, stay where it is and not change (`Experiment` keeps both).
-class Sampler {
+///
+/// A builder has: Realization, a `RealizationHeader` with the model's structure; Builder(study); nominal() and
+/// mechanisms(), from which the draws are made; build(values, header); scales(realization); step_s(realization), of one
+/// that is shaken; move(replica, original, realization).
+template <class Builder>
+class SamplerOf {
 public:
+    using Realization = typename Builder::Realization;
+
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
     /// @param motions  those of a study with a set of motions, else ignored
     /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
     /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
-    Sampler(const Study& study, const Motion* record, const Motion* vertical = nullptr,
-            std::shared_ptr<const MotionSet> motions = nullptr);
-    Sampler(const Study&&, const Motion*, const Motion* = nullptr, std::shared_ptr<const MotionSet> = nullptr) = delete;
+    SamplerOf(const Study& study, const Motion* record, const Motion* vertical = nullptr,
+              std::shared_ptr<const MotionSet> motions = nullptr)
+        : study_(&study), builder_(study), shaking_(study, record, vertical, std::move(motions)),
+          draws_(study, builder_.nominal(), builder_.mechanisms())
+    {
+        if (const ReplicasSpec* replicas = study.design().replica_set)
+            for (const Replica& kind : replicas->kinds)
+                forms_.push_back(kind.by == ReplicaBy::form
+                                     ? std::make_shared<const OtherForm>(study, kind.form, record, vertical)
+                                     : nullptr);
+    }
+    SamplerOf(const Study&&, const Motion*, const Motion* = nullptr,
+              std::shared_ptr<const MotionSet> = nullptr) = delete;
 
     /// @param index from 0 to study.total() - 1; in a surface it identifies the cell too. A perturbed replica has all
     ///              properties of its original except the one of its kind: if displaced, its step stays; in another
     ///              form, it has that form's own step
     /// @throws InputError if the study's own step is above the realization's safe bound and the study does not allow it
     ///                    explicitly, or if the drawn structure cannot be built: blocks that miss each other or overlap
-    Realization realization(std::uint64_t index) const;
+    Realization realization(std::uint64_t index) const
+    {
+        assert(index < study_->total() && "the index is one of the study's");
+        const Replica* replica = study_->replica(index);
+        if (replica == nullptr)
+            return build(index, draws_.points());
+        const std::uint64_t original = study_->original(index);
+        const OtherForm* form = forms_[static_cast<std::size_t>(index / study_->originals() - 1)].get();
+        Realization realization = (form ? form->sampler : *this).realization(original);
+        realization.index = index;
+        if (replica->by == ReplicaBy::move)
+            builder_.move(*replica, original, realization);
+        if (replica->by == ReplicaBy::step)
+            realization.step_s *= replica->size;
+        return realization;
+    }
 
     /// Of a study whose realizations follow from each other: one whose uniform numbers are given, in any order that is
     /// always the same.
     /// @param numbers (size()) each in (0, 1)
     Realization realization(std::uint64_t index, std::span<const double> numbers) const
     {
-        return build(index, points_.given(numbers));
+        return build(index, draws_.points().given(numbers));
     }
     /// How many numbers those are.
-    std::size_t size() const { return points_.size(); }
+    std::size_t size() const { return draws_.points().size(); }
 
-    /// Names of `Realization::inputs`: "friction[0]", "friction[1]" and so on for each bed (or block) of the layout;
-    /// the name alone for what is drawn once for the structure, which is then the value of the first bed or block. Then
-    /// those of the mechanisms (`MechanismSampler`).
-    const std::vector<std::string>& input_names() const { return input_names_; }
+    /// Names of `RealizationHeader::inputs` (`Draws::input_names`).
+    const std::vector<std::string>& input_names() const { return draws_.input_names(); }
 
 private:
-    /// One perturbed quantity.
-    struct Drawn {
-        Quantity quantity;
-        Stream stream;
-        std::size_t draws;                       ///< beds, blocks or 1
-        std::vector<Distribution> distributions; ///< of each of its values; more than `draws`: all from the first draw
-    };
-    /// Each quantity of one realization, block by block, once, or bed by bed; of beds there is one value more, the last
-    /// one, for blocks that meet elsewhere.
-    struct Values {
-        std::array<std::vector<double>, quantity_count> of;
+    /// The originals of a study with perturbed replicas, in another contact form.
+    struct OtherForm {
+        Study study; // stays where it is: the sampler refers to it
+        SamplerOf sampler;
 
-        const std::vector<double>& operator[](Quantity quantity) const
+        OtherForm(const Study& of, ContactForm form, const Motion* record, const Motion* vertical)
+            : study(in_form(of, form)), sampler(study, record, vertical)
         {
-            return of[static_cast<std::size_t>(quantity)];
+        }
+        OtherForm(const OtherForm&) = delete;
+        OtherForm& operator=(const OtherForm&) = delete;
+
+        static Study in_form(const Study& study, ContactForm form)
+        {
+            Study originals = study.without_replicas();
+            originals.contact.form = form;
+            return originals;
         }
     };
-    struct Ratios {
-        double normal;
-        double tangential;
-    };
-    struct OtherForm; ///< the study in another contact form, with its sampler
 
-    void watch_pairs();
-    Realization build(std::uint64_t index, const PointSet& points) const;
-    void move(const Replica& replica, Realization& realization) const;
-    Values draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
-    void stack(const Values& values, Realization& realization) const;
-    void lay_epistyles(const Values& values, Realization& realization) const;
-    Block block(const Values& values, std::size_t i, double height_m) const;
-    Block ground() const;
-    Ratios ratios(const Values& values) const;
-    Joint joint(const Values& values, const std::vector<Block>& blocks, int lower, int upper, std::size_t value,
-                double chord_m) const;
-    void join(const Values& values, Realization& realization) const;
-    void watch(const Values& values, Realization& realization) const;
-    double step(const Realization& realization) const;
-    double rigid_step(const Realization& realization) const;
-    std::string name(int block) const;
+    /// An original.
+    Realization build(std::uint64_t index, const PointSet& points) const
+    {
+        RealizationHeader header;
+        header.index = index;
+        RealizationValues values = draws_.values(points, index, header.inputs);
+        const DrawnShaking shaking{values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
+                                   values[Quantity::pulse_gamma][0]};
+        Realization realization = builder_.build(std::move(values), std::move(header));
+        shaking_.apply(*study_, shaking, builder_.scales(realization), realization);
+        realization.step_s = builder_.step_s(realization);
+        return realization;
+    }
 
     const Study* study_;
-    Layout layout_;
-    MechanismSampler mechanisms_;
-    bool has_ground_ = false;
-    std::vector<std::pair<int, int>> watched_; ///< lower and upper block
-    Values nominal_;
-    std::vector<double> restitution_; ///< (beds)
+    Builder builder_;
     Shaking shaking_;
-    std::vector<Drawn> drawn_; ///< in the order of the study
-    std::vector<std::string> input_names_;
-    PointSet points_;
+    Draws draws_;
     std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of replicas) of another contact form, else null
-    std::optional<Distribution> twin_; ///< how far a drum is from its place in structures with the same contacts
 };
+
+using Sampler = SamplerOf<PlanarBuilder>;
 
 } // namespace stylobate

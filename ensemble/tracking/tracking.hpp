@@ -15,8 +15,8 @@
 /// set and the number of threads.
 
 #include "ensemble/model/observer.hpp"
-#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/run/executor.hpp"
 
 #include <cstdint>

@@ -2,7 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/sampling/plausible.hpp"
+#include "ensemble/planar/structure/nominal_statics.hpp"
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "ensemble/sampling/sampler.hpp"
 #include "kernels/isa.hpp"
 

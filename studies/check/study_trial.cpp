@@ -2,8 +2,8 @@
 
 #include "ensemble/experiment.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/replicas/replicas.hpp"
 #include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/replicas/replicas.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/experiment/trajectory.hpp"
 

@@ -3,6 +3,7 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/motion/synthetic_sine.hpp"
 #include "ensemble/numerics/interval.hpp"
+#include "ensemble/planar/structure/nominal_statics.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
 #include "io/files/suggest.hpp"

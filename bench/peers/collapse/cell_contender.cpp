@@ -3,8 +3,8 @@
 #include "bench/peers/column.hpp"
 #include "bench/peers/engine.hpp"
 #include "ensemble/planar/limit_states.hpp"
-#include "ensemble/run/executor.hpp"
 #include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>

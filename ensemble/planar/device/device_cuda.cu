@@ -1,9 +1,9 @@
 // The devices of CUDA. Compiled only where there is a CUDA compiler, with --fmad=false and IEEE division and roots:
 // what is to be fused is written as fma, so that a step has the bits of the processor's.
 
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/device/device.hpp"
 #include "ensemble/planar/device/slot_tasks.hpp"
-#include "ensemble/model/input_error.hpp"
 
 #include <cuda_runtime.h>
 

@@ -7,9 +7,9 @@
 /// it. So every decision, and every number of an outcome, is made by the code that the processor's own runs are made
 /// by.
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/device/device.hpp"
 #include "ensemble/planar/device/slot_tasks.hpp"
-#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/planar_model.hpp"
 
 #include <tbb/enumerable_thread_specific.h>

@@ -1,8 +1,8 @@
 #pragma once
 /// Static equilibrium of blocks under their contact forces, and what holds it beside the contacts.
 
-#include "ensemble/planar/structure/realization.hpp"
 #include "ensemble/planar/structure/bed.hpp"
+#include "ensemble/planar/structure/realization.hpp"
 #include "kernels/planar/overlap.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "studies/measured/windows/window_comparison.hpp"
 
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "io/measured/measured_motion.hpp"
 

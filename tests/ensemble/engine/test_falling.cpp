@@ -1,8 +1,8 @@
 /// Full-scale columns that fall, followed until what has fallen lies: flat blows of long faces break no energy bound.
 
+#include "ensemble/planar/structure/step_bound.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/sampling/sampler.hpp"
-#include "ensemble/planar/structure/step_bound.hpp"
 #include "io/study/study_file.hpp"
 
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 /// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
 /// realizations are.
 
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/device/host_device.hpp"
 #include "ensemble/planar/device/slot_column.hpp"
 #include "ensemble/planar/device/slots.hpp"
-#include "ensemble/model/input_error.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"

@@ -1,6 +1,8 @@
 /// What no study can mean: each check at both sides of its limit, with expected values by hand, and silent for every
 /// study that is ready to run.
 
+#include "ensemble/model/nominal.hpp"
+#include "ensemble/planar/structure/nominal_statics.hpp"
 #include "ensemble/sampling/plausible.hpp"
 
 #include "ensemble/model/input_error.hpp"

@@ -2,8 +2,8 @@
 
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
+#include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// Windows to be shown in motion: the choice by their errors, and the blocks in them, which are those of the measured
 /// file and of windows that are simulated anew here.
 
-#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/planar/structure/static_state.hpp"
+#include "ensemble/sampling/sampler.hpp"
 #include "ensemble/tracking/tracking_targets.hpp"
 #include "io/measured/measured_motion.hpp"
 #include "studies/measured/calibration/calibration.hpp"

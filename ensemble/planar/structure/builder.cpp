@@ -1,42 +1,18 @@
-#include "ensemble/sampling/sampler.hpp"
+#include "ensemble/planar/structure/builder.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/model/nominal.hpp"
 #include "ensemble/planar/structure/bed.hpp"
-#include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <set>
 
 namespace stylobate {
 namespace {
-
-/// In the order of `Quantity`.
-constexpr std::array streams = {Stream::friction,      Stream::normal_stiffness, Stream::tangential_stiffness,
-                                Stream::damping_ratio, Stream::drum_width,       Stream::drum_height,
-                                Stream::drum_offset,   Stream::density,          Stream::tilt,
-                                Stream::phase,         Stream::pulse_frequency,  Stream::pulse_gamma};
-static_assert(streams.size() == quantity_count);
-
-/// Quantities of which a value below 0 means nothing.
-bool is_positive(Quantity quantity)
-{
-    return quantity != Quantity::drum_offset && quantity != Quantity::tilt && quantity != Quantity::phase;
-}
-
-/// Quantities of which each bed has its own.
-bool is_of_beds(Quantity quantity)
-{
-    return quantity == Quantity::friction || quantity == Quantity::normal_stiffness ||
-           quantity == Quantity::tangential_stiffness;
-}
 
 /// A value that is drawn as a whole takes the place of the nominal one.
 bool replaces(const Perturbation& perturbation)
@@ -45,114 +21,23 @@ bool replaces(const Perturbation& perturbation)
            perturbation.distribution == DistributionKind::log_uniform;
 }
 
-/// The originals of a study with perturbed replicas, in another contact form.
-Study in_form(const Study& study, ContactForm form)
-{
-    Study originals = study.without_replicas();
-    originals.contact.form = form;
-    return originals;
-}
-
 } // namespace
 
-struct Sampler::OtherForm {
-    Study study; // stays where it is: the sampler refers to it
-    Sampler sampler;
-
-    OtherForm(const Study& of, ContactForm form, const Motion* record, const Motion* vertical)
-        : study(in_form(of, form)), sampler(study, record, vertical)
-    {
-    }
-    OtherForm(const OtherForm&) = delete;
-    OtherForm& operator=(const OtherForm&) = delete;
-};
-
-Sampler::Sampler(const Study& study, const Motion* record, const Motion* vertical,
-                 std::shared_ptr<const MotionSet> motions)
+PlanarBuilder::PlanarBuilder(const Study& study)
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
-      shaking_(study, record, vertical, std::move(motions))
+      nominal_(nominal_values(study, layout_, mechanisms_.acting())), restitution_(nominal_restitution(study, layout_)),
+      dressed_(study.structure.kind == StructureKind::colonnade &&
+               std::any_of(study.perturbations.begin(), study.perturbations.end(),
+                           [](const Perturbation& p) { return p.quantity == Quantity::drum_height; }))
 {
-    const StudyDesign design = study.design();
-    if (design.twin_m > 0) {
-        Spread spread;
-        spread.sd = design.twin_m;
-        twin_.emplace(spread, "fragility.twin_m", 0.0);
-    }
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
-    restitution_ = nominal_restitution(study, layout_);
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
                                          [](const PlacedBed& bed) { return bed.lower < 0; });
     if (watches)
         watch_pairs();
-    for (int q = 0; q < quantity_count; ++q)
-        nominal_.of[static_cast<std::size_t>(q)] = nominal_values(study, layout_, static_cast<Quantity>(q));
-    for (const auto& [quantity, value] : {std::pair{Quantity::friction, study.contact.friction},
-                                          {Quantity::normal_stiffness, study.contact.normal_stiffness_n_m2},
-                                          {Quantity::tangential_stiffness, study.contact.tangential_stiffness_n_m}})
-        nominal_.of[static_cast<std::size_t>(quantity)].push_back(value);
-    for (Perturbation perturbation : study.perturbations) {
-        const Quantity quantity = perturbation.quantity;
-        std::vector<double> about = nominal_[quantity];
-        if (is_of_beds(quantity) && perturbation.per != Per::structure)
-            about.pop_back(); // what meets elsewhere keeps its nominal value
-        if (is_positive(quantity))
-            perturbation.min = std::max(perturbation.min.value_or(0), quantity == Quantity::pulse_gamma ? 1.0 : 0.0);
-        Drawn drawn{quantity,
-                    streams[static_cast<std::size_t>(quantity)],
-                    perturbation.per == Per::structure ? 1 : about.size(),
-                    {}};
-        for (const double value : about)
-            drawn.distributions.emplace_back(perturbation, value);
-        for (std::size_t i = 0; i < drawn.draws; ++i)
-            input_names_.push_back(perturbation.per == Per::structure ? std::string(to_string(quantity))
-                                                                      : fmt::format("{}[{}]", to_string(quantity), i));
-        drawn_.push_back(std::move(drawn));
-    }
-    input_names_.insert(input_names_.end(), mechanisms_.input_names().begin(), mechanisms_.input_names().end());
-
-    // what is drawn once is the structure's as a whole, and so matters most
-    std::vector<PointSet::Place> places;
-    for (const Drawn& drawn : drawn_)
-        for (std::uint64_t element = 0; element < drawn.draws; ++element)
-            places.push_back({drawn.stream, element, design.factor(to_string(drawn.quantity))});
-    const std::vector<PointSet::Place> of_mechanisms = mechanisms_.places(study);
-    places.insert(places.end(), of_mechanisms.begin(), of_mechanisms.end());
-    std::map<Stream, int> draws;
-    for (const PointSet::Place& place : places)
-        ++draws[place.stream];
-    std::stable_partition(places.begin(), places.end(),
-                          [&](const PointSet::Place& place) { return draws[place.stream] == 1; });
-    points_ = PointSet(study, places);
-
-    if (design.replica_set == nullptr)
-        return;
-    for (const Replica& kind : design.replica_set->kinds) {
-        if (kind.by != ReplicaBy::form) {
-            forms_.push_back(nullptr);
-            continue;
-        }
-        forms_.push_back(std::make_shared<const OtherForm>(study, kind.form, record, vertical));
-    }
 }
 
-Realization Sampler::realization(std::uint64_t index) const
-{
-    assert(index < study_->total() && "the index is one of the study's");
-    const Replica* replica = study_->replica(index);
-    if (replica == nullptr)
-        return build(index, points_);
-    const OtherForm* form = forms_[static_cast<std::size_t>(index / study_->originals() - 1)].get();
-    Realization realization = (form ? form->sampler : *this).realization(study_->original(index));
-    realization.index = index;
-    if (replica->by == ReplicaBy::move)
-        move(*replica, realization);
-    if (replica->by == ReplicaBy::step)
-        realization.step_s *= replica->size;
-    return realization;
-}
-
-/// Last of all, so that nothing follows from it: contacts, dashpots and step stay as they are.
-void Sampler::move(const Replica& replica, Realization& realization) const
+void PlanarBuilder::move(const Replica& replica, std::uint64_t original, Realization& realization) const
 {
     const int moved = study_->design().replica_set->block;
     realization.blocks[static_cast<std::size_t>(moved)].x_m += replica.size;
@@ -165,25 +50,21 @@ void Sampler::move(const Replica& replica, Realization& realization) const
         if (std::abs(above.x_m - below.x_m) >= above.half_width_m + below.half_width_m)
             throw InputError(fmt::format("twins.moves_m: displaced by {:g} m, {} of realization {} does not touch {} "
                                          "any more. Reduce the displacement.",
-                                         replica.size, name(moved), study_->original(realization.index),
+                                         replica.size, name(moved), original,
                                          name(bed.lower == moved ? bed.upper : bed.lower)));
     }
 }
 
-/// An original.
-Realization Sampler::build(std::uint64_t index, const PointSet& points) const
+Realization PlanarBuilder::build(RealizationValues values, RealizationHeader header) const
 {
-    Realization realization;
-    realization.index = index;
+    Realization realization{std::move(header), {}};
     realization.gravity_m_s2 = study_->structure.gravity_m_s2;
     realization.restitution_law = study_->contact.restitution_law;
     realization.initial_tilt_rad = study_->initial.tilt_rad;
     realization.initial_tilt_block = study_->initial.tilt_from_block;
-    Values values = draw(points, index, realization.inputs);
-    const MechanismSampler::Values mechanisms = mechanisms_.draw(points, index, realization.inputs);
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
-        values.of[static_cast<std::size_t>(Quantity::drum_offset)][i] +=
-            mechanisms_.offset_m(mechanisms, i) + (twin_ ? twin_->value(points_.uniform(index, Stream::twin, i)) : 0);
+        values[Quantity::drum_offset][i] +=
+            mechanisms_.offset_m(values, i) + (values.twin_m.empty() ? 0 : values.twin_m[i]);
     stack(values, realization);
     lay_epistyles(values, realization);
     realization.drums = static_cast<int>(layout_.blocks.size());
@@ -191,17 +72,13 @@ Realization Sampler::build(std::uint64_t index, const PointSet& points) const
         realization.blocks.push_back(ground());
     join(values, realization);
     watch(values, realization);
-    mechanisms_.apply(mechanisms, realization);
+    mechanisms_.apply(values, realization);
     realization.base_tilt_rad = values[Quantity::tilt][0];
-    shaking_.apply(*study_,
-                   {values[Quantity::phase][0], values[Quantity::pulse_frequency][0], values[Quantity::pulse_gamma][0]},
-                   scales_of(realization), realization);
-    realization.step_s = step(realization);
     return realization;
 }
 
 /// Every pair with a free block that shares no bed, by lower and upper block; the ground comes after all blocks.
-void Sampler::watch_pairs()
+void PlanarBuilder::watch_pairs()
 {
     const int ground = static_cast<int>(layout_.blocks.size());
     std::set<std::pair<int, int>> beds;
@@ -214,23 +91,8 @@ void Sampler::watch_pairs()
                 watched_.emplace_back(lower, upper);
 }
 
-Sampler::Values Sampler::draw(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const
-{
-    Values values = nominal_;
-    for (const Drawn& drawn : drawn_) {
-        std::vector<double>& target = values.of[static_cast<std::size_t>(drawn.quantity)];
-        for (std::size_t i = 0; i < drawn.distributions.size(); ++i) {
-            const std::size_t element = std::min(i, drawn.draws - 1);
-            target[i] = drawn.distributions[i].value(points.uniform(index, drawn.stream, element));
-            if (i < drawn.draws)
-                inputs.push_back(target[i]);
-        }
-    }
-    return values;
-}
-
 /// A block of the layout with its drawn sizes and mass, in its column's axis or its place along the colonnade.
-Block Sampler::block(const Values& values, std::size_t i, double height_m) const
+Block PlanarBuilder::block(const RealizationValues& values, std::size_t i, double height_m) const
 {
     const PlacedBlock& placed = layout_.blocks[i];
     const double width = values[Quantity::drum_width][i];
@@ -251,19 +113,16 @@ Block Sampler::block(const Values& values, std::size_t i, double height_m) const
 
 /// The columns. A column of its own is as high as its drums are; those of a colonnade stay level, as masons dress the
 /// seats: the topmost drum of each takes up what the others differ.
-void Sampler::stack(const Values& values, Realization& realization) const
+void PlanarBuilder::stack(const RealizationValues& values, Realization& realization) const
 {
     const std::vector<PlacedBlock>& blocks = layout_.blocks;
-    const bool dressed = study_->structure.kind == StructureKind::colonnade &&
-                         std::any_of(drawn_.begin(), drawn_.end(),
-                                     [](const Drawn& drawn) { return drawn.quantity == Quantity::drum_height; });
     double top = 0;
     for (std::size_t i = 0; i < blocks.size() && blocks[i].role == BlockRole::drum; ++i) {
         if (i > 0 && blocks[i].column != blocks[i - 1].column)
             top = 0;
         const bool topmost = i + 1 == blocks.size() || blocks[i + 1].column != blocks[i].column;
         double height = values[Quantity::drum_height][i];
-        if (dressed && topmost) {
+        if (dressed_ && topmost) {
             height = blocks[i].top() - top;
             if (height < blocks[i].height_m / 2)
                 throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
@@ -281,7 +140,7 @@ void Sampler::stack(const Values& values, Realization& realization) const
 
 /// The epistyles, one after the other from the left, as they are laid: one that is too long for its place pushes the
 /// next ones to the right.
-void Sampler::lay_epistyles(const Values& values, Realization& realization) const
+void PlanarBuilder::lay_epistyles(const RealizationValues& values, Realization& realization) const
 {
     for (std::size_t i = realization.blocks.size(); i < layout_.blocks.size(); ++i) {
         const double height = values[Quantity::drum_height][i];
@@ -300,7 +159,7 @@ void Sampler::lay_epistyles(const Values& values, Realization& realization) cons
 }
 
 /// A wide flat block with its top face at y = 0.
-Block Sampler::ground() const
+Block PlanarBuilder::ground() const
 {
     double left = 0;
     double right = 0;
@@ -330,14 +189,14 @@ Block Sampler::ground() const
 }
 
 /// "drum 3 of column 2" or "the ground"
-std::string Sampler::name(int block) const
+std::string PlanarBuilder::name(int block) const
 {
     const auto i = static_cast<std::size_t>(block);
     return i < layout_.blocks.size() ? layout_.blocks[i].name : "the ground";
 }
 
 /// Both damping ratios of a realization.
-Sampler::Ratios Sampler::ratios(const Values& values) const
+PlanarBuilder::Ratios PlanarBuilder::ratios(const RealizationValues& values) const
 {
     // The ratio that is drawn is the normal one. A value that takes the nominal one's place is that of both; a change
     // of the nominal one changes both in proportion.
@@ -353,8 +212,8 @@ Sampler::Ratios Sampler::ratios(const Values& values) const
 }
 
 /// The contact of two blocks. @param value of each quantity: which of its values   @param chord_m full contact length
-Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int lower, int upper, std::size_t value,
-                     double chord_m) const
+Joint PlanarBuilder::joint(const RealizationValues& values, const std::vector<Block>& blocks, int lower, int upper,
+                           std::size_t value, double chord_m) const
 {
     const ContactSpec& contact = study_->contact;
     const Block& below = blocks[static_cast<std::size_t>(lower)];
@@ -391,7 +250,7 @@ Joint Sampler::joint(const Values& values, const std::vector<Block>& blocks, int
 }
 
 /// The beds.
-void Sampler::join(const Values& values, Realization& realization) const
+void PlanarBuilder::join(const RealizationValues& values, Realization& realization) const
 {
     const std::vector<Block>& blocks = realization.blocks;
     for (std::size_t j = 0; j < layout_.beds.size(); ++j) {
@@ -415,7 +274,7 @@ void Sampler::join(const Values& values, Realization& realization) const
 }
 
 /// Every other pair that can meet: a falling block may hit any other.
-void Sampler::watch(const Values& values, Realization& realization) const
+void PlanarBuilder::watch(const RealizationValues& values, Realization& realization) const
 {
     const std::vector<Block>& blocks = realization.blocks;
     for (const auto& [lower, upper] : watched_) {
@@ -437,7 +296,7 @@ void Sampler::watch(const Values& values, Realization& realization) const
     realization.watched = static_cast<int>(watched_.size());
 }
 
-double Sampler::rigid_step(const Realization& realization) const
+double PlanarBuilder::rigid_step_s(const Realization& realization) const
 {
     constexpr double least_of_period = 20;
     const std::optional<double>& step_s = study_->run.step_s;
@@ -447,13 +306,13 @@ double Sampler::rigid_step(const Realization& realization) const
                                      "period has less than {:g} steps.\n  Give at most {:.3g}, or omit it: the step is "
                                      "then chosen by accuracy.",
                                      *step_s, realization.index, f, least_of_period, 1 / (least_of_period * f)));
-    return step_s.value_or(rigid_step_s(realization, study_->run.accuracy.value_or(usual_accuracy)));
+    return step_s.value_or(stylobate::rigid_step_s(realization, study_->run.accuracy.value_or(usual_accuracy)));
 }
 
-double Sampler::step(const Realization& realization) const
+double PlanarBuilder::step_s(const Realization& realization) const
 {
     if (realization.form == ContactForm::rigid)
-        return rigid_step(realization);
+        return rigid_step_s(realization);
     StepBound bound =
         study_->outcome.follow == Follow::rest ? step_bound_to_rest(realization) : step_bound(realization);
     if (study_->run.step_bound == StepBasis::structure)

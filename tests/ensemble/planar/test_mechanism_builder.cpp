@@ -1,7 +1,6 @@
 /// What the mechanisms of a study make of its realizations: mechanisms, draws, and what cannot be built.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/sampling/mechanism_sampler.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +48,7 @@ MechanismPerturbation normal(Mechanism mechanism, std::size_t parameter, Per per
     return p;
 }
 
-TEST(MechanismSampler, EveryParameterReachesItsMember)
+TEST(MechanismBuilder, EveryParameterReachesItsMember)
 {
     Study study = specimen();
     add(study, Mechanism::stribeck, {0.51, 0.05}, {3});
@@ -107,7 +106,7 @@ TEST(MechanismSampler, EveryParameterReachesItsMember)
     EXPECT_TRUE(r.inputs.empty());
 }
 
-TEST(MechanismSampler, NeutralValuesLeaveTheBaseline)
+TEST(MechanismBuilder, NeutralValuesLeaveTheBaseline)
 {
     const Realization plain = made(specimen());
     for (const MechanismRule& rule : mechanism_rules()) {
@@ -129,7 +128,7 @@ TEST(MechanismSampler, NeutralValuesLeaveTheBaseline)
     }
 }
 
-TEST(MechanismSampler, WhatIsOfTheBaseAloneNeedsNoExtendedStep)
+TEST(MechanismBuilder, WhatIsOfTheBaseAloneNeedsNoExtendedStep)
 {
     for (const Mechanism mechanism : {Mechanism::joint_friction, Mechanism::drum_offset, Mechanism::time_offset,
                                       Mechanism::sensor_gain, Mechanism::harmonic_distortion}) {
@@ -146,7 +145,7 @@ TEST(MechanismSampler, WhatIsOfTheBaseAloneNeedsNoExtendedStep)
     }
 }
 
-TEST(MechanismSampler, ContactFormsAndDampingAtTheEnds)
+TEST(MechanismBuilder, ContactFormsAndDampingAtTheEnds)
 {
     Study study = specimen();
     study.contact.form = ContactForm::two_corner;
@@ -162,7 +161,7 @@ TEST(MechanismSampler, ContactFormsAndDampingAtTheEnds)
         EXPECT_EQ(joint.mechanisms.face_damping, 1);
 }
 
-TEST(MechanismSampler, TheReferenceOfHertzIsTheWeightOnTheBed)
+TEST(MechanismBuilder, TheReferenceOfHertzIsTheWeightOnTheBed)
 {
     Study study = specimen();
     add(study, Mechanism::hertz, {1.5, 0});
@@ -172,7 +171,7 @@ TEST(MechanismSampler, TheReferenceOfHertzIsTheWeightOnTheBed)
                     (6 - j) * 0.1355 * 9.81 / 1e8, 1e-20);
 }
 
-TEST(MechanismSampler, StribeckOnBedsWithTheirOwnFriction)
+TEST(MechanismBuilder, StribeckOnBedsWithTheirOwnFriction)
 {
     Study study = specimen();
     study.structure.columns[0].drums[2].bed.friction = 0.4; // of joint 1
@@ -182,7 +181,7 @@ TEST(MechanismSampler, StribeckOnBedsWithTheirOwnFriction)
     EXPECT_DOUBLE_EQ(r.joints[1].mechanisms.dynamic_ratio, 0.75); // of its own, 0.3
 }
 
-TEST(MechanismSampler, DrawsForEachPlaceWhereItActs)
+TEST(MechanismBuilder, DrawsForEachPlaceWhereItActs)
 {
     Study study = specimen();
     add(study, Mechanism::joint_friction, {0.6}, {1, 4});
@@ -219,7 +218,7 @@ TEST(MechanismSampler, DrawsForEachPlaceWhereItActs)
     EXPECT_EQ(other.inputs[6], r.inputs[7]);
 }
 
-TEST(MechanismSampler, DrawsHaveTheirDistribution)
+TEST(MechanismBuilder, DrawsHaveTheirDistribution)
 {
     Study study = specimen();
     add(study, Mechanism::wedge, {0.002}, {0, 2});
@@ -241,7 +240,7 @@ TEST(MechanismSampler, DrawsHaveTheirDistribution)
     EXPECT_NEAR(product / count, 0, 4 / std::sqrt(count));
 }
 
-TEST(MechanismSampler, StreamsStayAndAreDistinct)
+TEST(MechanismBuilder, StreamsStayAndAreDistinct)
 {
     // numbers of the results that exist: they never change
     EXPECT_EQ(static_cast<int>(stream_of(Mechanism::stribeck, 0)), 128);
@@ -251,7 +250,7 @@ TEST(MechanismSampler, StreamsStayAndAreDistinct)
     EXPECT_LE(most_parameters, 8u);
 }
 
-TEST(MechanismSampler, StrengtheningReachesTheirMembers)
+TEST(MechanismBuilder, StrengtheningReachesTheirMembers)
 {
     Study study = specimen();
     add(study, Mechanism::tendon, {1e4, 30, 200});
@@ -285,7 +284,7 @@ TEST(MechanismSampler, StrengtheningReachesTheirMembers)
     EXPECT_EQ(made(neutral).step_s, made(specimen()).step_s);
 }
 
-TEST(MechanismSampler, WhatCannotBeBuiltIsRefused)
+TEST(MechanismBuilder, WhatCannotBeBuiltIsRefused)
 {
     const auto message = [](const Study& study) {
         try {
