@@ -26,7 +26,7 @@ public:
     }
 
     /// One chunk, always with the same base motion: not for long without `restart`.
-    void run() const { (twice() ? table_.run_twice : table_.run)(topology, bundle, 0, chunk_steps); }
+    void run() const { (twice() ? table_.planar.run_twice : table_.planar.run)(topology, bundle, 0, chunk_steps); }
     /// Whether two registers are stepped at a time.
     bool twice() const { return lanes_.lanes() > table_.lanes; }
     void restart() const { std::copy(start_.begin(), start_.end(), bundle.begin[0]); }
@@ -37,19 +37,19 @@ private:
     // what the lanes give the kernel, looked at on its way
     inline static Topology topology;
     inline static Bundle bundle;
-    inline static decltype(KernelTable::run) forward = nullptr, forward_twice = nullptr;
+    inline static decltype(PlanarKernels::run) forward = nullptr, forward_twice = nullptr;
 
     KernelTable seen() const
     {
-        forward = table_.run;
-        forward_twice = table_.run_twice;
+        forward = table_.planar.run;
+        forward_twice = table_.planar.run_twice;
         KernelTable seen = table_;
-        seen.run_twice = [](const Topology& t, const Bundle& b, int first, int last) {
+        seen.planar.run_twice = [](const Topology& t, const Bundle& b, int first, int last) {
             topology = t;
             bundle = b;
             forward_twice(t, b, first, last);
         };
-        seen.run = [](const Topology& t, const Bundle& b, int first, int last) {
+        seen.planar.run = [](const Topology& t, const Bundle& b, int first, int last) {
             topology = t;
             bundle = b;
             forward(t, b, first, last);

@@ -11,25 +11,30 @@ namespace stylobate {
 
 enum class Isa { scalar, avx2, avx512, neon };
 
-struct KernelTable {
-    Isa isa = Isa::scalar;
-    int lanes = 1;        ///< realizations in a register
-    int single_lanes = 1; ///< the same in single precision
-
+/// The planar model's step.
+struct PlanarKernels {
     /// Runs steps `first` to `last - 1` of the table of base motion, after the topology's model.
     void (*run)(const Topology&, const Bundle&, int first, int last) = nullptr;
-    /// The same in single precision, for the paper's model alone.
+    /// `run` in single precision, for the paper's model and rigid blocks alone.
     void (*run_single)(const Topology&, const BundleOf<float>&, int first, int last) = nullptr;
-    /// Fills the bundle's table of base motion by formula.
-    void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
-    /// The same of a bundle in single precision.
-    void (*fill_single)(MotionFormula, const FormulaParameters&, const double* first_step, float* table) = nullptr;
-    /// Multiply-adds on registers, `count` of them: the peak of the machine. Returns a number, so that none is removed.
-    double (*peak_fma)(long count) = nullptr;
     /// Two registers of realizations at a time (`twice.hpp`), for a stack of the paper's model without watched pairs:
     /// null where that is not built in. It is faster up to this number of free blocks.
     int twice_blocks = 0;
     void (*run_twice)(const Topology&, const Bundle&, int first, int last) = nullptr;
+};
+
+struct KernelTable {
+    Isa isa = Isa::scalar;
+    int lanes = 1;        ///< realizations in a register
+    int single_lanes = 1; ///< realizations in a register of single precision
+    /// Fills a bundle's table of base motion by formula, for every model.
+    void (*fill)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
+    /// `fill` of a bundle in single precision.
+    void (*fill_single)(MotionFormula, const FormulaParameters&, const double* first_step, float* table) = nullptr;
+    /// Multiply-adds on registers, `count` of them: the peak of the machine. Returns a number, so that none is removed.
+    double (*peak_fma)(long count) = nullptr;
+    PlanarKernels planar{};
+    /// `fill` of a bundle of two registers: null where `planar.run_twice` is.
     void (*fill_twice)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
 };
 

@@ -88,7 +88,8 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
     }
 
     twice_ = !is_single(study) && topology_.model == StepModel{} && topology_.stack && topology_.watched == 0 &&
-             topology_.free_blocks() <= kernels.twice_blocks && waiting > static_cast<std::uint64_t>(kernels.lanes);
+             topology_.free_blocks() <= kernels.planar.twice_blocks &&
+             waiting > static_cast<std::uint64_t>(kernels.lanes);
     lanes_ = static_cast<std::size_t>(is_single(study) ? kernels.single_lanes : (twice_ ? 2 : 1) * kernels.lanes);
     memory_ = aligned_array<double>(bundle_registers(topology_) * lanes_);
     bundle_ = bind_bundle(topology_, lanes(), memory_.get(), close_.data());
@@ -232,7 +233,7 @@ void PlanarModel::first_increments(int lane, Watch& w)
     // (so do those of its rotation and of the vertical motion: the lane has just been cleared)
     for (std::size_t i = 0; i < registers; ++i)
         memory[i] = memory_[i * lanes_ + static_cast<std::size_t>(lane)];
-    kernels(Isa::scalar).run(topology_, one, 0, 1);
+    kernels(Isa::scalar).planar.run(topology_, one, 0, 1);
     for (int i = topology_.fixed; i < topology_.blocks; ++i) {
         bundle_.at(OfBlock::dx, i, lane) = -0.5 * one.at(OfBlock::dx, i, 0);
         bundle_.at(OfBlock::dy, i, lane) = -0.5 * one.at(OfBlock::dy, i, 0);
@@ -268,7 +269,7 @@ void PlanarModel::run(const LaneBases& bases, const std::vector<Place>& places, 
     if (single_)
         single_->run(first, last);
     else
-        (twice_ ? kernels_.run_twice : kernels_.run)(topology_, bundle_, first, last);
+        (twice_ ? kernels_.planar.run_twice : kernels_.planar.run)(topology_, bundle_, first, last);
 }
 
 void PlanarModel::fill_tables(const LaneBases& bases, const std::vector<Place>& places)

@@ -29,7 +29,7 @@ void SingleBundle::take_base()
 
 void SingleBundle::run(int first, int last)
 {
-    kernels_.run_single(topology_, own_, first, last);
+    kernels_.planar.run_single(topology_, own_, first, last);
     give_lanes(topology_, own_, host_, 0, host_.lanes, last % check_steps(topology_) == 0);
 }
 

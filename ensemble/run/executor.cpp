@@ -21,10 +21,24 @@ constexpr std::uint64_t most_slots = 1 << 24;
 /// Realizations that a device leaves to the processor are stepped there one by one, not in registers; slower by about:
 constexpr int slower_alone = 4;
 
-/// What the workers share.
+/// The sets in which the planar model's realizations are run. Another model has its own.
+struct PlanarSets {
+    using Builder = PlanarBuilder;
+    using Lanes = LaneSet;
+    using Slots = SlotSet;           ///< of a device
+    using HandedOver = CompliantSet; ///< what takes over what the lanes or slots cannot step to its end
+    static bool hands_over(const Realization& pattern) { return pattern.form == ContactForm::rigid; }
+};
+
+/// What the workers share. @tparam Sets of the model
+template <class Sets>
 class Run {
 public:
-    Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
+    using Realization = typename Sets::Builder::Realization;
+    using Lanes = typename Sets::Lanes;
+    using HandedOver = typename Sets::HandedOver;
+
+    Run(const Experiment& experiment, const RunOptions& options, const RunPlanOf<Realization>& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
           kernels_(kernels(options.isa)), threads_(options.threads), few_(options.few * options.threads), plan_(plan),
           crew_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
@@ -40,7 +54,7 @@ public:
     /// One worker of the processor: a bundle that is refilled until nothing is left.
     void work()
     {
-        LaneSet lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
+        Lanes lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
         run(lanes, [&](int stepped, bool) {
             count_chunks(lanes.lanes(), stepped);
             report(false, &lanes);
@@ -54,7 +68,7 @@ public:
         // no more slots than this device's share of what is to do
         const auto most =
             static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
-        SlotSet set(study_, record_, pattern_, device, slots, most);
+        typename Sets::Slots set(study_, record_, pattern_, device, slots, most);
         run(set, [&](int stepped, bool more) {
             count_chunks(set.used(), stepped);
             report(false);
@@ -75,12 +89,14 @@ public:
     }
 
 private:
-    /// Steps what there is to run in these lanes, and in others what rigid contacts hand over.
+    /// Steps what there is to run in these lanes, and in others what is handed over.
     /// @param turn as of `drive`
     template <class Set, class Turn>
     void run(Set& set, const Turn& turn)
     {
-        std::optional<CompliantSet> compliant = compliant_set();
+        std::optional<HandedOver> handed_over;
+        if (Sets::hands_over(pattern_))
+            handed_over.emplace(study_, record_, kernels_, pattern_);
         const auto source = [&](int lane) {
             const std::optional<std::uint64_t> index = next();
             if (index)
@@ -91,33 +107,24 @@ private:
             if (set.outcome(lane))
                 deliver(set.realization(lane), *set.outcome(lane));
             else
-                compliant->take(*set.handed(lane));
+                handed_over->take(*set.handed(lane));
             set.clear(lane);
         };
         drive(set, source, sink, [&](int stepped, bool more) {
-            step(compliant, set.active() == 0);
+            step(handed_over, set.active() == 0);
             turn(stepped, more);
             return !crew_.stopped();
         });
     }
 
-    /// What takes over what rigid contacts hand over.
-    std::optional<CompliantSet> compliant_set() const
-    {
-        std::optional<CompliantSet> set;
-        if (pattern_.form == ContactForm::rigid)
-            set.emplace(study_, record_, kernels_, pattern_);
-        return set;
-    }
-
     /// Steps what was handed over while there is a register of it.
     /// @param all to the end of the last one
-    void step(std::optional<CompliantSet>& compliant, bool all)
+    void step(std::optional<HandedOver>& set, bool all)
     {
-        while (compliant && !compliant->empty() && (all || compliant->full()) && !crew_.stopped()) {
-            compliant->advance(
+        while (set && !set->empty() && (all || set->full()) && !crew_.stopped()) {
+            set->advance(
                 [this](const Realization& realization, const Outcome& outcome) { deliver(realization, outcome); });
-            count_chunks(compliant->lanes(), compliant->active());
+            count_chunks(set->lanes(), set->active());
             report(false);
         }
     }
@@ -166,7 +173,7 @@ private:
     }
 
     /// @param lanes of the thread that reports; null: not known
-    void report(bool last, const LaneSet* lanes = nullptr)
+    void report(bool last, const Lanes* lanes = nullptr)
     {
         crew_.tell(last, [&](double seconds) -> const Progress& {
             progress_.seconds = seconds;
@@ -183,12 +190,12 @@ private:
     }
 
     const Study& study_;
-    const Sampler& sampler_;
+    const SamplerOf<typename Sets::Builder>& sampler_;
     const Motion* record_;
     const KernelTable& kernels_;
     const int threads_;
     const int few_; ///< realizations that the processor ends sooner than a device
-    const RunPlan& plan_;
+    const RunPlanOf<Realization>& plan_;
     /// The plan's, or the places that are to be done, in their order.
     const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
         const std::lock_guard lock(crew_.mutex());
@@ -207,21 +214,11 @@ private:
     const Realization pattern_; ///< the topology that all realizations share
 };
 
-} // namespace
-
-void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t collapsed)
+template <class Sets>
+Progress execute(const Experiment& experiment, const RunOptions& options,
+                 const RunPlanOf<typename Sets::Builder::Realization>& plan, Observer& observer)
 {
-    if (valid == 0)
-        return;
-    const BinomialInterval interval = jeffreys(valid, collapsed, 0.95);
-    progress.share = static_cast<double>(collapsed) / static_cast<double>(valid);
-    progress.share_lower = interval.lower;
-    progress.share_upper = interval.upper;
-}
-
-Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
-{
-    Run run(experiment, options, plan, observer);
+    Run<Sets> run(experiment, options, plan, observer);
     if (options.devices.empty() || run.few()) {
         run.crew().run(options.threads, [&run] { run.work(); });
         return run.finish();
@@ -236,6 +233,23 @@ Progress run_ensemble(const Experiment& experiment, const RunOptions& options, c
     for (std::thread& worker : workers)
         worker.join();
     return run.finish();
+}
+
+} // namespace
+
+void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t collapsed)
+{
+    if (valid == 0)
+        return;
+    const BinomialInterval interval = jeffreys(valid, collapsed, 0.95);
+    progress.share = static_cast<double>(collapsed) / static_cast<double>(valid);
+    progress.share_lower = interval.lower;
+    progress.share_upper = interval.upper;
+}
+
+Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
+{
+    return execute<PlanarSets>(experiment, options, plan, observer);
 }
 
 } // namespace stylobate

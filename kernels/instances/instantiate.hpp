@@ -109,14 +109,13 @@ constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
     KernelTable table{isa,
                       Lanes<Real>::count,
                       Lanes<Single>::count,
-                      run_model<Real, Here>,
-                      run_single_model<Single, Here>,
                       fill_base_table<Real, Here>,
                       fill_single_base_table<Real, Single, Here>,
-                      peak_fma<Real, Here>};
+                      peak_fma<Real, Here>,
+                      {run_model<Real, Here>, run_single_model<Single, Here>}};
     if constexpr (!std::is_void_v<Two>) {
-        table.twice_blocks = twice_blocks;
-        table.run_twice = run_stack<Two, Here>;
+        table.planar.twice_blocks = twice_blocks;
+        table.planar.run_twice = run_stack<Two, Here>;
         table.fill_twice = fill_twice<Real, Here>;
     }
     return table;

@@ -316,7 +316,7 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
     b.at(OfJointMechanisms::corner_wear, 0, 0) = wear;
     for (int chunk = 0; chunk < 100; ++chunk) {
         b.at(OfBlock::dtheta, 1, 0) = chunk % 2 == 0 ? turn : -turn;
-        kernels(Isa::scalar).run(topology, b, 0, chunk_steps);
+        kernels(Isa::scalar).planar.run(topology, b, 0, chunk_steps);
     }
     const double path = 100 * chunk_steps * turn;
     const double face = 0.048 - 2 * wear * (path - turn); // of the step before the last
@@ -324,7 +324,7 @@ TEST(CornerWear, TheFaceShrinksByThePathOfTheRotation)
     EXPECT_LT(face, 0.046);
     // it stops before the face is gone
     b.at(OfJointMechanisms::turned, 0, 0) = 1e6;
-    kernels(Isa::scalar).run(topology, b, 0, 1);
+    kernels(Isa::scalar).planar.run(topology, b, 0, 1);
     EXPECT_NEAR(b.at(OfBlock::force_y, 1, 0), K * depth * 0.1 * 0.048, 1e-3 * K * depth * 0.0048);
 }
 

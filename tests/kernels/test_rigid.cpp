@@ -311,7 +311,7 @@ public:
 private:
     double step()
     {
-        kernels(Isa::scalar).run(topology_, bundle_, 0, 1);
+        kernels(Isa::scalar).planar.run(topology_, bundle_, 0, 1);
         return bundle_.at(OfBlock::y, 1, 0);
     }
 

@@ -30,10 +30,10 @@ std::vector<KernelTable> tables()
     for (const Isa isa : usable_isas()) {
         found.push_back(kernels(isa));
         KernelTable twice = kernels(isa);
-        if (twice.run_twice == nullptr)
+        if (twice.planar.run_twice == nullptr)
             continue;
         twice.lanes *= 2;
-        twice.run = twice.run_twice;
+        twice.planar.run = twice.planar.run_twice;
         twice.fill = twice.fill_twice;
         found.push_back(twice);
     }
@@ -45,7 +45,7 @@ State alone(const Column& column, const State& start, int first, int last)
 {
     Aligned<> memory(start.size());
     std::copy(start.begin(), start.end(), memory.data.get());
-    kernels(Isa::scalar).run(column.topology, bind_bundle(column.topology, 1, memory.data.get()), first, last);
+    kernels(Isa::scalar).planar.run(column.topology, bind_bundle(column.topology, 1, memory.data.get()), first, last);
     return State(memory.data.get(), memory.data.get() + memory.count);
 }
 
@@ -59,7 +59,7 @@ std::vector<State> together(const Column& column, const KernelTable& table, cons
     for (std::size_t lane = 0; lane < lanes; ++lane)
         for (std::size_t i = 0; i < fields; ++i)
             memory.data[i * lanes + lane] = starts[lane][i];
-    table.run(column.topology, bind_bundle(column.topology, table.lanes, memory.data.get()), first, last);
+    table.planar.run(column.topology, bind_bundle(column.topology, table.lanes, memory.data.get()), first, last);
     std::vector<State> ends(lanes, State(fields));
     for (std::size_t lane = 0; lane < lanes; ++lane)
         for (std::size_t i = 0; i < fields; ++i)

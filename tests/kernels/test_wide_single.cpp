@@ -53,7 +53,8 @@ std::vector<SingleState> together(const Column& column, const KernelTable& table
     for (std::size_t lane = 0; lane < lanes; ++lane)
         for (std::size_t i = 0; i < fields; ++i)
             memory.data[i * lanes + lane] = starts[lane][i];
-    table.run_single(column.topology, bind_bundle(column.topology, table.single_lanes, memory.data.get()), first, last);
+    table.planar.run_single(column.topology, bind_bundle(column.topology, table.single_lanes, memory.data.get()), first,
+                            last);
     std::vector<SingleState> ends(lanes, SingleState(fields));
     for (std::size_t lane = 0; lane < lanes; ++lane)
         for (std::size_t i = 0; i < fields; ++i)
@@ -187,7 +188,7 @@ TEST(WideSingle, StandsNextToDoublePrecision)
             Aligned<> memory(state.size());
             std::copy(state.begin(), state.end(), memory.data.get());
             const Bundle want = bind_bundle(column.topology, 1, memory.data.get());
-            kernels(Isa::scalar).run(column.topology, want, 0, chunk_steps);
+            kernels(Isa::scalar).planar.run(column.topology, want, 0, chunk_steps);
             const auto got = bind_bundle(column.topology, 1, single.data());
             for (int i = 1; i <= 6; ++i) {
                 const double depth = std::fabs(want.at(OfBlock::y, i, 0));

@@ -403,7 +403,7 @@ public:
     void step(double base_second_difference = 0)
     {
         bundle_.at(OfBase::second, 0, 0) = base_second_difference;
-        kernels(Isa::scalar).run(topology_, bundle_, 0, 1);
+        kernels(Isa::scalar).planar.run(topology_, bundle_, 0, 1);
     }
 
 private:

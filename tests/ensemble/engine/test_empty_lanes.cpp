@@ -39,10 +39,10 @@ void expect_nothing_asked(const Study& study, bool mechanisms, bool used)
     static Topology topology;
     static Bundle bundle;
     KernelTable table = kernels(Isa::scalar);
-    table.run = [](const Topology& t, const Bundle& b, int first, int last) {
+    table.planar.run = [](const Topology& t, const Bundle& b, int first, int last) {
         topology = t;
         bundle = b;
-        kernels(Isa::scalar).run(t, b, first, last);
+        kernels(Isa::scalar).planar.run(t, b, first, last);
     };
     const Sampler sampler(study, nullptr);
     Realization r = sampler.realization(0);
