@@ -6,7 +6,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/shaking.hpp"
 #include "ensemble/planar/structure/builder.hpp"
-#include "ensemble/sampling/draws.hpp"
+#include "ensemble/sampling/value_sampler.hpp"
 
 #include <cassert>
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace stylobate {
 
-/// Draws the realizations of a study, which a model's builder makes of the drawn values. Each is a pure function of
-/// (study, index): requesting them in another order, twice, or from several threads at once changes nothing.
+/// ValueSampler the realizations of a study, which a model's builder makes of the drawn values. Each is a pure function
+/// of (study, index): requesting them in another order, twice, or from several threads at once changes nothing.
 ///
 /// It refers to its study, which must outlive it, stay where it is and not change (`Experiment` keeps both).
 ///
 /// A builder has: Realization, a `RealizationHeader` with the model's structure; Builder(study); nominal() and
-/// mechanisms(), from which the draws are made; build(values, header); scales(realization); step_s(realization), of one
-/// that is shaken; move(replica, original, realization).
+/// mechanisms(), from which the drawn values are made; build(values, header); scales(realization); step_s(realization),
+/// of one that is shaken; move(replica, original, realization).
 template <class Builder>
 class SamplerOf {
 public:
@@ -39,7 +39,7 @@ public:
     SamplerOf(const Study& study, const Motion* record, const Motion* vertical = nullptr,
               std::shared_ptr<const MotionSet> motions = nullptr)
         : study_(&study), builder_(study), shaking_(study, record, vertical, std::move(motions)),
-          draws_(study, builder_.nominal(), builder_.mechanisms())
+          values_(study, builder_.nominal(), builder_.mechanisms())
     {
         if (const ReplicasSpec* replicas = study.design().replica_set)
             for (const Replica& kind : replicas->kinds)
@@ -60,7 +60,7 @@ public:
         assert(index < study_->total() && "the index is one of the study's");
         const Replica* replica = study_->replica(index);
         if (replica == nullptr)
-            return build(index, draws_.points());
+            return build(index, values_.points());
         const std::uint64_t original = study_->original(index);
         const OtherForm* form = forms_[static_cast<std::size_t>(index / study_->originals() - 1)].get();
         Realization realization = (form ? form->sampler : *this).realization(original);
@@ -77,13 +77,13 @@ public:
     /// @param numbers (size()) each in (0, 1)
     Realization realization(std::uint64_t index, std::span<const double> numbers) const
     {
-        return build(index, draws_.points().given(numbers));
+        return build(index, values_.points().given(numbers));
     }
     /// How many numbers those are.
-    std::size_t size() const { return draws_.points().size(); }
+    std::size_t size() const { return values_.points().size(); }
 
-    /// Names of `RealizationHeader::inputs` (`Draws::input_names`).
-    const std::vector<std::string>& input_names() const { return draws_.input_names(); }
+    /// Names of `RealizationHeader::inputs` (`ValueSampler::input_names`).
+    const std::vector<std::string>& input_names() const { return values_.input_names(); }
 
 private:
     /// The originals of a study with perturbed replicas, in another contact form.
@@ -111,7 +111,7 @@ private:
     {
         RealizationHeader header;
         header.index = index;
-        RealizationValues values = draws_.values(points, index, header.inputs);
+        RealizationValues values = values_.values(points, index, header.inputs);
         const DrawnShaking shaking{values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
                                    values[Quantity::pulse_gamma][0]};
         Realization realization = builder_.build(std::move(values), std::move(header));
@@ -123,7 +123,7 @@ private:
     const Study* study_;
     Builder builder_;
     Shaking shaking_;
-    Draws draws_;
+    ValueSampler values_;
     std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of replicas) of another contact form, else null
 };
 

@@ -1,4 +1,4 @@
-#include "ensemble/sampling/draws.hpp"
+#include "ensemble/sampling/value_sampler.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,8 @@ Stream stream_of(Mechanism mechanism, std::size_t parameter)
                                room * static_cast<std::uint64_t>(mechanism) + parameter);
 }
 
-Draws::Draws(const Study& study, const RealizationValues& nominal, const std::vector<ActingMechanism>& mechanisms)
+ValueSampler::ValueSampler(const Study& study, const RealizationValues& nominal,
+                           const std::vector<ActingMechanism>& mechanisms)
     : nominal_(nominal)
 {
     if (const double twin_m = study.design().twin_m; twin_m > 0) {
@@ -64,7 +65,7 @@ Draws::Draws(const Study& study, const RealizationValues& nominal, const std::ve
     points_ = PointSet(study, places);
 }
 
-void Draws::add(const Study& study, Perturbation perturbation)
+void ValueSampler::add(const Study& study, Perturbation perturbation)
 {
     const Quantity quantity = perturbation.quantity;
     const bool once = perturbation.per == Per::structure;
@@ -83,7 +84,8 @@ void Draws::add(const Study& study, Perturbation perturbation)
     drawn_.push_back(std::move(drawn));
 }
 
-void Draws::add(const Study& study, MechanismPerturbation perturbation, const std::vector<ActingMechanism>& mechanisms)
+void ValueSampler::add(const Study& study, MechanismPerturbation perturbation,
+                       const std::vector<ActingMechanism>& mechanisms)
 {
     const MechanismRule& rule = rule_of(perturbation.mechanism);
     const MechanismParameter& parameter = rule.parameters[perturbation.parameter];
@@ -111,7 +113,7 @@ void Draws::add(const Study& study, MechanismPerturbation perturbation, const st
 }
 
 /// @param numbered how many numbered inputs of this name there are; none: one without a number
-void Draws::name(const std::string& quantity, std::optional<std::size_t> numbered)
+void ValueSampler::name(const std::string& quantity, std::optional<std::size_t> numbered)
 {
     if (!numbered)
         input_names_.push_back(quantity);
@@ -119,7 +121,7 @@ void Draws::name(const std::string& quantity, std::optional<std::size_t> numbere
         input_names_.push_back(fmt::format("{}[{}]", quantity, i));
 }
 
-RealizationValues Draws::values(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const
+RealizationValues ValueSampler::values(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const
 {
     RealizationValues values = nominal_;
     for (const Drawn& drawn : drawn_) {

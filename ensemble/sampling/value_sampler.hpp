@@ -18,13 +18,13 @@ namespace stylobate {
 /// The stream of a parameter's draws.
 Stream stream_of(Mechanism mechanism, std::size_t parameter);
 
-class Draws {
+class ValueSampler {
 public:
-    Draws() = default;
+    ValueSampler() = default;
     /// @param nominal    values of a realization of which nothing is drawn
     /// @param mechanisms those of the study
     /// @throws InputError if a perturbation leaves no probability between its limits
-    Draws(const Study& study, const RealizationValues& nominal, const std::vector<ActingMechanism>& mechanisms);
+    ValueSampler(const Study& study, const RealizationValues& nominal, const std::vector<ActingMechanism>& mechanisms);
 
     /// The values of a realization: the nominal ones, or drawn.
     /// @param inputs takes those that were drawn, in the order of `input_names()`
