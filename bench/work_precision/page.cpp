@@ -1,8 +1,8 @@
 #include "bench/work_precision/page.hpp"
 
 #include "bench/scenes.hpp"
-#include "ensemble/run/executor.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
+#include "ensemble/run/executor.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 #include "studies/evidence/verification/trials.hpp"

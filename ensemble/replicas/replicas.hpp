@@ -5,7 +5,7 @@
 ///
 /// For a pair that differs in the place of one drum, the separation is
 ///
-///   s = sqrt( sum over the free blocks of (dx / B)^2 + (dy / B)^2 + dtheta^2 ),   B the mean width of the drums,
+///   s = sqrt( sum over the free blocks of (dx / B)^2 + (dy / B)^2 + turn^2 ),   B the mean width of the drums,
 ///
 /// (own choice of the norm) taken after each chunk of steps, which both have in common. The pair is followed until s
 /// reaches the tolerance, or until one of the two ends. The exponent is the slope of ln s over time, by least squares,

@@ -18,7 +18,7 @@
 
 namespace stylobate {
 
-/// ValueSampler the realizations of a study, which a model's builder makes of the drawn values. Each is a pure function
+/// Draws the realizations of a study, which a model's builder makes of the drawn values. Each is a pure function
 /// of (study, index): requesting them in another order, twice, or from several threads at once changes nothing.
 ///
 /// It refers to its study, which must outlive it, stay where it is and not change (`Experiment` keeps both).

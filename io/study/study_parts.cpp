@@ -1,8 +1,8 @@
 #include "io/study/study_parts.hpp"
 
+#include "ensemble/model/nominal.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/motion/noise_duration.hpp"
-#include "ensemble/sampling/plausible.hpp"
 #include "io/keys/contact_keys.hpp"
 #include "io/keys/excitation_keys.hpp"
 #include "io/keys/mechanism_keys.hpp"

@@ -33,9 +33,9 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/engine", {"ensemble/model", "ensemble/motion", "ensemble/numerics"}},
     {"ensemble/planar/structure", {"ensemble/model"}},
     {"ensemble/planar", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar/structure"}},
-    {"ensemble/planar/device", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar"}},
+    {"ensemble/planar/device", {"ensemble/model", "ensemble/numerics", "ensemble/planar"}},
     {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/planar/structure"}},
-    {"ensemble", {"ensemble/model", "ensemble/motion", "ensemble/sampling"}}, // an experiment
+    {"ensemble", {"ensemble/model", "ensemble/sampling"}}, // an experiment
     {"ensemble/ranks", {}},
     {"ensemble/run",
      {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/planar/device",

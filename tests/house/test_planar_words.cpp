@@ -15,11 +15,16 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The floors that are searched, and the words.
-const std::set<std::string> floors_of_any_model = {"io", "studies", "library", "include", "python"};
+const std::set<std::string> floors_of_any_model = {"kernels", "ensemble", "io",    "studies",
+                                                   "library", "include",  "python"};
 const std::set<std::string> planar_words = {"theta", "half_width_m"};
 
 /// Folders and files that may have them, and why.
 const std::map<std::string, std::string> planar_places = {
+    {"kernels/planar/", "the planar model"},
+    {"ensemble/planar/", "the planar model"},
+    {"ensemble/model/campaign.hpp", "measured data, which give planar poses"},
+    {"ensemble/tracking/", "the planar model, nudged along measured data"},
     {"io/measured/", "measured data, which give planar poses"},
     {"studies/measured/", "their diagnoses and pictures"},
     {"studies/evidence/", "derivations and reference solutions of the planar model"},
@@ -68,7 +73,8 @@ TEST(House, WordsOfPlanarBlocksStayWhereTheseAreDescribed)
             const std::string place = planar_place_of(file);
             EXPECT_NE(place, "") << file << " has a word of planar blocks: loop over the channels of the trajectory "
                                  << "(ensemble/model/trajectory.hpp), or ask for the rectangle that is drawn "
-                                 << "(ensemble/planar/planar_poses.hpp)";
+                                 << "(ensemble/planar/planar_poses.hpp); what the engine needs of a structure, the "
+                                 << "model computes";
             used.insert(place);
         }
     EXPECT_GT(files, 200U) << "the files were not found";
@@ -83,5 +89,7 @@ TEST(Rules, FindWordsOfPlanarBlocks)
     EXPECT_FALSE(has_planar_word("adaptive.half_width = 0.05"));
     EXPECT_EQ(planar_place_of("io/measured/measured_motion.cpp"), "io/measured/");
     EXPECT_EQ(planar_place_of("io/store/export.cpp"), "");
+    EXPECT_EQ(planar_place_of("ensemble/engine/lanes.hpp"), "");
+    EXPECT_EQ(planar_place_of("kernels/planar/step.hpp"), "kernels/planar/");
     EXPECT_EQ(planar_place_of("library/trajectory.hpp.orig"), "");
 }

@@ -112,7 +112,8 @@ private:
     const Study& study() const { return experiment_.study(); }
     double pause_s(const Realization& r) const
     {
-        return options_.pause_s.value_or(std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(scales_of(r))));
+        return options_.pause_s.value_or(
+            std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(scales_of(r))));
     }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 
