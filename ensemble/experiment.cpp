@@ -1,6 +1,7 @@
 #include "ensemble/experiment.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -65,7 +66,7 @@ double shaking_s(const Experiment& experiment, const Realization& r)
 
 double longest_s(const Experiment& experiment, const Realization& r)
 {
-    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, r);
+    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, scales_of(r));
 }
 
 } // namespace stylobate

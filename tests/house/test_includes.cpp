@@ -35,7 +35,8 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/planar", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar/structure"}},
     {"ensemble/planar/device", {"ensemble/model", "ensemble/numerics", "ensemble/planar"}},
     {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/planar/structure"}},
-    {"ensemble", {"ensemble/model", "ensemble/sampling"}}, // an experiment
+    {"ensemble",
+     {"ensemble/model", "ensemble/motion", "ensemble/planar/structure", "ensemble/sampling"}}, // an experiment
     {"ensemble/ranks", {}},
     {"ensemble/run",
      {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/planar/device",
