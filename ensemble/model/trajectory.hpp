@@ -61,12 +61,6 @@ struct Trajectory {
     {
         return const_cast<std::vector<double>&>(std::as_const(*this)[channel]);
     }
-
-    /// How many values a list must have.
-    std::size_t size_of(ListOf of) const
-    {
-        return (of == ListOf::blocks ? 1 : time_s.size()) * (of == ListOf::times ? 1 : blocks());
-    }
 };
 
 /// Calls f(channel, list) for the times and then for each channel. @param trajectory may be constant
@@ -85,7 +79,8 @@ inline bool lists_fit(const Trajectory& trajectory)
     const std::size_t blocks = trajectory.blocks();
     bool fit = trajectory.column.size() == blocks && trajectory.name.size() == blocks;
     visit_lists(trajectory, [&](const TrajectoryChannel& channel, const std::vector<double>& list) {
-        fit = fit && list.size() == trajectory.size_of(channel.of);
+        const std::size_t times = channel.of == ListOf::blocks ? 1 : trajectory.time_s.size();
+        fit = fit && list.size() == times * (channel.of == ListOf::times ? 1 : blocks);
     });
     return fit;
 }

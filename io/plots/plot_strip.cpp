@@ -54,31 +54,25 @@ std::size_t finite_samples(const Trajectory& t)
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",
                                      t.index));
-    const auto refuse_empty = [&] {
-        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
-                                     "realization with a sufficiently high output.trajectory_rate_hz.",
-                                     t.index));
-    };
-    if (samples == 0 || blocks == 0)
-        refuse_empty();
-    for (std::size_t i = 0; i < blocks; ++i)
-        if (const Rectangle at = rectangle_of(t, 0, i);
-            !(at.half_width > 0 && at.half_height > 0) || !std::isfinite(at.half_width * at.half_height))
-            throw InputError(fmt::format("block {} of realization {} is {} m by {} m: the trajectory is damaged.\n"
-                                         "  Replay the realization into a new file.",
-                                         i, t.index, 2 * at.half_width, 2 * at.half_height));
     std::size_t good = 0;
-    const std::vector<double>& base_m = t["base_x_m"];
     const auto finite = [&](std::size_t s) {
-        bool all = std::isfinite(t.time_s[s]) && std::isfinite(base_m[s]);
+        bool all = std::isfinite(t.time_s[s]) && std::isfinite(t["base_x_m"][s]);
         for (std::size_t i = 0; i < blocks; ++i)
             all = all && rectangle_of(t, s, i).is_finite();
         return all;
     };
     while (good < samples && finite(good))
         ++good;
-    if (good == 0)
-        refuse_empty();
+    if (good == 0 || blocks == 0)
+        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
+                                     "realization with a sufficiently high output.trajectory_rate_hz.",
+                                     t.index));
+    for (std::size_t i = 0; i < blocks; ++i)
+        if (const Rectangle at = rectangle_of(t, 0, i);
+            !(at.half_width > 0 && at.half_height > 0) || !std::isfinite(at.half_width * at.half_height))
+            throw InputError(fmt::format("block {} of realization {} is {} m by {} m: the trajectory is damaged.\n"
+                                         "  Replay the realization into a new file.",
+                                         i, t.index, 2 * at.half_width, 2 * at.half_height));
     return good;
 }
 

@@ -1,6 +1,4 @@
-#include "io/store/row_journal.hpp"
-
-#include "io/store/result_seal.hpp"
+#include "io/store/result_file.hpp"
 
 #include <algorithm>
 #include <cstring>
