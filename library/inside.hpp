@@ -6,7 +6,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/records/record.hpp"
-#include "studies/check/check_study.hpp"
+#include "studies/check/check_report.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/workflow/calibrate.hpp"

@@ -125,8 +125,9 @@ Verdict judge_file(const fs::path& file, const Read& read, const Write& write)
 
 Verdict judge_file(const Original& original, const fs::path& file)
 {
-    return original.what == What::risk          ? judge_file(file, read_risk, write_risk)
-           : original.what == What::risk_change ? judge_file(file, read_risk_change, write_risk_change)
+    const auto write = [](const auto& risk, const fs::path& to) { write_risk(risk, to); };
+    return original.what == What::risk          ? judge_file(file, read_risk, write)
+           : original.what == What::risk_change ? judge_file(file, read_risk_change, write)
                                                 : judge_file(file, read_comparison, write_comparison);
 }
 

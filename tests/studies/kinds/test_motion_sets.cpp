@@ -4,7 +4,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/check/check_study.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/loaded_study.hpp"
@@ -12,6 +11,7 @@
 #include "studies/kinds/fragility/exchange.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/kinds/fragility/fragility_text.hpp"
+#include "studies/workflow/check.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,10 +69,10 @@ protected:
     /// What `check` prints without running anything.
     static std::string checked(LoadedStudy loaded)
     {
-        StudyCheck check(std::move(loaded), "study.toml", {.pilot = 0, .trial_seconds = 0}, {Isa::scalar, 1});
-        Observer quiet;
-        check.draw_realizations(quiet);
-        return check_text(check.run(quiet).value());
+        WorkObserver quiet;
+        return check_text(check_study(std::move(loaded), "study.toml", {.pilot = 0, .trial_seconds = 0},
+                                      {.threads = 1, .simd = "scalar"}, quiet)
+                              .value());
     }
     /// The study of these motions.
     static std::string text(const std::string& of_motions, const std::string& pga = "from = 2.0, to = 6.0")
