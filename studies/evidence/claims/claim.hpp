@@ -19,7 +19,7 @@ namespace stylobate::claims {
 enum class Event {
     rocked,          ///< the largest relative rotation is above outcome.rocking_threshold_rad, or it collapsed
     slid,            ///< the total sliding is above outcome.sliding_threshold widths
-    collapsed,       ///< see `ensemble/README.md`
+    collapsed,       ///< see `ensemble/engine/README.md`
     stood,           ///< none of the three: it moved as one with the base
     rocked_only,     ///< rocked, did not slide
     slid_only,       ///< slid, did not rock
