@@ -1,7 +1,7 @@
 #include "io/keys/spread_key.hpp"
 
 #include "io/keys/mechanism_keys.hpp"
-#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_keys.hpp"
 #include "io/keys/words.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,9 @@
 #include "io/keys/study_tables.hpp"
 
-#include "io/keys/contact_keys.hpp"
-#include "io/keys/excitation_keys.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/keys/mechanism_keys.hpp"
-#include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
-#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_keys.hpp"
 
 namespace stylobate {
 

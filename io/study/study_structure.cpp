@@ -1,5 +1,5 @@
 #include "ensemble/model/input_error.hpp"
-#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_keys.hpp"
 #include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>

@@ -1,13 +1,10 @@
 /// The canonical text of a study: every value, in one order, with numbers that read back to the same bits.
 
 #include "ensemble/model/nominal.hpp"
-#include "io/keys/contact_keys.hpp"
-#include "io/keys/excitation_keys.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/keys/mechanism_keys.hpp"
-#include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
-#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_keys.hpp"
 #include "io/study/study_file.hpp"
 
 #include <fmt/format.h>

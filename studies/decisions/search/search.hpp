@@ -4,7 +4,7 @@
 
 #include "ensemble/model/observer.hpp"
 #include "ensemble/run/executor.hpp"
-#include "io/study/study_variants.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/search/search_objective.hpp"
 #include "studies/report/json.hpp"

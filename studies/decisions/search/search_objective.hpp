@@ -9,7 +9,7 @@
 
 #include "ensemble/estimators/risk/frequency_change.hpp"
 #include "ensemble/estimators/search/response_surface.hpp"
-#include "io/study/study_variants.hpp"
+#include "io/study/study_file.hpp"
 #include "studies/decisions/compare/pairing.hpp"
 
 #include <optional>

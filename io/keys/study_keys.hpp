@@ -1,0 +1,439 @@
+#pragma once
+/// The keys of the tables that every kind of study has: [study], [structure], [contact], [excitation], [initial],
+/// [output], [outcome], [run].
+
+#include "ensemble/model/study.hpp"
+#include "io/keys/kind_keys.hpp"
+#include "io/keys/ranges.hpp"
+#include "io/keys/words.hpp"
+
+#include <limits>
+
+namespace stylobate {
+
+namespace structure_keys {
+
+inline constexpr std::uint64_t most_blocks = 200; ///< in all: every two of them may meet
+inline constexpr std::uint64_t most_columns = 50;
+
+// of a drum, a capital or an epistyle
+
+inline const NumberKey width("width_m", &DrumSpec::width_m, length_range, "width of the block",
+                             {.absent = "drum_width_m; of a capital needed", .example = "1.0"});
+inline const NumberKey height("height_m", &DrumSpec::height_m, length_range, "height of the block",
+                              {.absent = "drum_height_m; of a capital needed", .example = "0.8"});
+inline const NumberKey mass("mass_kg", &DrumSpec::mass_kg, mass_range, "mass of the block; excludes density_kg_m3",
+                            {.absent = "from the density"});
+inline const NumberKey density("density_kg_m3", density_range, "density of the stone; marble has about 2700",
+                               {.absent = "that of the column or of all blocks", .example = "2700"});
+inline const Range offset_range{-length_range.high, length_range.high, false, length_range.hint, length_range.slips};
+inline const NumberKey offset("offset_m", &DrumSpec::offset_m, offset_range,
+                              "distance of the block's centre from the axis of its column, to the right; no more "
+                              "than its width");
+inline const NumberKey bed_friction("friction", &BedSpec::friction, friction_range,
+                                    "coefficient of friction of the bed under the block",
+                                    {.absent = "contact.friction"});
+inline const NumberKey bed_normal_stiffness("normal_stiffness_n_m2", &BedSpec::normal_stiffness_n_m2,
+                                            normal_stiffness_range, "K_N of the bed under the block",
+                                            {.absent = "contact.normal_stiffness_n_m2"});
+inline const NumberKey bed_tangential_stiffness("tangential_stiffness_n_m", &BedSpec::tangential_stiffness_n_m,
+                                                tangential_stiffness_range, "K_T of the bed under the block",
+                                                {.absent = "contact.tangential_stiffness_n_m"});
+inline const NumberKey bed_restitution("restitution", &BedSpec::restitution, restitution_range,
+                                       "restitution of the bed under the block, of rigid contacts",
+                                       {.absent = "contact.restitution"});
+inline const NumberKey bed_normal_damping(
+    "normal_damping_ratio", &BedSpec::normal_damping_ratio, damping_ratio_range,
+    "normal dashpot of the bed under the block as a fraction of the critical damping, of a layer in it",
+    {.absent = "contact.normal_damping_ratio"});
+inline const NumberKey bed_tangential_damping("tangential_damping_ratio", &BedSpec::tangential_damping_ratio,
+                                              damping_ratio_range, "tangential dashpot of that bed",
+                                              {.absent = "contact.tangential_damping_ratio"});
+inline const WholeKey count("count", 1, {1, most_blocks, "Equal drums, one on the other."}, "number of equal drums");
+
+// of a column, and of all columns
+
+inline const WholeKey
+    blocks("blocks",
+           {1, most_blocks, "Drums of the column, including the fixed ones; or give drums = [ { ... }, ... ]."},
+           "number of equal drums, including the fixed ones", {.absent = "the drums of `drums`", .example = "6"});
+inline const WholeKey fixed_blocks("fixed_blocks", &ColumnSpec::fixed_blocks,
+                                   {0, most_blocks - 1, "At least one of the drums must be free."},
+                                   "number of the lowest blocks that are fixed to the shaking table");
+inline const TableKey drums("drums", "the drums one by one from the bottom, instead of `blocks`",
+                            {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
+                             &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping, &bed_tangential_damping,
+                             &count},
+                            {.absent = "equal drums"}, KeyType::tables);
+inline const NumberKey drum_width("drum_width_m", &DrumSpec::width_m, length_range,
+                                  "width of the drums; with top_width_m of the lowest",
+                                  {.absent = "each of `drums` has its own", .example = "1.0"});
+inline const NumberKey drum_height("drum_height_m", &DrumSpec::height_m, length_range, "height of the drums",
+                                   {.absent = "each of `drums` has its own", .example = "0.8"});
+inline const NumberKey top_width("top_width_m", length_range,
+                                 "width of the highest drum: the drums taper linearly; needs density_kg_m3",
+                                 {.absent = "no taper"});
+inline const NumberKey depth("depth_m", &StructureSpec::depth_m, length_range, "depth of all blocks, out of the plane",
+                             {.needed = true, .example = "1.0"});
+inline const NumberKey drum_mass("drum_mass_kg", &DrumSpec::mass_kg, mass_range,
+                                 "mass of each drum; excludes density_kg_m3", {.absent = "from density_kg_m3"});
+inline const NumberKey density_of_all("density_kg_m3", density_range,
+                                      "density of all blocks that have no mass and no density of their own",
+                                      {.absent = "masses are given", .example = "2700"});
+inline const TableKey capital("capital", "an additional block on top of the column",
+                              {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
+                               &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping,
+                               &bed_tangential_damping},
+                              {.absent = "no capital"});
+inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gravity_range, "acceleration of gravity");
+
+// of a colonnade
+
+inline const KeyFacts of_colonnade{.used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})}};
+inline KeyFacts colonnade_facts(const char* absent, const char* example = "")
+{
+    return {.absent = absent,
+            .used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})},
+            .example = example};
+}
+
+inline const WholeKey columns("columns", {2, most_columns, "Or give column_list = [ { x_m = ... }, ... ]."},
+                              "number of equal columns, about x = 0",
+                              colonnade_facts("the columns of column_list", "2"));
+inline const NumberKey column_spacing("column_spacing_m", spacing_range, "distance between the axes of columns",
+                                      colonnade_facts("each of column_list has its place", "3.0"));
+inline const NumberKey x("x_m", &ColumnSpec::x_m, position_range, "place of the column's axis",
+                         {.needed = true, .example = "0.0"});
+inline const TableKey column_list("column_list",
+                                  "the columns one by one from the left; values that are omitted are those of all "
+                                  "columns",
+                                  {&x, &blocks, &fixed_blocks, &drums, &drum_width, &drum_height, &drum_mass,
+                                   &density_of_all, &top_width, &capital},
+                                  colonnade_facts("equal columns"), KeyType::tables);
+inline const WholeKey first_column("first_column", &EpistyleSpec::first_column,
+                                   {0, most_columns - 1, "Columns are counted from 0, from the left."},
+                                   "the leftmost column on which the piece lies, counted from 0", {.needed = true});
+inline const WholeKey last_column("last_column", &EpistyleSpec::last_column,
+                                  {0, most_columns - 1, "Columns are counted from 0, from the left."},
+                                  "the rightmost column on which the piece lies", {.needed = true});
+inline const NumberKey epistyle_x("x_m", &EpistyleSpec::x_m, position_range, "place of its centre",
+                                  {.absent = "between its columns"});
+inline const NumberKey length("length_m", &EpistyleSpec::length_m, length_range, "length along the colonnade",
+                              {.absent = "epistyle_length_m"});
+inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, length_range, "height of the piece",
+                                           {.absent = "epistyle_height_m"});
+inline const NumberKey seat_friction("friction", &BedSpec::friction, friction_range,
+                                     "coefficient of friction of its seats", {.absent = "contact.friction"});
+inline const TableKey epistyles("epistyles", "the epistyles one by one from the left; [] for none",
+                                {&first_column, &last_column, &epistyle_x, &length, &own_epistyle_height, &mass,
+                                 &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
+                                 &bed_restitution, &bed_normal_damping, &bed_tangential_damping},
+                                colonnade_facts("equal pieces over all columns"), KeyType::tables);
+inline const WholeKey epistyle_bays("epistyle_bays", 1, {1, most_columns - 1, "Bays that one piece spans, or \"all\"."},
+                                    "number of bays that each piece spans",
+                                    {.used = of_colonnade.used, .words = {"all"}});
+inline const NumberKey
+    epistyle_length("epistyle_length_m", length_range, "length of each piece, centred on its bays",
+                    colonnade_facts("the pieces meet over the axes of the columns and end flush with the outer faces"));
+inline const NumberKey epistyle_height("epistyle_height_m", length_range, "height of the epistyles",
+                                       colonnade_facts("the pieces are in `epistyles`", "0.8"));
+inline const NumberKey epistyle_mass("epistyle_mass_kg", mass_range, "mass of each piece",
+                                     colonnade_facts("from the density"));
+inline const NumberKey epistyle_density("epistyle_density_kg_m3", density_range, "density of the epistyles",
+                                        colonnade_facts("density_kg_m3"));
+
+inline const WordKey<StructureKind> kind("kind", &StructureSpec::kind, structure_kind_names,
+                                         "one column, or a colonnade: columns with or without epistyles");
+inline const TableKey table(
+    "structure", "the columns and epistyles",
+    {&kind,        &blocks,    &fixed_blocks,   &drums,           &drum_width,      &drum_height,   &top_width,
+     &depth,       &drum_mass, &density_of_all, &capital,         &gravity,         &columns,       &column_spacing,
+     &column_list, &epistyles, &epistyle_bays,  &epistyle_length, &epistyle_height, &epistyle_mass, &epistyle_density});
+
+} // namespace structure_keys
+
+namespace contact_keys {
+
+inline const NumberKey normal_stiffness("normal_stiffness_n_m2", &ContactSpec::normal_stiffness_n_m2,
+                                        normal_stiffness_range,
+                                        "K_N, the force per overlap area for the whole depth; a dry bed of marble has "
+                                        "1e9 to 1e10 N/m3 times the depth",
+                                        {.needed = true, .used = {compliant()}, .example = "3e9"});
+inline const NumberKey tangential_stiffness("tangential_stiffness_n_m", &ContactSpec::tangential_stiffness_n_m,
+                                            tangential_stiffness_range, "K_T, the force per tangential displacement",
+                                            {.absent = "K_N times the width of the widest drum",
+                                             .used = {compliant()}});
+inline const NumberKey normal_damping_ratio("normal_damping_ratio", &ContactSpec::normal_damping_ratio,
+                                            damping_ratio_range, "normal dashpot as a fraction of the critical damping",
+                                            {.used = {compliant()}});
+inline const NumberKey
+    normal_damping("normal_damping_n_s_m", &ContactSpec::normal_damping_n_s_m, damping_range,
+                   "coefficient C_N of the normal dashpot, instead of its ratio",
+                   {.absent = "from the ratio", .used = {compliant()}, .excludes = {"normal_damping_ratio"}});
+inline const NumberKey tangential_damping_ratio("tangential_damping_ratio", &ContactSpec::tangential_damping_ratio,
+                                                damping_ratio_range,
+                                                "tangential dashpot as a fraction of the critical damping",
+                                                {.used = {compliant()}});
+inline const NumberKey
+    tangential_damping("tangential_damping_n_s_m", &ContactSpec::tangential_damping_n_s_m, damping_range,
+                       "coefficient C_T of the tangential dashpot, instead of its ratio",
+                       {.absent = "from the ratio", .used = {compliant()}, .excludes = {"tangential_damping_ratio"}});
+inline const WordKey<DampingAt> damping("damping", &ContactSpec::damping, damping_at_names,
+                                        "where the normal dashpot acts: at the centroid of the overlap (the paper's "
+                                        "model), or at the ends of the contact",
+                                        {.used = {compliant()}});
+inline const WordKey<DampingPer> damping_per("damping_per", &ContactSpec::damping_per, damping_per_names,
+                                             "whether the dashpot's coefficient is that of each contact, or grows with "
+                                             "the length of the contact",
+                                             {.used = {compliant()}});
+inline const WordKey<ContactForm> form("form", &ContactSpec::form, contact_form_names,
+                                       "how the overlap becomes a force: by its area (the paper's model), by the "
+                                       "penetration of two corners, by points along the face; or not at all, as of "
+                                       "rigid blocks");
+inline const NumberKey friction("friction", &ContactSpec::friction, friction_range,
+                                "coefficient of friction mu; stone on stone has about 0.4 to 0.8",
+                                {.needed = true, .example = "0.68"});
+
+inline const NumberKey restitution("restitution", &ContactSpec::restitution, restitution_range,
+                                   "what an impact gives back: a part of the velocity or of the impulse",
+                                   {.used = {with_rigid_contacts()}});
+inline const WordKey<RestitutionLaw> restitution_law(
+    "restitution_law", &ContactSpec::restitution_law, restitution_law_names,
+    "whether an end that meets its face parts again with the part of its closing velocity (Newton), or every end "
+    "gives back the part of the impulse with which the impact compresses it (Poisson)",
+    {.used = {with_rigid_contacts()}});
+
+inline const TableKey table("contact", "the joints between blocks",
+                            {&normal_stiffness, &tangential_stiffness, &normal_damping_ratio, &normal_damping,
+                             &tangential_damping_ratio, &tangential_damping, &damping, &damping_per, &form, &friction,
+                             &restitution, &restitution_law});
+
+} // namespace contact_keys
+
+namespace excitation_keys {
+
+using Motion = ExcitationKind;
+
+inline const Condition with_frequency =
+    not_for_motions({Motion::none, Motion::sweep, Motion::record, Motion::table}); // of one value
+inline const Condition synthetic = not_for_motions({Motion::none, Motion::record, Motion::table});
+inline const Condition sampled = for_motions({Motion::record, Motion::table});
+inline const Condition moving = not_for_motions({Motion::none});
+inline const Condition no_axes = not_in_studies({StudyKind::surface, StudyKind::survival});
+inline const Condition one_motion = not_in_studies({StudyKind::surface, StudyKind::fragility, StudyKind::survival});
+inline const Condition no_list = not_in_studies({StudyKind::fragility});
+
+inline const WordKey<ExcitationKind> kind("kind", &ExcitationSpec::kind, excitation_kind_names,
+                                          "the motion of the base", {.needed = true, .example = "\"harmonic\""});
+inline const NumberKey
+    duration("duration_s", &ExcitationSpec::duration_s, duration_range, "simulated time; of a sweep its length",
+             {.needed = true, .used = {for_motions({Motion::none, Motion::sweep})}, .example = "10.0"});
+inline const NumberKey frequency("frequency_hz", &ExcitationSpec::frequency_hz, frequency_range,
+                                 "frequency of the sine or pulse; of noise that of the ground, 0.05 to 25",
+                                 {.needed = true, .used = {with_frequency, no_axes}, .example = "1.0"});
+inline const NumberKey pga("pga_m_s2", &ExcitationSpec::pga_m_s2, acceleration_range,
+                           "largest acceleration; of a harmonic motion and a sweep the amplitude on the plateau, which "
+                           "the ramps exceed (by up to 2.0 % with 2 cycles, 61 % with half a cycle)",
+                           {.needed = true, .used = {synthetic, one_motion}, .example = "4.0"});
+inline const WordKey<HarmonicEdge> start("start", &ExcitationSpec::start, edge_names,
+                                         "whether the motion begins with a ramp of the displacement",
+                                         {.used = {for_motions({Motion::harmonic})}});
+inline const WordKey<HarmonicEdge> end("end", &ExcitationSpec::end, edge_names, "the same at its end",
+                                       {.used = {for_motions({Motion::harmonic})}});
+inline const NumberKey ramp_cycles("ramp_cycles", &ExcitationSpec::ramp_cycles, cycles_range,
+                                   "length of each ramp, in cycles; of a tapered motion at least 1",
+                                   {.used = {for_motions({Motion::harmonic, Motion::tapered, Motion::sweep})}});
+inline const NumberKey cycles("cycles", &ExcitationSpec::cycles, motion_cycles_range,
+                              "number of cycles, including the ramps",
+                              {.used = {for_motions({Motion::harmonic, Motion::tapered})}});
+inline const NumberKey phase("phase_rad", &ExcitationSpec::phase_rad, phase_range, "phase of the sine or pulse",
+                             {.used = {for_motions({Motion::harmonic, Motion::pulse, Motion::tapered})}});
+inline const NumberKey gamma("gamma", &ExcitationSpec::gamma, gamma_range,
+                             "oscillatory character of a pulse: cycles in its envelope; near faults mostly 1 to 3",
+                             {.used = {for_motions({Motion::pulse})}});
+inline const NumberKey from("from_hz", &ExcitationSpec::from_hz, frequency_range, "first frequency of the sweep",
+                            {.needed = true, .used = {for_motions({Motion::sweep})}, .example = "0.5"});
+inline const NumberKey to("to_hz", &ExcitationSpec::to_hz, frequency_range, "last frequency of the sweep",
+                          {.needed = true, .used = {for_motions({Motion::sweep})}, .example = "5.0"});
+inline const WordKey<Spacing> spacing("spacing", &ExcitationSpec::spacing, spacing_names,
+                                      "whether the frequency of the sweep grows by equal differences or equal ratios",
+                                      {.used = {for_motions({Motion::sweep})}});
+inline const WordKey<PgaOf> pga_of("pga_of", &ExcitationSpec::pga_of, pga_of_names,
+                                   "whether each realization is scaled to the PGA, or their mean is",
+                                   {.used = {for_motions({Motion::noise}), no_list}});
+inline const NumberKey ground_damping("ground_damping_ratio", &ExcitationSpec::ground_damping_ratio,
+                                      filter_damping_range, "damping of the ground filter",
+                                      {.used = {for_motions({Motion::noise})}});
+inline const NumberKey low_cut("low_cut_ratio", &ExcitationSpec::low_cut_ratio, low_cut_ratio_range,
+                               "frequency of the low-cut filter over that of the ground",
+                               {.used = {for_motions({Motion::noise})}});
+inline const NumberKey low_cut_damping("low_cut_damping_ratio", &ExcitationSpec::low_cut_damping_ratio,
+                                       filter_damping_range, "damping of the low-cut filter",
+                                       {.used = {for_motions({Motion::noise})}});
+inline const NumberKey rise("rise_s", &ExcitationSpec::rise_s, rise_range, "time in which the noise grows",
+                            {.used = {for_motions({Motion::noise})}});
+inline const NumberKey strong("strong_s", &ExcitationSpec::strong_s, strong_range, "time of strong shaking",
+                              {.used = {for_motions({Motion::noise})}});
+inline const NumberKey decay("decay_s", &ExcitationSpec::decay_s, rise_range, "time in which it falls to 1/e",
+                             {.used = {for_motions({Motion::noise})}});
+inline const TextKey file("file", &ExcitationSpec::file,
+                          "the record, or the table of samples: a path relative to the study file",
+                          {.needed = true, .used = {sampled, no_list}, .example = "\"record.at2\""});
+inline const TextKey run("run", &ExcitationSpec::run, "run of a measured campaign",
+                         {.absent = "the file has one motion", .used = {for_motions({Motion::table})}});
+inline const TextKey component("component", &ExcitationSpec::component,
+                               "which one, where the file has several: its name or its column",
+                               {.absent = "the only one", .used = {for_motions({Motion::record}), no_list}});
+inline const TextKey
+    unit("unit", &ExcitationSpec::unit, "unit of the record's acceleration",
+         {.absent = "as in the file", .used = {for_motions({Motion::record}), no_list}, .words = acceleration_units});
+inline const NumberKey scale_to_pga("scale_to_pga_m_s2", &ExcitationSpec::pga_m_s2, acceleration_range,
+                                    "PGA to which the motion is scaled",
+                                    {.absent = "as recorded", .used = {sampled, one_motion}});
+inline const NumberKey time_scale("time_scale", &ExcitationSpec::time_scale, time_scale_range,
+                                  "factor by which the motion is stretched in time", {.used = {sampled, no_axes}});
+inline const BooleanKey baseline("baseline", &ExcitationSpec::baseline, "correct the baseline of the record",
+                                 {.used = {for_motions({Motion::record})}});
+inline const ListKey band_pass("band_pass_hz", KeyType::interval, corner_range, "corners of a band-pass filter",
+                               {.absent = "no filter", .used = {for_motions({Motion::record})}});
+inline const NumberKey tail(
+    "tail_s", tail_range, "longest simulated time after the shaking",
+    {.absent = "\"rest\" in fragility and sensitivity studies, which count residual displacements, and in survival "
+               "studies with an observed state: until the realization lies still, at most 240 / p; else "
+               "\"structure\": 12 / p, p = sqrt(3 g / (4 R)) of the whole column of each realization, R half its "
+               "diagonal",
+     .used = {moving},
+     .words = {tail_names[0].word, tail_names[1].word}});
+
+inline const TableKey table(
+    "excitation", "the motion of the base",
+    {&kind, &duration, &frequency, &pga,    &start,          &end,        &ramp_cycles,     &cycles,    &phase,  &gamma,
+     &from, &to,       &spacing,   &pga_of, &ground_damping, &low_cut,    &low_cut_damping, &rise,      &strong, &decay,
+     &file, &run,      &component, &unit,   &scale_to_pga,   &time_scale, &baseline,        &band_pass, &tail});
+
+} // namespace excitation_keys
+
+namespace study_keys {
+
+inline const WordKey<StudyKind> kind("kind", &Study::kind, study_kind_names, "what the study computes",
+                                     {.needed = true});
+inline const TextKey title("title", &Study::title,
+                           "title of pictures and pages, at most 200 bytes; not a part of the study's identity",
+                           {.absent = "the name of the file"});
+inline const WholeKey seed("seed", &Study::seed,
+                           {0, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())},
+                           "seed of all random numbers", {.example = "1"});
+inline const WholeKey realizations(
+    "realizations", &Study::realizations, {1, most_realizations},
+    "number of realizations: of a surface or a survival study in each cell, of a fragility study under each "
+    "motion in each stripe, of a single study in all",
+    {.absent = "1 for a single study; needed for a surface, a fragility and a survival study",
+     .used = {in_studies({StudyKind::single, StudyKind::surface, StudyKind::fragility, StudyKind::survival})},
+     .example = "32"});
+inline const WordKey<Sampling> sampling("sampling", &Study::sampling, sampling_names,
+                                        "independent random numbers, or scrambled Sobol points",
+                                        {.used = {not_in_studies({StudyKind::fragility, StudyKind::rare})}});
+inline const ListKey allow("allow", &Study::allow, {}, "plausibility checks that the study fails intentionally",
+                           {.absent = "none"});
+inline const TableKey table("study", "the kind of study", {&kind, &title, &seed, &realizations, &sampling, &allow});
+
+} // namespace study_keys
+
+namespace initial_keys {
+
+inline const NumberKey tilt("tilt_rad", &InitialSpec::tilt_rad, initial_tilt_range,
+                            "angle by which the structure leans at the start, counter-clockwise");
+inline const WholeKey tilt_from_block("tilt_from_block", &InitialSpec::tilt_from_block,
+                                      {0, 199, "A block of each column, counted from 0, from the bottom."},
+                                      "in each column this block and all above it lean; 0: the whole column");
+inline const TableKey table("initial", "the start of the motion", {&tilt, &tilt_from_block},
+                            {.absent = "at rest, upright"});
+
+} // namespace initial_keys
+
+namespace output_keys {
+
+inline const NumberKey trajectory_rate(
+    "trajectory_rate_hz", &OutputSpec::trajectory_rate_hz, {0, 1e6, true, "Samples per second."},
+    "sampling rate of trajectories, also for `replay`",
+    {.absent = "100 samples in 2 pi / p of the block that rocks fastest, 20 in a period of the fastest shaking, at "
+               "least 100 a second"});
+inline const WordKey<KeptRealizations> realizations("realizations", &Study::kept, kept_realizations_names,
+                                                    "all: a row of each; none: only the counts of a surface");
+inline const WholeKey trajectories(
+    "trajectories",
+    {0, most_realizations,
+     "The number of realizations, from the first; or \"all\", or \"fit\": as many as fit into most_mb."},
+    "number of realizations whose trajectories are kept, from the first; \"fit\": as many as fit into most_mb",
+    {.absent = "\"fit\"", .used = {in_studies({StudyKind::single})}, .words = {trajectories_fit, trajectories_all}});
+inline const NumberKey most_mb("most_mb", &OutputSpec::most_mb,
+                               {0, 1e6, true, "The trajectories of a results file, in 1e6 bytes."},
+                               "size of the trajectories in a results file",
+                               {.used = {in_studies({StudyKind::single})}});
+inline const TableKey table("output", "what is kept", {&trajectory_rate, &realizations, &trajectories, &most_mb},
+                            {.absent = "the defaults of its keys"});
+
+} // namespace output_keys
+
+namespace outcome_keys {
+
+inline const WordKey<Follow> follow("follow", &OutcomeSpec::follow, follow_names,
+                                    "how long a realization is followed: until a block has fallen, or until all "
+                                    "blocks are at rest",
+                                    {.absent = "\"collapse\" for a column, \"rest\" for a colonnade"});
+inline const NumberKey height_fraction("height_fraction", &OutcomeSpec::collapse_height_fraction,
+                                       {0.01, 0.99, false, "A fraction of the rest height.", from_percent},
+                                       "a block whose centre is below this fraction of its height at rest has fallen");
+inline const TableKey collapse("collapse", "when a block has fallen", {&height_fraction},
+                               {.absent = "the default of its key"});
+inline const NumberKey rocking_threshold("rocking_threshold_rad", &OutcomeSpec::rocking_threshold_rad,
+                                         {0, 1.5, true, "Angles are in radians.", from_degrees},
+                                         "largest relative rotation below which a column has not rocked");
+inline const NumberKey sliding_threshold("sliding_threshold", &OutcomeSpec::sliding_threshold,
+                                         {0, 100, true, "A fraction of the drum's width."},
+                                         "total sliding over the drum's width below which a column has not slid");
+inline const TableKey table("outcome", "the definition of outcomes",
+                            {&follow, &collapse, &rocking_threshold, &sliding_threshold},
+                            {.absent = "the defaults of its keys"});
+
+} // namespace outcome_keys
+
+namespace run_keys {
+
+inline const Range stable_step{
+    1e-6, 1, false,
+    "It is a fraction of the largest safe step; a value above 1 needs run.allow_step_above_bound = true."};
+inline const Range any_step{1e-6, 100, false, stable_step.hint};
+
+inline const WordKey<Precision> precision("precision", &RunSpec::precision, precision_names,
+                                          "arithmetic of the steps; single supports only the paper's model");
+inline const NumberKey step_fraction("step_fraction", &RunSpec::step_fraction, stable_step,
+                                     "time step as a fraction of the largest safe step; up to 100 with "
+                                     "allow_step_above_bound; excludes step_s",
+                                     {.used = {compliant()}});
+inline const WordKey<StepBasis> step_bound("step_bound", &RunSpec::step_bound, step_basis_names,
+                                           "whether the largest safe step is that of each block held by its "
+                                           "neighbours, or of the whole structure (longer)",
+                                           {.used = {compliant()}});
+inline const NumberKey step("step_s", &RunSpec::step_s, {1e-12, 1, false, "Times are in seconds.", from_ms},
+                            "a fixed time step instead",
+                            {.absent = "from step_fraction", .excludes = {"step_fraction"}});
+inline const NumberKey accuracy("accuracy", &RunSpec::accuracy,
+                                {0.001, 0.2, false, "A difference of probabilities.", from_percent},
+                                "largest change of a collapse probability by the numerics: those that the study does "
+                                "not give are chosen for it (form and stiffness of the contacts, step, step_bound, "
+                                "precision), or the study is refused; excludes step_s and step_fraction",
+                                {.absent = "none", .excludes = {"step_s", "step_fraction"}});
+inline const BooleanKey allow_step_above_bound("allow_step_above_bound", &RunSpec::allow_step_above_bound,
+                                               "run even with a step above the largest safe one",
+                                               {.used = {compliant()}});
+inline const NumberKey max_invalid("max_invalid_fraction", &RunSpec::max_invalid_fraction,
+                                   {0, 1, false, "A fraction of all realizations.", from_percent},
+                                   "fraction of invalid realizations above which the exit status is 3");
+inline const TableKey table("run", "the computation",
+                            {&precision, &accuracy, &step_fraction, &step_bound, &step, &allow_step_above_bound,
+                             &max_invalid},
+                            {.absent = "the defaults of its keys"});
+
+} // namespace run_keys
+} // namespace stylobate
