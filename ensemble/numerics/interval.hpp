@@ -39,7 +39,7 @@ inline double log_gamma(double x)
 /// The source of the interval of a cell of an adaptive surface.
 enum class IntervalMethod : std::uint8_t {
     own,    ///< its own trials
-    surface ///< pooled with its neighbours (surface_model.hpp)
+    surface ///< pooled with its neighbours (adaptive.hpp)
 };
 const char* to_string(IntervalMethod method);
 

@@ -1,7 +1,7 @@
 /// What neighbouring cells say about a cell: closed forms where a neighbour is known exactly, symmetries,
 /// contradiction.
 
-#include "ensemble/estimators/surface/surface_model.hpp"
+#include "ensemble/estimators/surface/adaptive.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
