@@ -1,7 +1,9 @@
-/// Whole studies: sampling, stepping, refilling of lanes, everything but the results file.
+/// Whole studies: sampling, stepping, refilling of lanes, everything but the results file. And measured motion followed
+/// in lockstep against one at a time: the same jobs, code and results, by lanes in a register.
 
 #include "bench/scenes.hpp"
 #include "ensemble/run/executor.hpp"
+#include "ensemble/tracking/tracking.hpp"
 #include "studies/experiment/loaded_study.hpp"
 
 #include <benchmark/benchmark.h>
@@ -50,6 +52,84 @@ void main_job(benchmark::State& state, Isa isa)
         state.counters["seconds"] = run_ensemble(main_job.experiment(), {isa, 2}, plan, observer).seconds;
 }
 
+/// Sixty-four parameter sets of the specimen along what one of them did under an earthquake of two seconds, with nine
+/// free windows each.
+std::vector<TrackingJob> jobs()
+{
+    Study study = rocking_column(5);
+    study.contact.normal_stiffness_n_m2 = 1e7;
+    study.contact.tangential_stiffness_n_m = 4.8e5;
+    study.excitation.kind = ExcitationKind::noise;
+    study.excitation.frequency_hz = 3;
+    study.excitation.pga_m_s2 = 5;
+    study.excitation.rise_s = 0.2;
+    study.excitation.strong_s = 1.5;
+    study.excitation.decay_s = 0.2;
+    study.perturbations.clear();
+    const Sampler sampler(study, nullptr);
+    TrackingJob job;
+    job.realization = sampler.realization(0);
+    auto times = std::make_shared<std::vector<double>>();
+    for (int i = 0; i <= 1000; ++i)
+        times->push_back(0.002 * i);
+    job.watched_s = times;
+    Observer observer;
+    const Readings seen = track({job}, {best_isa(), 1}, observer).results.front().watched;
+    auto targets = std::make_shared<Targets>();
+    targets->spacing_s = 0.002;
+    targets->blocks = job.realization.blocks.size();
+    targets->x_m = seen.x_m;
+    targets->theta_rad = seen.theta_rad;
+    targets->velocity_m_s.assign(seen.x_m.size(), 0.0);
+    targets->rotation_rad_s.assign(seen.x_m.size(), 0.0);
+    for (std::size_t k = targets->blocks; k + targets->blocks < seen.x_m.size(); ++k) {
+        targets->velocity_m_s[k] = (seen.x_m[k + targets->blocks] - seen.x_m[k - targets->blocks]) / 0.004;
+        targets->rotation_rad_s[k] =
+            (seen.theta_rad[k + targets->blocks] - seen.theta_rad[k - targets->blocks]) / 0.004;
+    }
+    auto windows = std::make_shared<std::vector<FreeWindow>>();
+    for (int i = 0; i < 9; ++i)
+        windows->push_back({0.1 + 0.2 * i, {0.2 + 0.2 * i, 0.3 + 0.2 * i}});
+    job.watched_s = nullptr;
+    job.targets = targets;
+    job.windows = windows;
+    job.nudge_rad_s = 60;
+    std::vector<TrackingJob> all(64, job);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (Joint& joint : all[i].realization.joints)
+            joint.friction *= 0.7 + 0.01 * static_cast<double>(i);
+    return all;
+}
+
+void following(benchmark::State& state, Isa isa)
+{
+    const std::vector<TrackingJob> all = jobs();
+    Observer observer;
+    TrackingReport report;
+    double seconds = 0, block_steps = 0;
+    for (auto _ : state) {
+        report = track(all, {isa, 1}, observer);
+        seconds += report.seconds;
+        block_steps += static_cast<double>(report.block_steps);
+    }
+    state.counters["block_steps_per_second"] = block_steps / seconds;
+    state.counters["occupancy"] = report.occupancy;
+}
+
+/// The ratio in one run: both take turns, so that what else the machine does hits them alike.
+void following_ratio(benchmark::State& state)
+{
+    const std::vector<TrackingJob> all = jobs();
+    Observer observer;
+    double alone = 0, lockstep = 0;
+    for (auto _ : state) {
+        lockstep += track(all, {best_isa(), 1}, observer).seconds;
+        alone += track(all, {Isa::scalar, 1}, observer).seconds;
+    }
+    state.counters["speedup"] = alone / lockstep;
+    state.counters["lanes"] = kernels(best_isa()).lanes;
+}
+
 const bool registered = [] {
     benchmark::RegisterBenchmark((std::string("BM_MainJob/") + to_string(best_isa())).c_str(), main_job, best_isa())
         ->Unit(benchmark::kSecond)
@@ -62,6 +142,10 @@ const bool registered = [] {
                 (std::string("BM_Ensemble/") + to_string(isa) + "/" + std::to_string(threads)).c_str(), ensemble, isa,
                 threads)
                 ->Unit(benchmark::kMillisecond);
+    for (const Isa isa : usable_isas())
+        benchmark::RegisterBenchmark((std::string("BM_Following/") + to_string(isa)).c_str(), following, isa)
+            ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark("BM_FollowingLockstepOverOneAtATime", following_ratio)->Unit(benchmark::kMillisecond);
     return true;
 }();
 
