@@ -3,12 +3,9 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/motion/noise_duration.hpp"
-#include "io/keys/contact_keys.hpp"
-#include "io/keys/excitation_keys.hpp"
 #include "io/keys/mechanism_keys.hpp"
-#include "io/keys/run_keys.hpp"
 #include "io/keys/spread_key.hpp"
-#include "io/keys/structure_keys.hpp"
+#include "io/keys/study_keys.hpp"
 #include "io/keys/study_tables.hpp"
 
 #include <fmt/format.h>
