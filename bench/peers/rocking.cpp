@@ -58,7 +58,7 @@ bool overturns(const Engine& engine, std::size_t setting, double step_s, double 
     const auto block = verification::rigid_block(Monolith::width_m, Monolith::height_m);
     const double alpha = static_cast<double>(block.alpha), p = static_cast<double>(block.p);
     const Scene scene = monolith_scene(0);
-    Realization motion;
+    RealizationHeader motion;
     motion.step_s = step_s;
     motion.frequency_hz = pulse_rate * p / (2 * std::numbers::pi);
     motion.pga_m_s2 = eta * scene.gravity_m_s2 * std::tan(alpha);

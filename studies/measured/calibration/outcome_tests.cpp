@@ -39,7 +39,7 @@ double pgv_over_pga_at_1_hz(ExcitationSpec e)
 {
     constexpr double samples_per_s = 2048;
     e.frequency_hz = e.pga_m_s2 = 1;
-    Realization r;
+    RealizationHeader r;
     r.frequency_hz = r.pga_m_s2 = 1;
     r.phase_rad = e.phase_rad;
     r.pulse_gamma = e.gamma;
