@@ -465,7 +465,7 @@ EnsembleDiagnosis diagnosed(const std::vector<SizedCause>& acting)
         [](std::uint64_t, std::uint64_t) {}, observer);
 }
 
-TEST(EnsembleDiagnosis, APlantedCauseIsNamed)
+TEST(EnsembleDiagnosis, APlantedCauseIsNamedLong)
 {
     Cause slippery{"joint_friction", "joint 1", "ratio", "", 1};
     slippery.joint = 1;
@@ -513,7 +513,7 @@ TEST(EnsembleDiagnosis, APlantedCauseIsNamed)
     EXPECT_FALSE(found.power(99, 0));
 }
 
-TEST(EnsembleDiagnosis, NothingIsNamedWhereNothingIsHidden)
+TEST(EnsembleDiagnosis, NothingIsNamedWhereNothingIsHiddenLong)
 {
     const EnsembleDiagnosis found = diagnosed({});
     const Decided decided = decide({}, {}, &found, {});

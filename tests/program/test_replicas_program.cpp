@@ -15,16 +15,16 @@ constexpr std::uint64_t originals = 16 * realizations;
 const std::vector<std::string> small_replicas = short_surface(realizations);
 const std::vector<std::string> twins = with(small_replicas, {"twins.moves_m=[1e-9, 1e-4]", "twins.followed=2"});
 
-class TwinsProgram : public ColumnProgram {};
+class ReplicasProgram : public ColumnProgram {};
 
-TEST_F(TwinsProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
+TEST_F(ReplicasProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
 {
     expect_no_byte_changes([](const std::string& results, const char* threads, const std::string& simd) {
         return words(twins, results, threads, simd);
     });
 }
 
-TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
+TEST_F(ReplicasProgram, ItsOriginalsAreTheSurface)
 {
     const Ended ended = run(words(twins, "twins.h5", "2"));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
@@ -60,7 +60,7 @@ TEST_F(TwinsProgram, ItsOriginalsAreTheSurface)
     EXPECT_EQ(with_twins.table("twins").list_shape("original")[0], 16U * 2 * 2);
 }
 
-TEST_F(TwinsProgram, EveryTwinIsReplayed)
+TEST_F(ReplicasProgram, EveryTwinIsReplayed)
 {
     ASSERT_EQ(run(words(twins, "t.h5", "2")).status, 0);
     for (std::uint64_t kind = 0; kind <= 6; ++kind) {
@@ -71,7 +71,7 @@ TEST_F(TwinsProgram, EveryTwinIsReplayed)
     EXPECT_EQ(run({"replay", "t.h5", "--realization", std::to_string(7 * originals)}).status, 2);
 }
 
-TEST_F(TwinsProgram, TablesPicturesAndPage)
+TEST_F(ReplicasProgram, TablesPicturesAndPage)
 {
     ASSERT_EQ(run(words(twins, "t.h5", "2")).status, 0);
     ASSERT_EQ(run({"export", "t.h5", "--to", "csv"}).status, 0);
@@ -93,7 +93,7 @@ TEST_F(TwinsProgram, TablesPicturesAndPage)
     expect_refused(Words{"export", "none.h5", "--to", "png", "--picture", "predictability"}, {"twins.followed"});
 }
 
-TEST_F(TwinsProgram, BadInputIsRefusedWithItsRange)
+TEST_F(ReplicasProgram, BadInputIsRefusedWithItsRange)
 {
     const auto refused = [&](const std::vector<std::string>& settings, const std::vector<std::string>& says) {
         expect_refused(words(with(small_replicas, settings), "none.h5", "1"), says);
