@@ -7,7 +7,7 @@
 #include "ensemble/model/study.hpp"
 #include "ensemble/numerics/run_order.hpp"
 #include "ensemble/planar/device/device.hpp"
-#include "ensemble/ranks/ranks.hpp"
+#include "ensemble/run/ranks.hpp"
 #include "kernels/isa.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 /// The ranks that this process was started with (`mpirun`, `srun`).
 
-#include "ensemble/ranks/ranks.hpp"
+#include "ensemble/run/ranks.hpp"
 
 #include <memory>
 #include <string>

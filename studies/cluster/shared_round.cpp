@@ -1,6 +1,6 @@
 #include "studies/cluster/shared_round.hpp"
 
-#include "ensemble/ranks/deal.hpp"
+#include "ensemble/run/deal.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/store/result_seal.hpp"
 #include "studies/experiment/trajectory.hpp"

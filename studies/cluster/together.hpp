@@ -4,7 +4,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/run_order.hpp"
-#include "ensemble/ranks/ranks.hpp"
+#include "ensemble/run/ranks.hpp"
 
 #include <stdexcept>
 #include <string>

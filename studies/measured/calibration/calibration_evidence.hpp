@@ -9,8 +9,8 @@
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/ranks/ranks.hpp"
 #include "ensemble/run/executor.hpp"
+#include "ensemble/run/ranks.hpp"
 #include "ensemble/tracking/tracking.hpp"
 #include "studies/measured/calibration/outcome_tests.hpp"
 

@@ -1,7 +1,7 @@
 /// Studies that several ranks run together have the bytes of one that a process runs alone.
 
 #include "studies/cluster/shared_round.hpp"
-#include "tests/ensemble/ranks/thread_ranks.hpp"
+#include "tests/ensemble/run/thread_ranks.hpp"
 #include "tests/studies/verify/results_made.hpp"
 
 #include <atomic>

@@ -4,7 +4,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/measured/calibration/calibration.hpp"
-#include "tests/ensemble/ranks/thread_ranks.hpp"
+#include "tests/ensemble/run/thread_ranks.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// Simulated campaigns with labels: which are simulated, that they are the same whoever simulates them, and that an
 /// interrupted ensemble continues.
 
-#include "tests/ensemble/ranks/thread_ranks.hpp"
+#include "tests/ensemble/run/thread_ranks.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
 
 #include "io/files/atomic_file.hpp"

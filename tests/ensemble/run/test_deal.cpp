@@ -1,8 +1,8 @@
 /// Numbers that are dealt out to ranks, with ranks that are threads.
 
 #include "ensemble/planar/device/device.hpp"
-#include "ensemble/ranks/deal.hpp"
-#include "tests/ensemble/ranks/thread_ranks.hpp"
+#include "ensemble/run/deal.hpp"
+#include "tests/ensemble/run/thread_ranks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 /// of a rank's share of what is left (guided self-scheduling: Polychronopoulos and Kuck 1987), so that the ranks end
 /// together. A thread of each rank sends and receives, so that those that compute hardly ever wait for another process.
 
-#include "ensemble/ranks/ranks.hpp"
+#include "ensemble/run/ranks.hpp"
 
 #include <condition_variable>
 #include <cstdint>

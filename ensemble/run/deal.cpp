@@ -1,4 +1,4 @@
-#include "ensemble/ranks/deal.hpp"
+#include "ensemble/run/deal.hpp"
 
 #include <algorithm>
 #include <chrono>

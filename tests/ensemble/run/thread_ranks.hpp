@@ -1,7 +1,7 @@
 #pragma once
 /// Ranks that are threads of one process: for tests of what processes do together, without MPI.
 
-#include "ensemble/ranks/ranks.hpp"
+#include "ensemble/run/ranks.hpp"
 
 #include <condition_variable>
 #include <deque>
