@@ -27,7 +27,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace stylobate {
@@ -133,30 +132,5 @@ Calibration calibrate(const Campaign& campaign, const Study& start, const Calibr
 /// @throws InputError if a row cannot be used, there is none, or a key cannot be fitted
 Calibration calibrate(const OutcomeTable& table, const Study& start, const CalibrationOptions& options,
                       const RunOptions& run, Observer& observer);
-
-// ---- What a calibration is given: a measured campaign, or a table of outcomes.
-
-class CalibrationData {
-public:
-    /// @param file a table of outcomes if it ends in .csv and is no folder, else a campaign
-    /// @throws InputError if it cannot be read
-    explicit CalibrationData(std::filesystem::path file);
-
-    /// The study to begin from where none is given: `default_study` of a campaign.
-    /// @param settings "KEY=VALUE"
-    /// @throws InputError for a setting that cannot be, and for a table, which does not describe the structure
-    Study default_start(const std::vector<std::string>& settings) const;
-
-    /// By which the data are known (`CalibrationOptions::kept_key`): the file, and the motions that a table names.
-    std::string key() const;
-
-    /// @throws InputError as `calibrate`
-    Calibration calibrated(const Study& start, const CalibrationOptions& options, const RunOptions& run,
-                           Observer& observer) const;
-
-private:
-    std::filesystem::path file_;
-    std::variant<Campaign, OutcomeTable> measured_;
-};
 
 } // namespace stylobate
