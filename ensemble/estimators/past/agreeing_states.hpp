@@ -3,7 +3,7 @@
 ///
 /// The distance of two states is the largest difference of a value over its tolerance; they agree where it is at most 1
 /// (the uniform kernel of `past_likelihood.hpp`). Where the sense of the shaking is unknown, it is the smaller one of
-/// the distances from the observed state and from its mirror image (`mirror_image.hpp`).
+/// the distances from the observed state and from its mirror image (`mirror_image`).
 
 #include "ensemble/model/structure.hpp"
 

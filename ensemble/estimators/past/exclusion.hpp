@@ -6,7 +6,7 @@
 /// ends with the axis), or its largest value over the frequencies (the profile likelihood, without a prior; Berger,
 /// Liseo & Wolpert, "Integrated likelihood methods for eliminating nuisance parameters", Statistical Science 14 (1999)
 /// 1, compare the two). An intensity is excluded where the likelihood is below a part of its largest value
-/// (`ratio_thresholds.hpp`). The posterior of a prior over the intensity has a quantile besides; it always exists, but
+/// (`RatioThresholds`). The posterior of a prior over the intensity has a quantile besides; it always exists, but
 /// where the likelihood has not fallen by the end of the axis it is a property of the prior and of the axis: nothing is
 /// then excluded.
 ///

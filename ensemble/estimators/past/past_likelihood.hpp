@@ -40,7 +40,7 @@ struct PastAxes {
 };
 
 /// Of one cell. Where several structures share a motion these are the numbers of independent realizations that would
-/// leave the mean as uncertain as it is (`motion_tally.hpp`), and no whole ones.
+/// leave the mean as uncertain as it is (`effective_count`), and no whole ones.
 struct CellCount {
     double trials = 0, successes = 0;
 };

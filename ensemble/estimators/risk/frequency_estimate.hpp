@@ -4,7 +4,7 @@
 ///   lambda = integral of P(limit state | im) |d lambda_IM(im)|
 ///
 /// (Cornell & Krawinkler, "Progress and challenges in seismic performance assessment", PEER Center News 3 (2000) 1), of
-/// structures that meet every event as new. Its interval by the fragility is that of the records; `risk_number.hpp`
+/// structures that meet every event as new. Its interval by the fragility is that of the records; `RiskNumber`
 /// joins that of the hazard.
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
