@@ -126,8 +126,8 @@ std::vector<double> stripe_weights(const std::vector<double>& intensity, const H
 /// without runs at a stripe takes the share of the others there. The interval is Student's of ln lambda by the scatter
 /// of the y_g, with (sum y_g)^2 / sum y_g^2 - 1 degrees of freedom (own choice, of the form of `RecordSpread`: records
 /// under which the state is not reached do not show the scatter). Where fewer than `least_records` records count so, or
-/// where one record alone has all the scatter, it is that of a bounded mean (`stripe_shares.hpp`), y_g between 0 and the
-/// frequency at P = 1 from the first stripe with damage on, which holds with no damage at all, and is wide.
+/// where one record alone has all the scatter, it is that of a bounded mean (`stripe_shares.hpp`), y_g between 0 and
+/// the frequency at P = 1 from the first stripe with damage on, which holds with no damage at all, and is wide.
 ///
 /// Between two stripes the form is not known: the interval also contains its own limits with a lognormal curve through
 /// the shares of every two stripes instead of the straight line. Where the stripes separate
