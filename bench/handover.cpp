@@ -10,7 +10,7 @@
 #include "bench/processor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
-#include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/table.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/numerics/interval.hpp"
-#include "ensemble/planar/compliant_set.hpp"
 #include "ensemble/planar/device/slots.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/planar/planar_model.hpp"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/planar/structure/compliant_form.hpp"
 #include "ensemble/replicas/replicas.hpp"
 #include "studies/experiment/loaded_study.hpp"
 

@@ -4,7 +4,7 @@
 /// SPEC: six free drums 48 x 29 mm, 0.1355 kg.  MONO: the same as one block, 48 x 174 mm, 0.813 kg.
 /// Nothing here goes through a study file, the sampler or the choice of the step.
 
-#include "ensemble/planar/compliant_set.hpp"
+#include "ensemble/planar/hand_over.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "ensemble/planar/structure/static_state.hpp"
 

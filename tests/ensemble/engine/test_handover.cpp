@@ -1,9 +1,7 @@
 /// How realizations go from rigid contacts to contacts that yield: what goes on, and that nothing has met before.
 
 #include "ensemble/experiment.hpp"
-#include "ensemble/planar/compliant_set.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/planar/structure/compliant_form.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"

@@ -2,7 +2,6 @@
 
 #include "bench/scenes.hpp"
 #include "ensemble/planar/hand_over.hpp"
-#include "ensemble/planar/structure/compliant_form.hpp"
 #include "studies/experiment/trajectory.hpp"
 
 #include <gtest/gtest.h>
