@@ -39,24 +39,24 @@ std::string text_of(const Law& law)
     return fmt::format("two_corner, damping ratio {:g} | K_N {:.0e}", law.damping_ratio, law.stiffness_n_m2);
 }
 
-enum class Table { limit, steps, stiff, cost };
+enum class Shown { limit, steps, stiff, cost };
 
-std::vector<Law> laws(Table table)
+std::vector<Law> laws(Shown shown)
 {
     std::vector<Law> all;
-    if (table == Table::cost) {
+    if (shown == Shown::cost) {
         for (const double rate : {240.0, 480.0, 960.0})
             all.push_back({.step_s = 1 / rate});
         all.push_back({ContactForm::two_corner, 1e8, 0.1});
         all.push_back({ContactForm::two_corner, 1e9, 0.5});
         return all;
     }
-    if (table == Table::steps) {
+    if (shown == Shown::steps) {
         for (const double rate : {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0, 15360.0})
             all.push_back({.step_s = 1 / rate});
         return all;
     }
-    if (table == Table::stiff) {
+    if (shown == Shown::stiff) {
         for (const double K_n : {1e10, 1e11})
             for (const double xi : {1.0, 4.0})
                 all.push_back({ContactForm::two_corner, K_n, xi});
@@ -144,7 +144,7 @@ int main(int argc, char** argv)
         fmt::print("{}", agreement_text({std::istreambuf_iterator<char>(file), {}}));
         return 0;
     }
-    const Table table = cost ? Table::cost : steps ? Table::steps : stiff ? Table::stiff : Table::limit;
+    const Shown shown = cost ? Shown::cost : steps ? Shown::steps : stiff ? Shown::stiff : Shown::limit;
     std::vector<Cell> all = rocking_cells();
     if (steps)
         all.push_back(alike_drums);
@@ -159,7 +159,7 @@ int main(int argc, char** argv)
         }
     fmt::print("{} draws each, {}\n\n{}", draws, processor(), markdown_head(head));
     std::vector<std::vector<Answer>> answers; // (laws) of the cells
-    for (const Law& law : laws(table)) {
+    for (const Law& law : laws(shown)) {
         if (law.stiffness_n_m2 != stiffness.value_or(law.stiffness_n_m2) ||
             law.damping_ratio != damping.value_or(law.damping_ratio) ||
             (rate && std::fabs(law.step_s * *rate - 1) > 1e-9))
@@ -178,7 +178,7 @@ int main(int argc, char** argv)
         return 0;
     fmt::print("\nLess the finest step\n\n{}", markdown_head(head));
     for (std::size_t i = 0; i + 1 < answers.size(); ++i) {
-        std::string row = text_of(laws(table)[i]);
+        std::string row = text_of(laws(shown)[i]);
         for (std::size_t k = 0; k < chosen.size(); ++k)
             row += " | " + difference(answers[i][k], answers.back()[k]);
         fmt::print("{}", markdown_row("{}", row));
