@@ -6,6 +6,14 @@
 
 namespace stylobate {
 
+std::string list_words(const std::vector<std::string>& list)
+{
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + list[i];
+    return text;
+}
+
 std::string duration_text(double seconds)
 {
     const long s = std::lround(seconds);

@@ -1,7 +1,8 @@
 #pragma once
-/// Rates, shares and durations in words.
+/// Rates, shares, durations and lists in words.
 
 #include <string>
+#include <vector>
 
 namespace stylobate {
 
@@ -10,6 +11,9 @@ std::string rate_text(double rate);
 
 /// "61.4 %"; "–" where a share is not known.
 std::string percent_text(double share);
+
+/// "a", "a and b", "a, b and c".
+std::string list_words(const std::vector<std::string>& list);
 
 /// "41 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);

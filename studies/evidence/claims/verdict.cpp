@@ -1,6 +1,7 @@
 #include "studies/evidence/claims/verdict.hpp"
 
 #include "io/files/suggest.hpp"
+#include "studies/report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -101,7 +102,7 @@ std::string split_text(const ClaimFile& file, const Test& test, const std::vecto
     const auto holding = names(places, split, best, Finding::holds),
                failing = names(places, split, best, Finding::fails);
     const auto listed = [&](const std::vector<std::string>& list, const std::vector<std::string>& other) {
-        return list.size() > most_named && list.size() > other.size() ? "all other decided cases" : series(list);
+        return list.size() > most_named && list.size() > other.size() ? "all other decided cases" : list_words(list);
     };
     return fmt::format("holds for {}; it fails for {}", listed(holding, failing), listed(failing, holding));
 }
@@ -153,14 +154,6 @@ MarginVerdict at_margin(const std::vector<Case>& cases)
 }
 
 } // namespace
-
-std::string series(const std::vector<std::string>& list)
-{
-    std::string text;
-    for (std::size_t i = 0; i < list.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + list[i];
-    return text;
-}
 
 const char* to_string(Judgement judgement)
 {

@@ -16,9 +16,6 @@ enum class Judgement {
 };
 const char* to_string(Judgement judgement);
 
-/// "a, b and c"
-std::string series(const std::vector<std::string>& list);
-
 /// How much an axis moves the answer: of the pairs of decided cases that differ in it alone, those with other findings.
 struct Influence {
     std::string label;

@@ -64,14 +64,6 @@ std::string block_words(int block)
     return block < 0 ? "the base" : fmt::format("block {}", block);
 }
 
-std::string list_words(const std::vector<std::string>& list)
-{
-    std::string text;
-    for (std::size_t i = 0; i < list.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == list.size() ? " and " : ", ") + list[i];
-    return text;
-}
-
 std::string mechanism_words(const std::string& mechanism)
 {
     for (const MechanismRule& rule : mechanism_rules())

@@ -4,6 +4,7 @@
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/words.hpp"
 
 #include <string>
 
@@ -19,8 +20,6 @@ std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const
 std::string probability_words(MaybeReal p);
 /// "block 3", "the base".
 std::string block_words(int block);
-/// "a", "a and b", "a, b and c".
-std::string list_words(const std::vector<std::string>& list);
 
 /// The meaning of a mechanism; its name if no study can have it.
 std::string mechanism_words(const std::string& mechanism);
