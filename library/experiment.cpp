@@ -28,9 +28,9 @@ inner::Study under_record(const inner::Study& study, const inner::Record& record
         table += ", baseline = false";
     else if (had_record && e.band_pass)
         table += fmt::format(", band_pass_hz = [{}, {}]", e.band_pass->low_hz, e.band_pass->high_hz);
-    if (had_record && !study.surface && e.pga_m_s2 > 0)
+    if (had_record && !study.design().pga_m_s2 && e.pga_m_s2 > 0)
         table += fmt::format(", scale_to_pga_m_s2 = {}", e.pga_m_s2);
-    if (had_record && !study.surface)
+    if (had_record && !study.design().frequency_hz)
         table += fmt::format(", time_scale = {}", e.time_scale);
     if (e.tail_s)
         table += fmt::format(", tail_s = {}", *e.tail_s);

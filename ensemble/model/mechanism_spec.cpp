@@ -166,7 +166,7 @@ constexpr MechanismRule rules[] = {
      UsualPlaces::neighbours},
     {Mechanism::pull_out, "pull_out", joint, "two dowels that resist the opening of a joint until they are out",
      pull_out}};
-static_assert(std::size(rules) == mechanism_count);
+static_assert(std::size(rules) == static_cast<std::size_t>(Mechanism::count));
 
 constexpr bool in_order()
 {

@@ -41,9 +41,9 @@ enum class Mechanism : std::uint8_t {
     bearing,
     mortar,
     clamp,
-    pull_out
+    pull_out,
+    count
 };
-inline constexpr int mechanism_count = 25;
 const char* to_string(Mechanism mechanism);
 
 /// Where a mechanism acts.

@@ -71,8 +71,8 @@ double usual_trajectory_rate_hz(const Study& study)
         rate = std::max(rate, 100 * std::sqrt(0.75 * study.structure.gravity_m_s2 / shortest) / (2 * std::numbers::pi));
     const ExcitationSpec& e = study.excitation;
     rate = std::max(rate, 20 * std::max({e.frequency_hz, e.from_hz, e.to_hz}));
-    if (study.surface)
-        rate = std::max(rate, 20 * std::max(study.surface->frequency_hz.from, study.surface->frequency_hz.to));
+    if (const Axis* axis = study.design().frequency_hz)
+        rate = std::max(rate, 20 * std::max(axis->from, axis->to));
     return 10 * std::ceil(rate / 10 - 1e-9);
 }
 

@@ -14,6 +14,8 @@ StudyDesign Study::design() const
     if (surface) {
         design.cells = static_cast<std::uint64_t>(surface->cells());
         design.columns = static_cast<std::uint64_t>(surface->pga_m_s2.count);
+        design.frequency_hz = &surface->frequency_hz;
+        design.pga_m_s2 = &surface->pga_m_s2;
         design.selected = surface->adaptive.has_value();
     }
     if (fragility) {

@@ -41,6 +41,8 @@ struct StudyDesign {
     double twin_m = 0;
     const FactorDesign* factors = nullptr;  ///< whose points the realizations are; null: they are no points
     const MotionSetSpec* motions = nullptr; ///< a row of cells each; null: one excitation for all
+    const Axis* frequency_hz = nullptr;     ///< of the rows of cells; null: that of the excitation
+    const Axis* pga_m_s2 = nullptr;         ///< of the columns; null: that of the excitation
     std::optional<double> event_pause_s;    ///< between two events; none: until the realization is at rest
 
     // ---- what is reported of them ----------------------------------------------------------------------------------

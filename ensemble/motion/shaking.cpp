@@ -88,9 +88,9 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
         vertical_ = std::make_shared<const Motion>(*vertical);
     }
     if (excitation.kind == ExcitationKind::noise && excitation.pga_of == PgaOf::mean) {
-        const int frequencies = study.surface ? study.surface->frequency_hz.count : 1;
-        for (int i = 0; i < frequencies; ++i) {
-            const double frequency = study.surface ? study.surface->frequency_hz.value(i) : excitation.frequency_hz;
+        const Axis* axis = study.design().frequency_hz;
+        for (int i = 0; i < (axis ? axis->count : 1); ++i) {
+            const double frequency = axis ? axis->value(i) : excitation.frequency_hz;
             mean_peak_.push_back(SyntheticNoise(excitation, frequency).mean_peak(study.seed));
         }
     }
@@ -105,16 +105,13 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales&
     const StudyDesign design = study.design();
     if (design.motions != nullptr)
         return apply_motion(design, realization);
-    std::size_t row = 0; // of the surface
-    if (study.surface) {
-        const auto cell = static_cast<int>(study.cell(realization.index));
-        const int columns = study.surface->pga_m_s2.count;
-        row = static_cast<std::size_t>(cell / columns);
-        realization.frequency_hz = study.surface->frequency_hz.value(cell / columns);
-        realization.pga_m_s2 = study.surface->pga_m_s2.value(cell % columns);
-    } else {
-        set_nominal(excitation, drawn, realization);
-    }
+    const std::uint64_t cell = design.cell(realization.index);
+    const auto row = static_cast<std::size_t>(cell / design.columns);
+    set_nominal(excitation, drawn, realization);
+    if (design.frequency_hz)
+        realization.frequency_hz = design.frequency_hz->value(static_cast<int>(row));
+    if (design.pga_m_s2)
+        realization.pga_m_s2 = design.pga_m_s2->value(static_cast<int>(cell % design.columns));
     if (excitation.kind == ExcitationKind::noise) {
         const SyntheticNoise noise(excitation, realization.frequency_hz);
         const std::uint64_t own = design.motion_index(realization.index);
@@ -197,7 +194,7 @@ void Shaking::move_vertically(RealizationHeader& realization) const
         stretch == 1 && scale == 1 ? vertical_ : std::make_shared<const Motion>(scaled(*vertical_, stretch, scale));
 }
 
-/// Frequency and PGA of a study that is no surface.
+/// Frequency and PGA where no axis gives them.
 void Shaking::set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn,
                           RealizationHeader& realization) const
 {

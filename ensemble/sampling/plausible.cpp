@@ -86,8 +86,8 @@ Extent shaking_hz(const Subject& s)
 {
     const ExcitationSpec& e = s.study.excitation;
     const double sweep_low = std::min(e.from_hz, e.to_hz), sweep_high = std::max(e.from_hz, e.to_hz);
-    if (s.study.surface) {
-        const Extent axis = extent(s.study.surface->frequency_hz);
+    if (const Axis* frequency = s.study.design().frequency_hz) {
+        const Extent axis = extent(*frequency);
         if (e.kind != ExcitationKind::sweep)
             return axis;
         const double central = e.central_frequency_hz(); // to which the axis stretches it
@@ -104,8 +104,8 @@ Extent shaking_hz(const Subject& s)
 /// The strongest of the shaking [m/s2]; 0: not known.
 double strongest_m_s2(const Subject& s)
 {
-    if (s.study.surface)
-        return extent(s.study.surface->pga_m_s2).high;
+    if (const Axis* pga = s.study.design().pga_m_s2)
+        return extent(*pga).high;
     if (const MotionSetSpec* f = s.study.design().motions) {
         const double intensity = extent(f->intensity).high;
         if (f->method == FragilityMethod::cloud)

@@ -277,11 +277,11 @@ void check_tables(const KeyReader& top, StudyKind of_study)
     variant_names(top);
     read_optimise(top);
     const char* word = word_for(study_kind_names, of_study);
-    for (const TableKey* table : {&surface_keys::table, &fragility_keys::table, &sensitivity_keys::table,
-                                  &rare_keys::table, &survival_keys::table})
+    for (const TomlKey* table : study_file_keys().keys)
         if (!table->used_where("study.kind", word) && top.has(*table))
             top.refuse(table->name, fmt::format("is not used by study.kind = \"{}\"", word),
-                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table->name, table->name));
+                       fmt::format("Remove [{}], or give study.kind = \"{}\".", table->name,
+                                   table->used.front().values.front()));
 }
 
 /// How many realizations. @param keys of [study]

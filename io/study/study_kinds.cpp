@@ -185,10 +185,6 @@ RareSpec read_rare(const KeyReader& keys, const Study& study)
 
 ReplicasSpec read_replicas(const KeyReader& keys, const Study& study)
 {
-    if (study.kind != StudyKind::surface)
-        keys.refuse_all(fmt::format("[twins] is not used by study.kind = \"{}\".\n  Remove it, or give study.kind = "
-                                    "\"surface\".",
-                                    word_for(study_kind_names, study.kind)));
     if (study.surface->adaptive)
         keys.refuse_all(
             "[twins] and surface.adaptive exclude each other: every realization has its perturbed replicas.\n  Remove "

@@ -72,8 +72,8 @@ double overshoot(const ExcitationSpec& e)
 double strongest_m_s2(const Subject& s)
 {
     double pga = 0;
-    if (s.study().surface)
-        pga = std::max(s.study().surface->pga_m_s2.from, s.study().surface->pga_m_s2.to);
+    if (const Axis* axis = s.design().pga_m_s2)
+        pga = std::max(axis->from, axis->to);
     else
         for (const Realization& r : s.sample(64))
             pga = std::max(pga, r.pga_m_s2);

@@ -81,8 +81,8 @@ void add_record(const LoadedStudy& loaded, StudyFacts& facts)
     const Motion& record = *loaded.record();
     facts.pga_m_s2 = record.pga_m_s2;
     facts.motion_frequency_hz = record.predominant_frequency_hz;
-    const double strongest =
-        study.surface ? std::max(study.surface->pga_m_s2.from, study.surface->pga_m_s2.to) : study.excitation.pga_m_s2;
+    const Axis* pga = study.design().pga_m_s2;
+    const double strongest = pga ? std::max(pga->from, pga->to) : study.excitation.pga_m_s2;
     facts.scaled.push_back({record.source, strongest > 0 ? strongest / record.pga_m_s2 : 1});
     if (record.is_vertical.value_or(false))
         facts.vertical_motions.push_back(record.source);

@@ -135,22 +135,21 @@ std::string excitation_text(const Study& study, const ResultRow* one)
             text += fmt::format(", {:.4g} Hz", one->frequency_hz);
         return e.kind == ExcitationKind::none ? text : text + fmt::format(", PGA {:.4g} m/s²", one->pga_m_s2);
     }
-    if (study.surface)
-        text += "; frequency: " + axis_text(study.surface->frequency_hz, " Hz") +
-                "; PGA: " + axis_text(study.surface->pga_m_s2, " m/s²");
-    if (study.surface && study.surface->adaptive)
-        text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
-                            study.surface->adaptive->budget);
-    if (study.surface || e.kind == ExcitationKind::none)
-        return text; // its axes have been named, or there is nothing to name
-    if (e.frequency_hz > 0)
+    if (design.frequency_hz)
+        text += "; frequency: " + axis_text(*design.frequency_hz, " Hz");
+    else if (e.frequency_hz > 0)
         text += fmt::format(", {:.4g} Hz", e.frequency_hz);
-    if (e.pga_m_s2 > 0)
+    if (design.pga_m_s2)
+        text += "; PGA: " + axis_text(*design.pga_m_s2, " m/s²");
+    else if (e.pga_m_s2 > 0)
         text += fmt::format(", PGA {:.4g} m/s²", e.pga_m_s2);
     else if (e.kind == ExcitationKind::record)
         text += ", PGA as recorded";
     else if (e.kind == ExcitationKind::table)
         text += ", PGA as in the table";
+    if (study.surface && study.surface->adaptive)
+        text += fmt::format("; adaptive, ± {} with at most {} realizations", study.surface->adaptive->half_width,
+                            study.surface->adaptive->budget);
     return text;
 }
 
