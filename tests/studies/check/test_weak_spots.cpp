@@ -1,5 +1,6 @@
 /// Where a study is weak: each spot on a study that has it and on one that just has not; the ready studies have none.
 
+#include "ensemble/planar/structure/nominal_statics.hpp"
 #include "io/files/atomic_file.hpp"
 #include "studies/check/weak_spots.hpp"
 #include "tests/studies/check/ready_study.hpp"
