@@ -1,4 +1,4 @@
-#include "ensemble/model/fields.hpp"
+#include "ensemble/model/outcome.hpp"
 #include "library/trajectory.hpp"
 #include "python/module/arrays.hpp"
 #include "python/module/module.hpp"
