@@ -3,8 +3,9 @@
 ///
 ///   x_centre = x_mass + e (1 - cos theta)      y_centre = y_mass - e sin theta
 ///
-/// The step with mechanisms moves centres of mass (Eqs. 4 to 6 hold for these) and takes the faces from the geometric ones;
-/// both as displacements relative to the reference stack. The moment of inertia given is that about the centre of mass.
+/// The step with mechanisms moves centres of mass (Eqs. 4 to 6 hold for these) and takes the faces from the geometric
+/// ones; both as displacements relative to the reference stack. The moment of inertia given is that about the centre of
+/// mass.
 ///
 /// Source: own derivation (rigid-body kinematics).
 ///

@@ -1,6 +1,7 @@
 #pragma once
-/// The contacts of the baseline, and where and how it is off, from free windows of the simulation (`window_comparison.hpp`): the model tracks the
-/// measured motion, and the contacts of each form are those that predict best what is seen in windows that run free.
+/// The contacts of the baseline, and where and how it is off, from free windows of the simulation
+/// (`window_comparison.hpp`): the model tracks the measured motion, and the contacts of each form are those that
+/// predict best what is seen in windows that run free.
 
 #include "ensemble/model/campaign.hpp"
 #include "ensemble/model/observer.hpp"
