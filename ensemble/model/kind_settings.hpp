@@ -1,6 +1,6 @@
 #pragma once
 /// The settings of the kinds of studies as plain data, each with the names of its table in a study file. Only the files
-/// of the kinds, their keys and their reader name them; all others ask a study for its `Design` (design.hpp).
+/// of the kinds, their keys and their reader name them; all others ask a study for its `StudyDesign`.
 
 #include "kernels/planar/step_model.hpp"
 
