@@ -111,7 +111,8 @@ void PlanarModel::list_clamps(const Realization& pattern)
 
 void PlanarModel::clear(int lane)
 {
-    for (std::size_t i = 0; i < bundle_registers(topology_); ++i)
+    const std::size_t registers = bundle_registers(topology_);
+    for (std::size_t i = 0; i < registers; ++i)
         memory_[i * lanes_ + static_cast<std::size_t>(lane)] = 0;
     for (int k = 0; k < topology_.blocks; ++k)
         bundle_.at(OfBlock::half_width, k, lane) = empty_half_width;

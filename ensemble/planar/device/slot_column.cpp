@@ -74,7 +74,8 @@ void write_tables(LaneSet& one, std::uint64_t step, double* tables)
     one.model().fill_tables(one.bases(), one.places());
     const Topology& topology = one.model().topology();
     const std::size_t state = bundle_registers(topology) - table_registers(topology);
-    for (std::size_t i = 0; i < table_registers(topology); ++i)
+    const std::size_t registers = table_registers(topology);
+    for (std::size_t i = 0; i < registers; ++i)
         tables[i] = one.model().memory()[state + i];
 }
 
