@@ -106,9 +106,9 @@ void fill_base_table(MotionFormula formula, const FormulaParameters& p, const do
 
 namespace detail {
 
-/// The same to within 1e-9 of its peak, which suffices for single precision, by a fast recurrence (addition theorem):
-/// between the ramps of a harmonic the second difference is a sine itself, -4 A sin2(pi f dt) sin(2 pi c + phase), with
-/// s(n+1) - 2 s(n) + s(n-1) = -4 sin2(pi f dt) s(n); after the motion it is 0.
+/// Fills the rows to within 1e-9 of the peak, which suffices for single precision, by a fast recurrence (addition
+/// theorem): between the ramps of a harmonic the second difference is a sine itself, -4 A sin2(pi f dt) sin(2 pi c +
+/// phase), with s(n+1) - 2 s(n) + s(n-1) = -4 sin2(pi f dt) s(n); after the motion it is 0.
 template <class Real, class Here>
 STYLOBATE_INLINE void fill_base_rows_fast(MotionFormula formula, const FormulaParameters& p, Real first, double* table,
                                           int stride)

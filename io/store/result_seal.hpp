@@ -33,7 +33,7 @@ std::vector<Extent> joined(std::vector<Extent> extents);
 /// @param block the result of `seal_bytes` when the file was created
 void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents);
 
-/// The same of a file that goes on behind its end, with bytes that the seal does not cover (`RowJournal`).
+/// Checks and seals a file that goes on behind its end, with bytes that the seal does not cover (`RowJournal`).
 void write_open_seal(FileHandle& file, std::uint64_t block);
 
 /// Verifies the seal. @returns the extents; of a file that may go on behind its end a single one of no size, there

@@ -228,8 +228,8 @@ public:
     ResultRow row(std::uint64_t index) const;
     /// All rows that are there, in index order.
     std::vector<ResultRow> rows() const;
-    /// The same one by one, in the order of the file, which is that in which they came if it is not complete: for what
-    /// must not grow with their number.
+    /// Gives all rows one by one, in the order of the file, which is that in which they came if it is not complete: for
+    /// what must not grow with their number.
     void for_each_row(const std::function<void(const ResultRow&)>& f) const;
     /// Of an unfinished file with rows: the bytes behind its last whole record, and whether they are more than what a
     /// process leaves that is killed while it writes. They are not read.

@@ -68,7 +68,7 @@ void run_model(const Topology& topology, const Bundle& bundle, int first, int la
     }
 }
 
-/// The same in single precision, which has the paper's model and rigid blocks.
+/// Runs the steps in single precision, which has the paper's model and rigid blocks.
 template <class Single, class Here>
 void run_single_model(const Topology& topology, const BundleOf<float>& bundle, int first, int last)
 {

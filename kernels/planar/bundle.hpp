@@ -110,7 +110,7 @@ struct OfBlockMechanisms {
     };
 };
 
-/// The same of a joint. "step": written by it.
+/// Fields of a joint's mechanisms. "step": written by the step.
 struct OfJointMechanisms {
     enum Field : int {
         friction_drop,       ///< stribeck: 1 - mu_d / mu_s
@@ -144,7 +144,7 @@ struct OfJointMechanisms {
     };
 };
 
-/// The same of a realization.
+/// Fields of the mechanisms of a realization as a whole.
 struct OfRealizationMechanisms {
     enum Field : int {
         base_dx,      ///< increment of the base's displacement in the last step [m]; step
@@ -186,7 +186,7 @@ struct OfBlockStrengthening {
     static constexpr int memory = tendon_set; ///< the first field that the step writes
 };
 
-/// The same of a bed. The fields from `bearing_at` on are the memory of the path.
+/// Fields of what strengthens a bed. The fields from `bearing_at` on are the memory of the path.
 struct OfJointStrengthening {
     enum Field : int {
         bearing_stiffness,  ///< bearing: k [N/m]
@@ -241,7 +241,8 @@ struct OfRigidBlock {
     };
 };
 
-/// The same of a joint, in the frame of its lower block: its ends are those of the faces' common part, left and right.
+/// Fields of a joint of rigid blocks, in the frame of its lower block: its ends are those of the faces' common part,
+/// left and right.
 struct OfRigidJoint {
     enum Field : int {
         left,        ///< 1 where the left end carries, else 0; step
@@ -345,7 +346,7 @@ inline constexpr bool compensated<float> = true;
 struct OfBase {
     enum Field : int { second, count };
 };
-/// The same upwards [m].
+/// The second difference of the base's vertical displacement in each step of a chunk [m].
 struct OfVertical {
     enum Field : int { second, count };
 };

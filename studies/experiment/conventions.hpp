@@ -13,7 +13,7 @@ namespace stylobate {
 /// cycles in all, smooth start over 2 cycles, ...". One line, for every summary that has a probability.
 std::string conventions_text(const Study& study);
 
-/// The same of the text of a study in a file; empty where this version cannot read it.
+/// The conventions of the study whose text a file has; empty where this version cannot read it.
 std::string conventions_text_of(const std::string& study_toml);
 
 } // namespace stylobate

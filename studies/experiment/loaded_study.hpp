@@ -46,7 +46,7 @@ public:
 
     /// What of the study can hardly be meant, and what it does not allow itself (plausible.hpp).
     std::vector<Implausibility> implausibilities() const;
-    /// The same as sentences, for a verb that runs the study.
+    /// The implausibilities as sentences, for a verb that runs the study.
     /// @param file its name in messages   @throws InputError with the reason if it is too far from what can be meant
     std::vector<std::string> warnings(const std::string& file) const;
 

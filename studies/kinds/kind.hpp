@@ -117,7 +117,7 @@ public:
     virtual bool plan(Rounds& rounds) { return rounds.run({.fair = true}); }
     /// Computes the results; all realizations have been run.
     virtual void conclude() {}
-    /// The same, of a file that is complete and whose rows have been added.
+    /// Computes the results of a file that is complete and whose rows have been added.
     virtual void restore(const ResultReader&) { conclude(); }
     /// Of the finished study: the share of collapses in the whole of it.
     virtual void share(Progress& progress) const;

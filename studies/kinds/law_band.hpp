@@ -50,7 +50,7 @@ struct LawBand {
 
 /// "contact law: 0.61 to 0.88 (rigid to stiffer)", "contact law: 0.61 under each law"
 std::string law_range_words(const LawBand::Place& place, const std::vector<std::string>& laws);
-/// The same as members: `lowest`, `lowest_law`, `highest`, `highest_law`.
+/// Adds the range as members: `lowest`, `lowest_law`, `highest`, `highest_law`.
 void add_law_range(Json& json, const LawBand::Place& place, const std::vector<std::string>& laws);
 /// "contact law: 0.61 to 0.88 (rigid to stiffer), ..." Lines for a terminal.
 std::string law_band_text(const LawBand& band);

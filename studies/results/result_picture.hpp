@@ -32,8 +32,9 @@ FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t in
 void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title,
                    const std::filesystem::path& file);
 
-/// The same as curves of a page: displacement of the base, and of blocks against the base and their place in the
-/// reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as have colours.
+/// One realization over time as curves of a page: displacement of the base, and of blocks against the base and their
+/// place in the reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as
+/// have colours.
 Figure history_figure(const Results& results, const FollowedMotion& motion);
 
 /// Which blocks fell, in which order and when, for its picture.

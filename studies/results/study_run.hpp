@@ -52,7 +52,7 @@ std::unique_ptr<RunStore> open_store(const std::string& file, const ResultHeader
 /// @throws InputError naming the realization
 /// @param shard the part that is going to be run
 void check_realizations(const Sampler& sampler, const Kind& kind, const Shard& shard = {});
-/// The same until the observer asks to stop. @return whether all were drawn
+/// Draws realizations once, until the observer asks to stop. @return whether all were drawn
 bool check_realizations(const Sampler& sampler, const Kind& kind, Observer& observer, const Shard& shard = {});
 
 struct RunEnd {

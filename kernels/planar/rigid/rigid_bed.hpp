@@ -81,7 +81,7 @@ protected:
     {
         return {get(OfBlock::dx, i), get(OfBlock::dy, i), get(OfBlock::dtheta, i)};
     }
-    /// The same in this step, with the forces of the beds.
+    /// Increment of a block in this step, with the forces of the beds.
     STYLOBATE_INLINE Planar<Real> next(int i) const
     {
         return {get(B::next_x, i), get(B::next_y, i), get(B::next_theta, i)};
@@ -123,7 +123,7 @@ protected:
             put_free(b.lower, moved_by(b.lower, free(b.lower), p.lower));
         put_free(b.upper, moved_by(b.upper, free(b.upper), p.upper));
     }
-    /// The same to the increments with them (`next`).
+    /// Adds a force of a bed to the increments with the forces of the beds (`next`).
     STYLOBATE_INLINE void push_next(int j, const V& force) const
     {
         const Bed b = bed(j);
