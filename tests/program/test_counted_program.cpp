@@ -237,7 +237,7 @@ long peak_kb(const fs::path& folder, const std::string& kept, int realizations)
     return used.ru_maxrss;
 }
 
-TEST_F(Counted, MemoryDoesNotGrowWithTheNumberOfRealizations)
+TEST_F(Counted, MemoryDoesNotGrowWithTheNumberOfRealizationsLong)
 {
     if (slow_build)
         GTEST_SKIP() << "a sanitizer's memory is not the program's";
