@@ -99,11 +99,11 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     const std::string without_ending = std::filesystem::path(output).replace_extension().string();
     request.settings = options.set;
     request.start_name = given(study).value_or("--set");
-    request.extension = without_ending + "_extended.toml";
+    const std::string extended = without_ending + "_extended.toml";
     request.cache = without_ending + "_campaigns.txt";
     request.check_outputs = [&] {
         check_output(request.measured, output, options.force);
-        check_output(request.measured, request.extension, options.force);
+        check_output(request.measured, extended, options.force);
         AtomicFile::check(output);
     };
     together(options.ranks, [&] { request.start = start_study(options, request.measured, "diagnose", study); });
@@ -120,8 +120,8 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     }
     diagnosis->command = command_of(options, request, study, output);
     if (!diagnosis->extended_study.empty()) {
-        write_whole(request.extension, diagnosis->extended_study);
-        diagnosis->extended_study_file = request.extension.string();
+        write_whole(extended, diagnosis->extended_study);
+        diagnosis->extended_study_file = extended;
     }
     write_diagnosis(*diagnosis, output);
     print(

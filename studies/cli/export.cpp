@@ -132,7 +132,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     if (asked.name == strip.name) {
         picture.name = fmt::format("strip_realization_{}", realization);
         picture.draw = [&](const std::string& title, const fs::path& to) {
-            strip_picture(results, followed_motion(results, options.isa(), realization), title, to);
+            strip_picture(results, traced_motion(results, options.isa(), realization), title, to);
         };
     } else if (asked.name == order.name) {
         picture.name = wanted.cell >= 0 ? fmt::format("order_cell_{}", wanted.cell) : "order";
@@ -192,7 +192,7 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
     const fs::path folder =
         wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
     check_not_input(file, folder);
-    write_vtk(folder, fmt::format("realization_{}", index), followed_motion(results, options.isa(), index).trajectory);
+    write_vtk(folder, fmt::format("realization_{}", index), traced_motion(results, options.isa(), index).trajectory);
     Console(options.quiet).note("Forces and openings of joints are not part of a trajectory; they are left out.");
     return folder;
 }

@@ -27,7 +27,7 @@ constexpr Rgb paper{244, 246, 248}, stone{233, 226, 208}, lintel{195, 211, 224},
 /// The frames of a realization one after the other.
 class Film {
 public:
-    Film(const FollowedMotion& motion, const std::vector<PlacedBlock>& blocks, double rate_hz)
+    Film(const TracedMotion& motion, const std::vector<PlacedBlock>& blocks, double rate_hz)
         : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks), stage_(animation_stage(blocks)),
           rate_hz_(rate_hz)
     {
@@ -146,7 +146,7 @@ std::vector<std::string> ffmpeg_words(const Film& film, double rate_hz, const st
     return words;
 }
 
-bool write_film(const FollowedMotion& motion, const Study& study, const fs::path& ffmpeg, const std::string& format,
+bool write_film(const TracedMotion& motion, const Study& study, const fs::path& ffmpeg, const std::string& format,
                 const fs::path& file, Observer& observer)
 {
     AtomicFile target(file); // refuses before any work is done
@@ -175,7 +175,7 @@ bool write_film(const FollowedMotion& motion, const Study& study, const fs::path
 }
 
 /// The page of the player alone.
-std::string motion_page(const FollowedMotion& motion, const Results& results, std::uint64_t index,
+std::string motion_page(const TracedMotion& motion, const Results& results, std::uint64_t index,
                         const std::string& title)
 {
     KeptAnimations kept = animations_for(results.study());
@@ -206,7 +206,7 @@ bool write_motion(const Results& results, Isa isa, std::uint64_t index, const st
     const bool page = format == "html";
     const fs::path ffmpeg =
         page ? fs::path() : find_tool("ffmpeg", "STYLOBATE_FFMPEG", "no film can be written", "ffmpeg");
-    const FollowedMotion motion = followed_motion(results, isa, index);
+    const TracedMotion motion = traced_motion(results, isa, index);
     if (observer.stop_requested())
         return false;
     if (page) {

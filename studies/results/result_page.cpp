@@ -484,7 +484,7 @@ private:
     void motion(const ResultRow& row)
     {
         try {
-            const FollowedMotion f = followed_motion(results_, isa_, row.index);
+            const TracedMotion f = traced_motion(results_, isa_, row.index);
             picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
                     [&](const fs::path& png) { strip_picture(results_, f, "", png); });
             page_.figure(

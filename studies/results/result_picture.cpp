@@ -50,7 +50,7 @@ std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
 
 } // namespace
 
-FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index)
+TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index)
 {
     const ResultReader& reader = results.reader();
     const std::vector<std::uint64_t> stored = reader.trajectory_indices();
@@ -67,7 +67,7 @@ FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t in
             f.realization.pga_m_s2};
 }
 
-Figure history_figure(const Results& results, const FollowedMotion& motion)
+Figure history_figure(const Results& results, const TracedMotion& motion)
 {
     const Trajectory& t = motion.trajectory;
     Figure figure;
@@ -84,7 +84,7 @@ Figure history_figure(const Results& results, const FollowedMotion& motion)
     return figure;
 }
 
-void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title, const fs::path& file)
+void strip_picture(const Results& results, const TracedMotion& motion, const std::string& title, const fs::path& file)
 {
     const Trajectory& t = motion.trajectory;
     plot_strip(t, motion.fall_time_s, title.empty() ? strip_title(results, t.index) : title, file);

@@ -16,7 +16,7 @@
 namespace stylobate {
 
 /// A realization over time, wherever it comes from; its number is that of the trajectory.
-struct FollowedMotion {
+struct TracedMotion {
     Trajectory trajectory;
     std::vector<double> fall_time_s; ///< (blocks)
     State state = State::stood;
@@ -24,18 +24,18 @@ struct FollowedMotion {
 };
 /// The trajectory that the file holds, or else the realization run again.
 /// @throws InputError if there is no such realization, or if none can be run again
-FollowedMotion followed_motion(const Results& results, Isa isa, std::uint64_t index);
+TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time.
 /// @param title empty: from the results, the realization and its outcome
 /// @throws InputError as `plot_strip` does
-void strip_picture(const Results& results, const FollowedMotion& motion, const std::string& title,
+void strip_picture(const Results& results, const TracedMotion& motion, const std::string& title,
                    const std::filesystem::path& file);
 
 /// One realization over time as curves of a page: displacement of the base, and of blocks against the base and their
 /// place in the reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as
 /// have colours.
-Figure history_figure(const Results& results, const FollowedMotion& motion);
+Figure history_figure(const Results& results, const TracedMotion& motion);
 
 /// Which blocks fell, in which order and when, for its picture.
 /// @param names of the blocks, as many as each row has fall times

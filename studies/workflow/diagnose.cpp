@@ -16,7 +16,6 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
     how.seed = request.seed;
     how.plan = EnsemblePlan::with(request.nulls);
     how.cache = request.cache;
-    how.extension = request.extension;
     Campaign campaign;
     Study study;
     together(machine.ranks, [&] {

@@ -19,7 +19,6 @@ struct DiagnosisRequest {
     std::uint64_t nulls = 192;             ///< healthy campaigns that are simulated near the measured contact law
     std::uint64_t seed = 1;                ///< of what is drawn in them
     std::filesystem::path cache{};         ///< `DiagnosisOptions::cache`
-    std::filesystem::path extension{};     ///< `DiagnosisOptions::extension`
     std::function<void()> check_outputs{}; ///< called where nothing else is refused any more; may be empty
 };
 

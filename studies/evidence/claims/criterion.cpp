@@ -1,4 +1,6 @@
-#include "studies/evidence/claims/criterion.hpp"
+/// Evaluates a criterion on samples, case by case.
+
+#include "studies/evidence/claims/verdict.hpp"
 
 #include "ensemble/estimators/paired/paired_difference.hpp"
 #include "ensemble/model/input_error.hpp"

@@ -2,7 +2,6 @@
 
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/measured/diagnosis/direct/direct_tests.hpp"
-#include "studies/measured/diagnosis/named_by_forces.hpp"
 
 #include <fmt/format.h>
 

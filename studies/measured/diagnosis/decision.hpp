@@ -12,7 +12,7 @@
 ///      probability of one half, nothing is named: the cause is called possible. More friction of a joint is named
 ///      only where the balance of forces sees it, too.
 ///   4  A second cause is judged with the first one given.
-///      The balance of forces is a test of its own (`named_by_forces.hpp`), which other contact laws move little. Where
+///      The balance of forces is a test of its own (`named_by_forces.cpp`), which other contact laws move little. Where
 ///      it names what the statistics name too, place and size are its own. Where it alone names something, that is
 ///      named; the statistics choose between causes that explain its forces about as well. Where the statistics name
 ///      another cause, both are in the set.
@@ -95,5 +95,20 @@ Decided decide(const DirectResult& direct, const BalanceEvidence& balance, const
 
 /// What the tests found, named or not, in one line each.
 std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble);
+
+struct NamedByForces {
+    /// The best one, and the best of each other mechanism that explains about as much; empty: none is named.
+    std::vector<CauseFit> causes;
+    double p_value = 1; ///< of such scores in healthy campaigns
+    /// A force of no known kind: beside the best one and what the statistics name, or, where forces name none, in the
+    /// place of all.
+    std::optional<StructureFit> unknown;
+    std::vector<Cause> given_too; ///< what the statistics name of other forces: `unknown` is beside it, too
+};
+
+/// @param ensemble its candidates (a cause is named at places where they are), and the tests of the scores
+/// @param by_statistics causes that the statistics name: their forces are of a known kind, too
+NamedByForces named_by_forces(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
+                              const std::vector<Cause>& by_statistics = {}, const DecisionRule& rule = {});
 
 } // namespace stylobate

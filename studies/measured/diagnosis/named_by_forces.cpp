@@ -1,4 +1,10 @@
-#include "studies/measured/diagnosis/named_by_forces.hpp"
+/// What the balance of forces names by itself.
+///
+/// It needs no contact law: where the law of a specimen is none of the family, it says as much as where it is one,
+/// while the statistics move. So it is a test of its own beside theirs. Of what it does not see (damping, adhesion, a
+/// joint that never slides by itself) it says nothing.
+
+#include "studies/measured/diagnosis/decision.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -20,8 +20,7 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;
     /// Simulated campaigns; no nulls: none are simulated, and only direct tests of base, sensors and rest name a cause.
     EnsemblePlan plan;
-    std::filesystem::path cache;     ///< of the simulated campaigns; empty: none is kept
-    std::filesystem::path extension; ///< where the extended study goes; empty: nowhere
+    std::filesystem::path cache; ///< of the simulated campaigns; empty: none is kept
     DecisionRule rule;
     RunOptions run;
 };

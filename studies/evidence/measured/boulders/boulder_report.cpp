@@ -1,4 +1,4 @@
-#include "studies/evidence/measured/boulders/boulder_report.hpp"
+#include "studies/evidence/measured/boulders/boulder_model.hpp"
 
 #include "io/tables/table.hpp"
 #include "studies/evidence/picture/picture.hpp"

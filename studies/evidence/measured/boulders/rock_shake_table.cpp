@@ -2,7 +2,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/study/study_file.hpp"
-#include "studies/evidence/measured/boulders/boulder_report.hpp"
+#include "studies/evidence/measured/boulders/boulder_model.hpp"
 #include "studies/evidence/measured/parts/forecast.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "tests/ensemble/motion/formula_motions.hpp"
 
-#include "studies/measured/diagnosis/named_by_forces.hpp"
+#include "studies/measured/diagnosis/decision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include "studies/measured/diagnosis/decision.hpp"
 #include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
-#include "studies/measured/diagnosis/named_by_forces.hpp"
 #include "studies/measured/diagnosis/prediction.hpp"
 #include "studies/measured/diagnosis/presentation.hpp"
 
