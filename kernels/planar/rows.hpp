@@ -1,8 +1,8 @@
 #pragma once
-/// The rows of a bundle, register by register.
+/// The rows of a planar bundle.
 
 #include "kernels/planar/bundle.hpp"
-#include "kernels/real.hpp"
+#include "kernels/rows.hpp"
 
 namespace stylobate {
 
@@ -12,45 +12,15 @@ struct Planar {
     Real x, y, theta;
 };
 
-/// How a stepper finds its rows, and how many joints it takes through a phase at a time (`step.hpp`).
-///
-/// On a processor: register after register, a distance that the compiler knows; joints in groups, as neighbouring ones
-/// are independent and the processor works on several at once.
-struct Packed {
-    static constexpr bool strided = false;
-    static constexpr int joint_group = 8;
-};
-/// On a device, where a thread steps one realization: its numbers are `Bundle::lanes` apart, those of neighbouring
-/// threads side by side; joint after joint, so that the intermediate values stay in registers (the other threads
-/// provide the independent work).
-struct Strided {
-    static constexpr bool strided = true;
-    static constexpr int joint_group = 1;
-};
-
 template <class Real, class Layout = Packed>
-class Rows {
-public:
-    STYLOBATE_INLINE explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : b_(bundle) {}
+class Rows : public RowsOf<Real, BundleOf<NumberOf<Real>>, Layout> {
+    using Base = RowsOf<Real, BundleOf<NumberOf<Real>>, Layout>;
 
-    /// @param i number of the block, joint or step; of a realization as a whole 0
-    /// @param k of a field that is several numbers
-    template <class Field>
-    STYLOBATE_INLINE Real get(Field f, int i = 0, int k = 0) const
-    {
-        return L::load(place(f, i, k));
-    }
-    template <class Field>
-    STYLOBATE_INLINE void put(Field f, int i, Real v, int k = 0) const
-    {
-        L::store(place(f, i, k), v);
-    }
-    /// Of a realization as a whole.
-    template <class Field>
-    STYLOBATE_INLINE void put(Field f, Real v) const
-    {
-        put(f, 0, v);
-    }
+public:
+    STYLOBATE_INLINE explicit Rows(const BundleOf<NumberOf<Real>>& bundle) : Base(bundle) {}
+    using Base::get;
+    using Base::put;
+
     /// Whether there are rows of strengthening.
     STYLOBATE_INLINE bool strengthened() const { return b_.template rows<OfJointStrengthening::Field>() != nullptr; }
 
@@ -58,9 +28,7 @@ public:
     /// run.
     STYLOBATE_INLINE void trace(int step, int first, int blocks) const
     {
-        for (int i = first; b_.trace != nullptr && i < blocks; ++i)
-            for (int f = 0; f < OfBlock::traced; ++f)
-                L::store(&b_.trace[row(step * blocks + i, OfBlock::traced, f)], get(static_cast<OfBlock::Field>(f), i));
+        this->template trace_of<OfBlock>(step, first, blocks);
     }
 
     /// sum + term. In single precision the remainder of the sum so far goes in, and the new one is kept (Kahan).
@@ -77,23 +45,7 @@ public:
     }
 
 protected:
-    using L = Lanes<Real>;
-    STYLOBATE_INLINE int stride() const
-    {
-        if constexpr (Layout::strided)
-            return b_.lanes;
-        else
-            return L::count;
-    }
-    STYLOBATE_INLINE long row(int i, int fields, int f) const { return (static_cast<long>(i) * fields + f) * stride(); }
-    template <class Field>
-    STYLOBATE_INLINE NumberOf<Real>* place(Field f, int i, int k) const
-    {
-        using B = BundleOf<NumberOf<Real>>;
-        return b_.template rows<Field>() + row(i, B::template fields<Field>, f + k);
-    }
-
-    const BundleOf<NumberOf<Real>> b_;
+    using Base::b_;
 };
 
 } // namespace stylobate
