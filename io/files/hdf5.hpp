@@ -118,7 +118,6 @@ double read_any_number(hid_t object, const std::string& name);
 /// A text of fixed or variable length, alone or a list of one, without what pads it.
 std::string read_any_text(hid_t object, const std::string& name);
 void write_real(hid_t object, const std::string& name, double value);
-void write_integer(hid_t object, const std::string& name, std::int32_t value);
 
 /// The type of a file from the attributes of its root, for readers that do not know its layout.
 struct Label {
