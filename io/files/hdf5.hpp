@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <hdf5.h>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -121,8 +122,8 @@ void write_real(hid_t object, const std::string& name, double value);
 
 /// The type of a file from the attributes of its root, for readers that do not know its layout.
 struct Label {
-    std::string format; ///< "stylobate-diagnosis"; empty: none, or not to be read
-    std::string kind;
+    std::optional<std::string> format; ///< "stylobate-diagnosis"; nullopt: it has none, or it cannot be read
+    std::optional<std::string> kind;
 };
 /// A file that may be damaged is to be checked before, by its seal.
 Label label_of(const std::filesystem::path& file);

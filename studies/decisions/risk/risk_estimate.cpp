@@ -125,10 +125,9 @@ void check_state(const std::optional<std::string>& state, const std::vector<std:
 {
     if (!state || std::ranges::find(names, *state) != names.end())
         return;
-    const std::string meant = nearest_word(*state, names);
+    const auto meant = nearest_word(*state, names);
     throw InputError(fmt::format("--state {}: is no limit state of {}; it has {}.{}", *state, of,
-                                 fmt::join(names, ", "),
-                                 meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
+                                 fmt::join(names, ", "), meant ? fmt::format("\n  Did you mean {}?", *meant) : ""));
 }
 
 RiskFacts facts_of(const HazardModel& hazard, const RiskOptions& options)
