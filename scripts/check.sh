@@ -84,7 +84,7 @@ gate_sanitize() {
     ctest --preset asan --parallel "$jobs" --label-exclude long --tests-regex "^(${programs// /|})\\." --output-on-failure --quiet
 }
 
-gate_fuzz() { scripts/fuzz.sh all "$((${FUZZ_S:-60} / 8))s" "$work/fuzz" 2>&1 | tail -n 40; }
+gate_fuzz() { scripts/fuzz.sh all "$((${FUZZ_S:-60} / 7))s" "$work/fuzz" 2>&1 | tail -n 40; }
 
 all=(format headers clang tidy sanitize fuzz)
 within=

@@ -9,14 +9,14 @@
 #   scripts/fuzz.sh --keep all 600s   also adds the run to tests/fuzz/runs.csv and writes docs/reliability.md from it
 #   scripts/fuzz.sh --page            writes the page only
 #
-# Targets: record, study, results, campaign, table, nrml, hazard, decision. Needs clang++. Exit status 1 where something is found: it is
-# kept as FOLDER/finding-TARGET-*, and fuzz_TARGET FILE reproduces it. New inputs are kept in FOLDER/found/TARGET, from
-# which a later run goes on.
+# Targets: record, study, results, campaign, table, hazard, decision. Needs clang++. Exit status 1 where something is
+# found: it is kept as FOLDER/finding-TARGET-*, and fuzz_TARGET FILE reproduces it. New inputs are kept in
+# FOLDER/found/TARGET, from which a later run goes on.
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 runs=tests/fuzz/runs.csv
-all=(record study results campaign table nrml hazard decision)
+all=(record study results campaign table hazard decision)
 
 # The sums over all runs, as a table.
 page() {
@@ -31,7 +31,7 @@ page() {
         printf "(%s to %s, last commit %s, %s; one process each.)\n\n", first, last, commit, machines
         print "| reader | inputs | hours | edges reached | peak memory, MB | findings, all mended |"
         print "|---|---:|---:|---:|---:|---:|"
-        n = split("record study results campaign table nrml hazard decision", names, " ")
+        n = split("record study results campaign table hazard decision", names, " ")
         for (i = 1; i <= n; ++i)
             printf "| `%s` | %.3g million | %.2f | %d | %d | %d |\n", names[i], inputs[names[i]] / 1e6, hours[names[i]],
                    edges[names[i]], peak[names[i]], found[names[i]]
@@ -71,7 +71,7 @@ for target in "${targets[@]}"; do
     case $target in
     results | decision) longest=256 ;;
     table) longest=1024 ;;
-    nrml | hazard | study) longest=2048 ;;
+    hazard | study) longest=2048 ;;
     esac
     [[ ! -d tests/fuzz/findings/$target ]] || seeds+=("tests/fuzz/findings/$target")
     [[ $target != study ]] || seeds+=(studies/inputs)

@@ -2,24 +2,37 @@
 
 namespace stylobate {
 
-LaneBases::LaneBases(const Study& study, const KernelTable& kernels, int lanes, bool twice)
+LaneBases::LaneBases(const Study& study, const KernelTable& kernels, int channels, int lanes, bool twice)
     : kernels_(kernels), formula_(BaseMotion::formula(study.excitation.kind)), on_host_(BaseMotion::on_host(study)),
-      twice_(twice), memory_(aligned_array<double>(9 * static_cast<std::size_t>(lanes)))
+      twice_(twice), memory_(aligned_array<double>(static_cast<std::size_t>((8 * channels + 1) * lanes))),
+      parameters_(static_cast<std::size_t>(channels))
 {
     double* p = memory_.get();
-    for (double** array : {&parameters_.cycles_per_step, &parameters_.amplitude_m, &parameters_.cycles,
-                           &parameters_.phase_cycles, &parameters_.offset, &parameters_.start_ramps_per_cycle,
-                           &parameters_.end_ramps_per_cycle, &parameters_.end_velocity, &first_step_}) {
-        *array = p;
+    const auto take = [&](double*& array) {
+        array = p;
         p += lanes;
+    };
+    for (FormulaParameters& of : parameters_) {
+        for (double** array : {&of.cycles_per_step, &of.amplitude_m, &of.cycles, &of.phase_cycles, &of.offset,
+                               &of.start_ramps_per_cycle, &of.end_ramps_per_cycle, &of.end_velocity})
+            take(*array);
+        if (first_step_ == nullptr) // behind those of the first channel, as a device reads them
+            take(first_step_);
     }
+}
+
+void LaneBases::store(int lane, std::span<const BaseMotion> motions)
+{
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+        motions[i].store(parameters_[i], lane);
 }
 
 void LaneBases::clear(int lane)
 {
-    store(lane, BaseMotion{});
-    // an empty lane must not divide by a rate of zero
-    parameters_.cycles_per_step[lane] = 1;
+    for (const FormulaParameters& of : parameters_) {
+        BaseMotion{}.store(of, lane);
+        of.cycles_per_step[lane] = 1; // an empty lane must not divide by a rate of zero
+    }
     first_step_[lane] = 0;
 }
 

@@ -6,6 +6,7 @@
 ///   Measured                           what it keeps of a lane from check to check
 ///   Model(study, kernels, pattern, waiting)
 ///   scales(realization)
+///   channels, motions(excitation, realization, record)   how many motions its base has, and which
 ///   lanes(), twice(), check_steps()    of its bundle; steps between two checks
 ///   clear(lane)                        an empty lane, which is at rest and does nothing
 ///   begin(lane, place)                 parameters and static rest of `place.realization`, scales, start of the watch
@@ -25,6 +26,7 @@
 #include "kernels/isa.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -40,8 +42,7 @@ struct LanePlace {
     bool busy = false;
     typename Model::Realization realization;
     Scales scales;
-    BaseMotion motion;
-    std::optional<BaseMotion> vertical; ///< where it has a record of its own
+    std::array<BaseMotion, Model::channels> motions; ///< of its base; the first one is that along x
     std::optional<Outcome> outcome;
     std::optional<typename Model::HandOver> handed;
     std::uint64_t steps_before = 0, first_step = 0; ///< steps of the set that handed it over; the first one of its own
@@ -73,7 +74,8 @@ public:
     LaneSetOf(const Study& study, const Motion* record, const KernelTable& kernels, const Realization& pattern,
               std::uint64_t waiting = 1)
         : study_(study), record_(record), model_(study, kernels, pattern, waiting),
-          bases_(study, kernels, model_.lanes(), model_.twice()), places_(static_cast<std::size_t>(model_.lanes()))
+          bases_(study, kernels, Model::channels, model_.lanes(), model_.twice()),
+          places_(static_cast<std::size_t>(model_.lanes()))
     {
         for (int lane = 0; lane < lanes(); ++lane)
             clear(lane);
@@ -83,7 +85,8 @@ public:
     int active() const { return active_; }
     bool free(int lane) const { return !place(lane).busy; }
     const Realization& realization(int lane) const { return place(lane).realization; }
-    const BaseMotion& motion(int lane) const { return place(lane).motion; }
+    /// Of its base, along x.
+    const BaseMotion& motion(int lane) const { return place(lane).motions.front(); }
     std::uint64_t steps(int lane) const { return place(lane).watch.steps; }
 
     /// Puts a realization into a free lane, at its static rest.
@@ -160,11 +163,8 @@ public:
         of.busy = true;
         ++active_;
         of.realization = std::move(realization);
-        of.motion = BaseMotion(study_.excitation, of.realization, record_);
-        bases_.store(lane, of.motion);
-        if (of.realization.vertical != nullptr)
-            of.vertical =
-                BaseMotion::along(of.realization.vertical, of.realization.step_s, of.realization.change.offset_s);
+        of.motions = Model::motions(study_.excitation, of.realization, record_);
+        bases_.store(lane, of.motions);
         return of;
     }
 
@@ -217,7 +217,9 @@ private:
         of.scales = Model::scales(r);
         const bool shaken = study_.excitation.kind != ExcitationKind::none;
         const int interval = model_.check_steps();
-        const double end_s = std::max(of.motion.duration_s(), of.vertical ? of.vertical->duration_s() : 0.0);
+        double end_s = 0;
+        for (const BaseMotion& motion : of.motions)
+            end_s = std::max(end_s, motion.duration_s());
         Watch& w = of.watch;
         w.step_s = r.step_s;
         w.shaking_end_s = shaken ? end_s : 0;

@@ -242,16 +242,16 @@ std::vector<int> usual_places(const MechanismRule& rule, const Layout& layout)
     return places;
 }
 
-std::string why_not(const MechanismRule& rule, const Layout& layout, int place)
+std::optional<std::string> why_not(const MechanismRule& rule, const Layout& layout, int place)
 {
     if (rule.mechanism == Mechanism::tendon && layout.blocks[static_cast<std::size_t>(place)].role != BlockRole::drum)
         return "is no drum, and a tendon goes through a column";
     if (rule.mechanism == Mechanism::clamp && right_neighbour(layout, place) < 0)
         return "has no neighbour at its right";
-    return {};
+    return std::nullopt;
 }
 
-std::string contradiction(const MechanismRule& rule, std::span<const double> values)
+std::optional<std::string> contradiction(const MechanismRule& rule, std::span<const double> values)
 {
     const auto number = [&](std::size_t i) { return fmt::format("{} = {:g}", rule.parameters[i].key(), values[i]); };
     if (rule.mechanism == Mechanism::tendon && values[1] > 0 && values[0] == 0)
@@ -265,7 +265,7 @@ std::string contradiction(const MechanismRule& rule, std::span<const double> val
         if (values[1] > most)
             return fmt::format("{} is above {:.4g} N, at which the stone is crushed", number(1), most);
     }
-    return {};
+    return std::nullopt;
 }
 
 double stone_carries_n(double strength_pa, double diameter_m, double embedment_m)

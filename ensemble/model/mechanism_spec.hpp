@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -188,13 +189,13 @@ bool acts(const MechanismSpec& spec, double friction);
 /// The beds or blocks of a structure at which a mechanism acts when none are named, ascending.
 std::vector<int> usual_places(const MechanismRule& rule, const Layout& layout);
 
-/// Why a mechanism cannot act at a place of a structure; empty: it can.
+/// Why a mechanism cannot act at a place of a structure; nullopt if it can.
 /// @pre the place is one of the structure's, and not a fixed block
-std::string why_not(const MechanismRule& rule, const Layout& layout, int place);
+std::optional<std::string> why_not(const MechanismRule& rule, const Layout& layout, int place);
 
-/// What of a mechanism's values contradicts itself; empty: nothing.
+/// What of a mechanism's values contradicts itself; nullopt if nothing does.
 /// @param values in the order of the rule's parameters
-std::string contradiction(const MechanismRule& rule, std::span<const double> values);
+std::optional<std::string> contradiction(const MechanismRule& rule, std::span<const double> values);
 
 /// Shear that the stone carries at a rigid dowel, embedded as deep in both blocks, when it is crushed along the whole
 /// dowel: (sqrt 2 - 1) f d l. Source: K. W. Johansen, "Theory of timber connections", IABSE Publications 9 (1949)

@@ -100,6 +100,13 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
     }
 }
 
+std::array<BaseMotion, PlanarModel::channels> PlanarModel::motions(const ExcitationSpec& excitation,
+                                                                   const Realization& r, const Motion* record)
+{
+    return {BaseMotion(excitation, r, record),
+            r.vertical == nullptr ? BaseMotion{} : BaseMotion::along(r.vertical, r.step_s, r.change.offset_s)};
+}
+
 void PlanarModel::list_clamps(const Realization& pattern)
 {
     // of the kernel's blocks: a fixed block that nothing touches is none of them
@@ -282,14 +289,15 @@ void PlanarModel::fill_tables(const LaneBases& bases, const std::vector<Place>& 
     };
     double* const table = bundle_.rows<OfBase::Field>();
     if (bases.on_host()) {
-        each_busy(
-            [&](int lane, const Place& place) { place.motion.fill(bases.first_step(lane), table + lane, lanes()); });
+        each_busy([&](int lane, const Place& place) {
+            place.motions[0].fill(bases.first_step(lane), table + lane, lanes());
+        });
         if (single_)
             single_->take_base();
     } else if (single_) {
-        bases.fill(single_->base_table());
+        bases.fill(0, single_->base_table());
     } else {
-        bases.fill(table);
+        bases.fill(0, table);
     }
     if (topology_.model.has_mechanism_rows())
         each_busy([&](int lane, const Place& place) { fill_mechanisms(lane, bases, place); });
@@ -299,8 +307,8 @@ void PlanarModel::fill_mechanisms(int lane, const LaneBases& bases, const Place&
 {
     const Realization& r = place.realization;
     const double first = bases.first_step(lane);
-    if (place.vertical)
-        place.vertical->fill(first, bundle_.rows<OfVertical::Field>() + lane, lanes());
+    if (r.vertical != nullptr)
+        place.motions[1].fill(first, bundle_.rows<OfVertical::Field>() + lane, lanes());
     else if (r.base.vertical_ratio != 0)
         for (std::size_t k = 0; k < chunk_steps; ++k)
             bundle_.rows<OfVertical::Field>()[k * lanes_ + static_cast<std::size_t>(lane)] =
@@ -309,9 +317,9 @@ void PlanarModel::fill_mechanisms(int lane, const LaneBases& bases, const Place&
         return;
     // Samples with straight lines between them have no second derivative: the rotation is their mean under a triangle
     // as wide as two samples, whose second derivative is a difference of three values.
-    const double reach = std::max(1.0, std::round(place.motion.spacing_s() / r.step_s));
-    const auto before = bases.chunk(place.motion, first - reach), now = bases.chunk(place.motion, first),
-               after = bases.chunk(place.motion, first + reach);
+    const double reach = std::max(1.0, std::round(place.motions[0].spacing_s() / r.step_s));
+    const auto before = bases.chunk(place.motions[0], first - reach), now = bases.chunk(place.motions[0], first),
+               after = bases.chunk(place.motions[0], first + reach);
     const double per = r.base.pitch_rad_s2_m / (r.step_s * r.step_s);
     for (std::size_t k = 0; k < chunk_steps; ++k) {
         const int step = static_cast<int>(k);

@@ -60,6 +60,10 @@ public:
     PlanarModel(const Study& study, const KernelTable& kernels, const Realization& pattern, std::uint64_t waiting);
 
     static Scales scales(const Realization& realization) { return scales_of(realization); }
+    /// Along x, and upwards. The vertical motion is still where the realization has no record of it.
+    static constexpr int channels = 2;
+    static std::array<BaseMotion, channels> motions(const ExcitationSpec& excitation, const Realization& realization,
+                                                    const Motion* record);
     int lanes() const { return static_cast<int>(lanes_); }
     bool twice() const { return twice_; }
     int check_steps() const { return stylobate::check_steps(topology_); }

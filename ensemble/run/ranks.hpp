@@ -45,20 +45,21 @@ public:
     virtual void abort(int status) = 0;
 };
 
-/// Collective. @return the first text, by rank, that is not empty
-inline std::string first_said(Ranks& ranks, const std::string& mine)
+/// Collective. @param mine a text that is not empty, or nullopt if this rank has nothing to say
+/// @return the first text, by rank; nullopt if no rank has one
+inline std::optional<std::string> first_said(Ranks& ranks, const std::optional<std::string>& mine)
 {
-    for (std::string& text : ranks.of_all(mine))
+    for (std::string& text : ranks.of_all(mine.value_or("")))
         if (!text.empty())
             return std::move(text);
-    return {};
+    return std::nullopt;
 }
 
 /// Collective, of all ranks that there are. @param ranks null: this process is alone
 /// @return whether it is true on all of them
 inline bool all_agree(Ranks* ranks, bool mine)
 {
-    return ranks ? first_said(*ranks, mine ? "" : "no").empty() : mine;
+    return ranks ? !first_said(*ranks, mine ? std::nullopt : std::optional("no")) : mine;
 }
 
 } // namespace stylobate

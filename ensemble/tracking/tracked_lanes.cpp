@@ -40,7 +40,7 @@ void TrackedLanes::begin(int lane, int phase, std::uint64_t step)
     assert(set_.bases().on_host() && "formulas fill the table of all lanes at once");
     const LaneSet::Place& place = set_.place(lane);
     set_.bases().first_step(lane) = static_cast<double>(step) - phase;
-    place.motion.fill(set_.bases().first_step(lane), set_.model().bundle().rows<OfBase::Field>() + lane, lanes());
+    place.motions[0].fill(set_.bases().first_step(lane), set_.model().bundle().rows<OfBase::Field>() + lane, lanes());
     if (topology().model.has_mechanism_rows())
         set_.model().fill_mechanisms(lane, set_.bases(), place);
 }

@@ -105,7 +105,7 @@ bool has_decimal_comma(std::string_view token)
                                   decimal_number(token.substr(at + 1), exponent).ec == std::errc());
 }
 
-std::string unreadable_encoding(std::string_view content)
+std::optional<std::string> unreadable_encoding(std::string_view content)
 {
     const auto zero = [&](std::size_t i) { return i < content.size() && content[i] == '\0'; };
     const auto letter = [&](std::size_t i) { return i < content.size() && content[i] > 0; };
@@ -124,7 +124,7 @@ std::string unreadable_encoding(std::string_view content)
         std::string_view("DRQM").find(content[sequence]) != std::string_view::npos && content[sequence + 1] == ' ')
         return "is miniSEED, which has counts of a recorder. Convert it to acceleration with the response of its "
                "station (ObsPy: remove_response(output=\"ACC\")), and save it as text: time in s, acceleration.";
-    return {};
+    return std::nullopt;
 }
 
 std::string csv_content(const std::filesystem::path& path, std::uint64_t largest)
@@ -136,8 +136,8 @@ std::string csv_content(const std::filesystem::path& path, std::uint64_t largest
                          fmt::format("has {} bytes, more than {}.\n  Is it the right file?", size, largest));
     std::string text(size, '\0');
     file.read(0, std::as_writable_bytes(std::span(text)));
-    if (const std::string reason = unreadable_encoding(text); !reason.empty())
-        throw InputError(path.string(), 0, reason);
+    if (const auto reason = unreadable_encoding(text))
+        throw InputError(path.string(), 0, *reason);
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,8 @@ std::from_chars_result decimal_number(std::string_view token, double& value);
 bool has_decimal_comma(std::string_view token);
 
 /// Why the content of a file is no text that can be read, and the remedy: UTF-16, a compressed file, a binary format.
-/// Empty if it is none of those that are known.
-std::string unreadable_encoding(std::string_view content);
+/// Nullopt if it is none of those that are known.
+std::optional<std::string> unreadable_encoding(std::string_view content);
 
 /// The text of a file. @throws InputError if it cannot be read, is no text, or is larger than `largest` bytes
 std::string csv_content(const std::filesystem::path& path, std::uint64_t largest);

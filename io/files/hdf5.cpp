@@ -583,11 +583,6 @@ void write_real(hid_t object, const std::string& name, double value)
     write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
-void write_integer(hid_t object, const std::string& name, std::int32_t value)
-{
-    write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
-}
-
 Handle byte_enumeration(const std::vector<std::pair<const char*, std::uint8_t>>& members)
 {
     Handle type = handle("no enumeration", H5Tclose, [] { return H5Tenum_create(H5T_STD_U8LE); });

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <hdf5.h>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -118,12 +119,11 @@ double read_any_number(hid_t object, const std::string& name);
 /// A text of fixed or variable length, alone or a list of one, without what pads it.
 std::string read_any_text(hid_t object, const std::string& name);
 void write_real(hid_t object, const std::string& name, double value);
-void write_integer(hid_t object, const std::string& name, std::int32_t value);
 
 /// The type of a file from the attributes of its root, for readers that do not know its layout.
 struct Label {
-    std::string format; ///< "stylobate-diagnosis"; empty: none, or not to be read
-    std::string kind;
+    std::optional<std::string> format; ///< "stylobate-diagnosis"; nullopt: it has none, or it cannot be read
+    std::optional<std::string> kind;
 };
 /// A file that may be damaged is to be checked before, by its seal.
 Label label_of(const std::filesystem::path& file);

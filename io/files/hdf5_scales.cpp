@@ -99,7 +99,7 @@ Label label_of(const std::filesystem::path& file)
     try {
         const Handle open = open_file(file, false);
         const auto text = [&](const char* name) {
-            return has_attribute(open.id(), name) ? read_any_text(open.id(), name) : std::string();
+            return has_attribute(open.id(), name) ? std::optional(read_any_text(open.id(), name)) : std::nullopt;
         };
         return {text("format"), text("kind")};
     } catch (const Error&) { // its reader reports the error

@@ -82,13 +82,13 @@ void KeyReader::allow_only(const std::vector<std::string>& known) const
 
     const auto meant = meant_key(first->key, known);
     std::string todo;
-    if (meant.empty())
+    if (!meant)
         todo = fmt::format("Known {}: {}.", path_.empty() ? "sections" : "keys of " + path_, fmt::join(known, ", "));
-    else if (without_unit(meant) != meant && std::string_view(first->key).starts_with(without_unit(meant)))
-        todo = fmt::format("Did you mean {}? The unit is part of the key.{}", meant,
-                           first->key.size() > without_unit(meant).size() ? " Convert the value to it." : "");
+    else if (without_unit(*meant) != *meant && std::string_view(first->key).starts_with(without_unit(*meant)))
+        todo = fmt::format("Did you mean {}? The unit is part of the key.{}", *meant,
+                           first->key.size() > without_unit(*meant).size() ? " Convert the value to it." : "");
     else
-        todo = fmt::format("Did you mean {}?", meant);
+        todo = fmt::format("Did you mean {}?", *meant);
     throw InputError(
         first->place.source, first->place.line,
         with_todo(fmt::format("unknown {} {}.", path_.empty() ? "section" : "key", full(first->key)), todo));
@@ -320,8 +320,7 @@ std::size_t KeyReader::word_index(std::string_view key, const std::vector<std::s
     const auto at = std::find(words.begin(), words.end(), value.text);
     if (at == words.end()) {
         const auto meant = nearest_word(value.text, words);
-        refuse(key, "is not allowed",
-               allowed + (meant.empty() ? std::string() : " Did you mean " + toml_quoted(meant) + "?"));
+        refuse(key, "is not allowed", allowed + (meant ? " Did you mean " + toml_quoted(*meant) + "?" : ""));
     }
     return static_cast<std::size_t>(at - words.begin());
 }

@@ -34,12 +34,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
     return last[b.size()];
 }
 
-std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates)
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates)
 {
     std::string small(word);
     std::transform(small.begin(), small.end(), small.begin(), lower);
 
-    std::string best;
+    std::optional<std::string> best;
     std::size_t best_distance = 0;
     for (const auto& candidate : candidates) {
         const std::size_t allowed = std::max<std::size_t>(1, candidate.size() / 3);
@@ -48,7 +48,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
         if (longer - shorter > allowed)
             continue; // the distance is at least this; keeps absurdly long words cheap
         const std::size_t distance = edit_distance(small, candidate);
-        if (distance <= allowed && (best.empty() || distance < best_distance)) {
+        if (distance <= allowed && (!best || distance < best_distance)) {
             best = candidate;
             best_distance = distance;
         }
@@ -67,21 +67,21 @@ std::string_view without_unit(std::string_view key)
     return key;
 }
 
-std::string meant_key(std::string_view key, const std::vector<std::string>& known)
+std::optional<std::string> meant_key(std::string_view key, const std::vector<std::string>& known)
 {
     // the longest stem wins, so that normal_damping_x is not taken for a shorter name that begins alike
-    std::string best;
+    std::optional<std::string> best;
     for (const auto& candidate : known) {
         const auto stem = without_unit(candidate);
         if (stem.size() == candidate.size() || key.substr(0, stem.size()) != stem)
             continue;
         const bool same_name = key.size() == stem.size() || key[stem.size()] == '_';
-        if (same_name && (best.empty() || stem.size() > without_unit(best).size()))
+        if (same_name && (!best || stem.size() > without_unit(*best).size()))
             best = candidate;
     }
-    if (best.empty())
+    if (!best)
         best = nearest_word(key, known);
-    return best.empty() ? nearest_word(without_unit(key), known) : best;
+    return best ? best : nearest_word(without_unit(key), known);
 }
 
 std::string counted(std::uint64_t n, std::string_view noun)

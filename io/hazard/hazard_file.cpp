@@ -164,11 +164,11 @@ Column column_of(const std::string& file, const CsvLine& head, std::size_t field
     if (name.starts_with("fractile_"))
         if (const auto value = hazard_number(std::string_view(name).substr(9)); value && *value > 0 && *value < 1)
             return {name, *value};
-    const std::string meant = nearest_word(name, {"annual_frequency", "low", "high"});
+    const auto meant = nearest_word(name, {"annual_frequency", "low", "high"});
     throw InputError(file, head.number,
                      fmt::format("the column '{}' is not known.{}\n  After the intensity: annual_frequency, low and "
                                  "high (the fractiles 0.05 and 0.95), or fractile_0.16 and others between 0 and 1.",
-                                 name.substr(0, 40), meant.empty() ? "" : fmt::format(" Did you mean {}?", meant)));
+                                 name.substr(0, 40), meant ? fmt::format(" Did you mean {}?", *meant) : ""));
 }
 
 } // namespace

@@ -135,15 +135,15 @@ std::string column_remedy(std::string_view name)
         for (std::size_t line = lower.find('_'); line != std::string::npos; line = lower.find('_', line + 1))
             if (std::string same_unit = std::string(without_unit(column)) + lower.substr(line); target_of(same_unit))
                 in_its_unit.push_back(std::move(same_unit));
-    if (const std::string meant = meant_key(lower, in_its_unit); !meant.empty())
-        return fmt::format("Did you mean {}? The unit is part of the name.", meant);
-    const std::string meant = meant_key(lower, known);
-    if (meant.empty())
+    if (const auto meant = meant_key(lower, in_its_unit))
+        return fmt::format("Did you mean {}? The unit is part of the name.", *meant);
+    const auto meant = meant_key(lower, known);
+    if (!meant)
         return fmt::format("Columns are {}. The unit is part of the name.", fmt::join(known, ", "));
-    const std::optional<Target> target = target_of(meant);
+    const std::optional<Target> target = target_of(*meant);
     const Dimension dimension = target && target->series ? target->series->dimension : Dimension::time;
     return fmt::format(
-        "Did you mean {}? The unit is part of the name, and the values must be in it: known units are {}.", meant,
+        "Did you mean {}? The unit is part of the name, and the values must be in it: known units are {}.", *meant,
         known_units(dimension));
 }
 

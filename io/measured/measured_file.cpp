@@ -115,10 +115,9 @@ public:
             names_.emplace_back(name);
             columns_.push_back(known == std::end(known_columns) ? Known{"", Column::ignored} : *known);
             if (known == std::end(known_columns)) {
-                const std::string meant = meant_key(name, names);
-                table_.findings.push_back(
-                    {Severity::note, fmt::format("column \"{}\"", name.substr(0, 60)),
-                     "is unknown and ignored." + (meant.empty() ? "" : " Did you mean " + meant + "?")});
+                const auto meant = meant_key(name, names);
+                table_.findings.push_back({Severity::note, fmt::format("column \"{}\"", name.substr(0, 60)),
+                                           "is unknown and ignored." + (meant ? " Did you mean " + *meant + "?" : "")});
             } else if (std::count_if(columns_.begin(), columns_.end(),
                                      [&](const Known& k) { return k.column == known->column; }) > 1) {
                 throw InputError(table_.source, line.number,

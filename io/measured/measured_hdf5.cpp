@@ -89,9 +89,8 @@ private:
     {
         for (const std::string& name : hdf5::names_in(group))
             if (std::find(known.begin(), known.end(), name) == known.end()) {
-                const std::string meant = nearest_word(name, known);
-                tell(at(path + name),
-                     "is unknown and ignored." + (meant.empty() ? "" : " Did you mean " + meant + "?"));
+                const auto meant = nearest_word(name, known);
+                tell(at(path + name), "is unknown and ignored." + (meant ? " Did you mean " + *meant + "?" : ""));
             }
     }
 

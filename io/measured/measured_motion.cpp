@@ -347,19 +347,19 @@ void check_names(const RecordText& text, const ColumnTable& table)
         return unit_of(name, acceleration_of_base) || unit_of(name, displacement_of_base);
     };
     for (const std::string& name : table.names) {
-        const std::string meant = meant_key(lower_case(name), known);
+        const auto meant = meant_key(lower_case(name), known);
         const bool there = std::any_of(table.names.begin(), table.names.end(),
                                        [&](const std::string& other) { return lower_case(other) == meant; });
-        if (meant.empty() || is_read(name) || there || (meant == time_name && is_time(table)))
+        if (!meant || is_read(name) || there || (meant == time_name && is_time(table)))
             continue;
         // with the unit of the file: with another one its values would be others by a factor
         for (std::size_t line = name.find('_'); line != std::string::npos; line = name.find('_', line + 1))
-            if (const std::string same_unit = std::string(without_unit(meant)) + name.substr(line); is_read(same_unit))
+            if (const std::string same_unit = std::string(without_unit(*meant)) + name.substr(line); is_read(same_unit))
                 text.refuse(fmt::format("has a column \"{}\". Did you mean {}? The unit is part of the name.", name,
                                         same_unit));
         text.refuse(fmt::format("has a column \"{}\". Did you mean {}? The unit is part of the name: times are in {}, "
                                 "accelerations in {}, displacements in {}.",
-                                name, meant, known_units(Dimension::time), known_units(Dimension::acceleration),
+                                name, *meant, known_units(Dimension::time), known_units(Dimension::acceleration),
                                 known_units(Dimension::length)));
     }
     const char* todo = "Give a line of names above the rows: time_s first, then acceleration_m_s2 or displacement_m.";

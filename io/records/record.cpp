@@ -154,8 +154,8 @@ std::string content_of(const std::filesystem::path& path, const std::string& wha
 RecordText lines_of(const std::string& file, std::string_view content)
 {
     RecordText text{file, {}, true};
-    if (const std::string reason = unreadable_encoding(content); !reason.empty())
-        text.refuse(reason);
+    if (const auto reason = unreadable_encoding(content))
+        text.refuse(*reason);
     if (content.starts_with("\xEF\xBB\xBF")) // UTF-8 mark
         content.remove_prefix(3);
     while (content.ends_with('\x1a')) // end of file of old systems
@@ -498,7 +498,7 @@ Record read_record(const std::filesystem::path& file, const std::string& compone
     return record;
 }
 
-std::string record_format(const std::filesystem::path& file)
+std::optional<std::string> record_format(const std::filesystem::path& file)
 {
     try {
         const std::string content = content_of(file, "a ground-motion record");
@@ -508,7 +508,7 @@ std::string record_format(const std::filesystem::path& file)
                 return std::string(parser->format);
     } catch (const InputError&) { // no text, or too much of it: no record
     }
-    return "";
+    return std::nullopt;
 }
 
 } // namespace stylobate

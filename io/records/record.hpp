@@ -78,7 +78,7 @@ const char* to_string(Direction direction);
 /// What the name of a component says of its direction: "UP", "N-S", "HNZ", "090", "acc_z".
 Direction direction_of_name(std::string_view name);
 
-/// The format that a file is recognised as, by its content alone; empty: none of them, or no text.
-std::string record_format(const std::filesystem::path& file);
+/// The format that a file is recognised as, by its content alone; nullopt if it is none of them, or no text.
+std::optional<std::string> record_format(const std::filesystem::path& file);
 
 } // namespace stylobate

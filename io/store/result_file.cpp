@@ -91,8 +91,8 @@ std::string without_title(const std::string& study_toml)
     return out;
 }
 
-/// Where two study texts part, for a message; empty if they are the same but for their titles.
-std::string text_difference(const std::string& text_in_file, const std::string& text_asked)
+/// Where two study texts part, for a message; nullopt if they are the same but for their titles.
+std::optional<std::string> text_difference(const std::string& text_in_file, const std::string& text_asked)
 {
     const std::string in_file = without_title(text_in_file), asked = without_title(text_asked);
     std::istringstream a(in_file);
@@ -103,7 +103,7 @@ std::string text_difference(const std::string& text_in_file, const std::string& 
         const bool more_left = static_cast<bool>(std::getline(a, left));
         const bool more_right = static_cast<bool>(std::getline(b, right));
         if (!more_left && !more_right)
-            return in_file == asked ? "" : "its study text ends differently";
+            return in_file == asked ? std::nullopt : std::optional("its study text ends differently");
         if (more_left != more_right || left != right)
             return "line " + std::to_string(line) + " of the study is\n    " +
                    (more_left ? left : "(the end of the text)") + "\n  in the file and\n    " +
@@ -206,9 +206,9 @@ void check_table(const ResultHeader& header, const SurfaceTable& table)
         throw std::invalid_argument("the surface's table is not (nf x np)");
 }
 
-std::string study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked)
+std::optional<std::string> study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked)
 {
-    if (std::string text = text_difference(found.study_toml, asked.study_toml); !text.empty())
+    if (auto text = text_difference(found.study_toml, asked.study_toml))
         return text;
     if (found.kind != asked.kind)
         return "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
@@ -236,15 +236,15 @@ std::string study_difference(const ResultHeader& found, bool complete, const Res
         return "its surface has other axes";
     if (found.motions != asked.motions)
         return "its motions differ";
-    return {};
+    return std::nullopt;
 }
 
 void check_same_study(const ResultFile& file, const ResultHeader& asked)
 {
     const ResultHeader& found = file.header;
     const auto refuse = [&](const std::string& text) { throw InputError(file.path.string(), 0, text); };
-    if (const std::string other = study_difference(found, file.complete, asked); !other.empty())
-        refuse("holds the results of another study: " + other + ". Remove the file, or choose another output (-o).");
+    if (const auto other = study_difference(found, file.complete, asked))
+        refuse("holds the results of another study: " + *other + ". Remove the file, or choose another output (-o).");
     if (found.code_version != asked.code_version)
         refuse("was begun by version " + found.code_version + " and this is version " + asked.code_version +
                ", whose results may differ bitwise. " +

@@ -59,9 +59,9 @@ struct ResultHeader {
 /// CRC-32 of the text of the study: `ResultHeader::study_crc32` of a file whose text is the one that was written.
 std::uint32_t study_crc32_of(const ResultHeader& header);
 
-/// Difference between the study of a file and the requested study, in words; empty: none.
+/// Difference between the study of a file and the requested study, in words; nullopt if there is none.
 /// @param complete whether the file is: where rows are selected, it then has those that were needed
-std::string study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked);
+std::optional<std::string> study_difference(const ResultHeader& found, bool complete, const ResultHeader& asked);
 
 /// One row of /realizations.
 struct ResultRow {

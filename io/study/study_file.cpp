@@ -202,9 +202,9 @@ std::vector<std::string> read_allow(const KeyReader& keys)
         keys.refuse(study_keys::allow.name, fmt::format("is {}, not a list", list->type_name()), todo);
     for (const TomlValue& entry : list->entries)
         if (entry.type != TomlValue::Type::string || std::find(known.begin(), known.end(), entry.text) == known.end()) {
-            const std::string meant = nearest_word(entry.text, known);
+            const auto meant = nearest_word(entry.text, known);
             keys.refuse(study_keys::allow.name, fmt::format("contains {}, which is not a check", entry.shown()),
-                        meant.empty() ? todo : fmt::format("Did you mean {}?", toml_quoted(meant)));
+                        meant ? fmt::format("Did you mean {}?", toml_quoted(*meant)) : todo);
         }
     for (const std::string& name : known)
         if (std::any_of(list->entries.begin(), list->entries.end(),
@@ -434,8 +434,8 @@ std::string read_text(const std::filesystem::path& file)
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (text.size() > largest_file)
         throw InputError(file.string(), 0, "is larger than 1 MiB.\n  Is this a study file?");
-    if (const std::string reason = unreadable_encoding(text); !reason.empty())
-        throw InputError(file.string(), 0, reason);
+    if (const auto reason = unreadable_encoding(text))
+        throw InputError(file.string(), 0, *reason);
     return text;
 }
 

@@ -92,7 +92,7 @@ void check_refused(const std::string& pattern, const ReadFolder& folder)
         const std::string of_file = ending(refused.file);
         if (folder.components.empty())
             throw InputError(refused.why + "\n  No file of fragility.folder can be read as a record of accelerations.");
-        if (read.contains(of_file) && !record_format(refused.file).empty()) {
+        if (read.contains(of_file) && record_format(refused.file)) {
             std::string others;
             for (const std::string& each : read)
                 others += (others.empty() ? "" : ", ") + each;

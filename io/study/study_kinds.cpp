@@ -42,10 +42,10 @@ std::vector<std::string> read_factors(const KeyReader& keys, const std::vector<s
             keys.refuse(sensitivity_keys::factors.name,
                         fmt::format("has {}, which is {}", entry.shown(), entry.type_name()), known);
         if (std::find(perturbed.begin(), perturbed.end(), entry.text) == perturbed.end()) {
-            const std::string near = nearest_word(entry.text, perturbed);
+            const auto near = nearest_word(entry.text, perturbed);
             keys.refuse(sensitivity_keys::factors.name,
                         fmt::format("names '{}', which [perturbation] does not", entry.text),
-                        (near.empty() ? "" : fmt::format("Did you mean '{}'? ", near)) + known);
+                        (near ? fmt::format("Did you mean '{}'? ", *near) : "") + known);
         }
         if (std::find(named.begin(), named.end(), entry.text) != named.end())
             keys.refuse(sensitivity_keys::factors.name, fmt::format("names '{}' twice", entry.text), "Name each once.");

@@ -179,8 +179,8 @@ private:
             const std::string& key = keys.has(one) ? one : several;
             if (rule.place == MechanismPlace::block && layout_.blocks[k].fixed)
                 keys.refuse(key, fmt::format("contains {}, which is fixed to the shaking table", place), there_is);
-            if (const std::string why = why_not(rule, layout_, place); !why.empty())
-                keys.refuse(key, fmt::format("contains {}, which {}", place, why), there_is);
+            if (const auto why = why_not(rule, layout_, place))
+                keys.refuse(key, fmt::format("contains {}, which {}", place, *why), there_is);
             if (taken[k]) {
                 const std::string twice = fmt::format("{} {} occurs twice", one, place);
                 if (named)
@@ -197,8 +197,8 @@ private:
     /// What is lost of a face leaves some of it, and the centre of mass lies in its block.
     void check_room(const KeyReader& keys, const MechanismSpec& spec) const
     {
-        if (const std::string why = contradiction(rule_of(spec.mechanism), spec.values); !why.empty())
-            keys.refuse_all(fmt::format("{}: {}.", keys.path(), why));
+        if (const auto why = contradiction(rule_of(spec.mechanism), spec.values))
+            keys.refuse_all(fmt::format("{}: {}.", keys.path(), *why));
 
         const auto width = [&](int block) {
             return block < 0 ? HUGE_VAL : layout_.blocks[static_cast<std::size_t>(block)].width_m;

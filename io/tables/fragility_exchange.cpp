@@ -1,7 +1,6 @@
 #include "io/tables/fragility_exchange.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/files/csv_fields.hpp"
 #include "io/files/utf8.hpp"
 #include "io/tables/table.hpp"
 
@@ -223,147 +222,6 @@ void append_function(pugi::xml_node model_node, const FragilityModel& model, con
     }
 }
 
-/// A file being read: every complaint names it and the line.
-class Reader {
-public:
-    explicit Reader(const std::filesystem::path& file) : name_(file.string()), text_(csv_content(file, 1 << 26))
-    {
-        const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size());
-        if (!result)
-            throw InputError(name_, line(result.offset), fmt::format("no XML: {}.", result.description()));
-    }
-
-    FragilityModel read()
-    {
-        const pugi::xml_node nrml = document_.document_element();
-        if (std::string_view(nrml.name()) != "nrml" ||
-            std::string_view(nrml.attribute("xmlns").value()) != nrml_namespace)
-            refuse(nrml, fmt::format("the file begins with <{}>, not with <nrml xmlns=\"{}\">.", nrml.name(),
-                                     nrml_namespace));
-        const pugi::xml_node node = element(nrml.first_child());
-        expect(node, nrml, "fragilityModel");
-        FragilityModel model;
-        model.id = attribute(node, "id");
-        attribute(node, "assetCategory");
-        attribute(node, "lossCategory");
-        pugi::xml_node child = element(node.first_child());
-        expect(child, node, "description");
-        model.description = child.text().get();
-        child = element(child.next_sibling());
-        expect(child, node, "limitStates");
-        std::istringstream states(child.text().get());
-        for (std::string state; states >> state;)
-            model.limit_states.push_back(state);
-        for (child = element(child.next_sibling()); child; child = element(child.next_sibling())) {
-            expect(child, node, "fragilityFunction");
-            model.functions.push_back(function(child, model.limit_states));
-        }
-        try {
-            check_fragility_model(model);
-        } catch (const InputError& error) {
-            throw InputError(name_, 0, error.what());
-        }
-        return model;
-    }
-
-private:
-    long line(std::ptrdiff_t offset) const
-    {
-        const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, offset));
-        return 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(end, text_.size())),
-                              '\n');
-    }
-    [[noreturn]] void refuse(pugi::xml_node node, const std::string& text) const
-    {
-        throw InputError(name_, line(node.offset_debug()), text);
-    }
-    static pugi::xml_node element(pugi::xml_node node)
-    {
-        while (node && node.type() != pugi::node_element)
-            node = node.next_sibling();
-        return node;
-    }
-    void expect(pugi::xml_node node, pugi::xml_node parent, const char* name) const
-    {
-        if (std::string_view(node.name()) != name)
-            refuse(node ? node : parent, fmt::format("<{}> is expected in <{}>, there is {}.", name, parent.name(),
-                                                     node ? fmt::format("<{}>", node.name()) : "nothing"));
-    }
-    std::string attribute(pugi::xml_node node, const char* name) const
-    {
-        if (!node.attribute(name))
-            refuse(node, fmt::format("<{}> has no attribute '{}'.", node.name(), name));
-        return node.attribute(name).value();
-    }
-    double number(pugi::xml_node node, const std::string& text, const char* what) const
-    {
-        double value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(text.data(), end, value);
-        if (error != std::errc() || rest != end || !std::isfinite(value) || value < 0)
-            refuse(node, fmt::format("{} = '{}' is not a number of at least 0.", what, text));
-        return value;
-    }
-    std::vector<double> numbers(pugi::xml_node node) const
-    {
-        std::vector<double> values;
-        std::istringstream words(node.text().get());
-        for (std::string word; words >> word;)
-            values.push_back(number(node, word, node.name()));
-        return values;
-    }
-
-    FragilityFunction function(pugi::xml_node node, const std::vector<std::string>& limit_states) const
-    {
-        FragilityFunction read;
-        read.id = attribute(node, "id");
-        const std::string format = attribute(node, "format");
-        if (format != "discrete" && format != "continuous")
-            refuse(node, fmt::format("format = '{}' is neither discrete nor continuous.", format));
-        read.discrete = format == "discrete";
-        if (!read.discrete && attribute(node, "shape") != "logncdf")
-            refuse(node, fmt::format("shape = '{}' is not logncdf.", attribute(node, "shape")));
-        pugi::xml_node child = element(node.first_child());
-        expect(child, node, "imls");
-        read.measure = attribute(child, "imt");
-        const double scale = per_si_unit(read.measure);
-        if (read.discrete)
-            for (const double intensity : numbers(child))
-                read.intensity.push_back(intensity / scale);
-        else {
-            read.least = number(child, attribute(child, "minIML"), "minIML") / scale;
-            read.most = number(child, attribute(child, "maxIML"), "maxIML") / scale;
-        }
-        for (const std::string& name : limit_states) {
-            child = element(child.next_sibling());
-            expect(child, node, read.discrete ? "poes" : "params");
-            if (attribute(child, "ls") != name)
-                refuse(child,
-                       fmt::format("limit state '{}' stands where the model has '{}'.", attribute(child, "ls"), name));
-            FragilityState state;
-            if (read.discrete)
-                for (const double value : numbers(child))
-                    state.probability.push_back({value});
-            else {
-                const double mean = number(child, attribute(child, "mean"), "mean");
-                const double stddev = number(child, attribute(child, "stddev"), "stddev");
-                if (!(mean > 0))
-                    refuse(child, "mean = 0 is not a valid lognormal capacity.");
-                const double square = std::log1p(stddev / mean * (stddev / mean));
-                state.median = {mean / scale * std::exp(-square / 2)};
-                state.dispersion = {std::sqrt(square)};
-            }
-            read.states.push_back(state);
-        }
-        if (const pugi::xml_node more = element(child.next_sibling()))
-            refuse(more, fmt::format("<{}> is one limit state more than the model has.", more.name()));
-        return read;
-    }
-
-    std::string name_, text_;
-    pugi::xml_document document_;
-};
-
 } // namespace
 
 std::string fragility_nrml(const FragilityModel& model)
@@ -393,11 +251,6 @@ std::string fragility_nrml(const FragilityModel& model)
     std::ostringstream out;
     document.save(out, "  ");
     return out.str();
-}
-
-FragilityModel read_fragility_nrml(const std::filesystem::path& file)
-{
-    return Reader(file).read();
 }
 
 namespace {

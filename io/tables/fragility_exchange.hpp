@@ -1,5 +1,5 @@
 #pragma once
-/// Fragility functions in files of others: NRML 0.5 of GEM's OpenQuake, JSON, CSV.
+/// Fragility functions as files for other tools: NRML 0.5 of GEM's OpenQuake, JSON, CSV.
 ///
 /// NRML has no place for intervals; they go into comments and the description, and whole into JSON and CSV. It takes
 /// PGA and SA in g, PGV in cm/s, PGD in cm, and of a lognormal function not median and dispersion but mean and
@@ -11,7 +11,6 @@
 
 #include "ensemble/model/fragility_model.hpp"
 
-#include <filesystem>
 #include <string>
 
 namespace stylobate {
@@ -34,10 +33,5 @@ std::string fragility_nrml(const FragilityModel& model);
 std::string fragility_json(const FragilityModel& model);
 /// A line for each limit state (lognormal) or limit state and intensity (discrete).
 std::string fragility_csv(const FragilityModel& model);
-
-/// Reads a fragility model of NRML 0.5; intervals are unbounded, and the description is as it stands there.
-/// @throws InputError with file, line and what is wrong: no such file, no XML, another element, an attribute that is
-///         missing or out of range, limit states in another order than in the model
-FragilityModel read_fragility_nrml(const std::filesystem::path& file);
 
 } // namespace stylobate

@@ -6,8 +6,8 @@
 /// structure: its values are attributes, its lists are columns. Items are rows that have lists: every list is a table
 /// below, whose column `row` is the item to which an entry belongs; what may be absent is a list of none or one.
 ///
-/// An optional number is NaN where there is none. An enumeration has its words beside it (`FieldWords`). True and false
-/// are 1 and 0, and words of items.
+/// An optional number is NaN where there is none, and an optional text is empty. An enumeration has its words beside it
+/// (`FieldWords`). True and false are 1 and 0, and words of items.
 
 #include "ensemble/model/fields.hpp"
 #include "io/tables/table.hpp"
@@ -64,8 +64,9 @@ inline constexpr bool is_list = false;
 template <class T>
 inline constexpr bool is_list<std::vector<T>> = true;
 template <class T>
-inline constexpr bool is_value = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string> ||
-                                 std::is_same_v<T, const char*> || std::is_same_v<T, std::optional<double>>;
+inline constexpr bool is_value =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string> || std::is_same_v<T, const char*> ||
+    std::is_same_v<T, std::optional<double>> || std::is_same_v<T, std::optional<std::string>>;
 
 /// The type of a field of a structure.
 template <class Field, class S>
@@ -98,6 +99,8 @@ auto stored(const T& value)
 {
     if constexpr (std::is_same_v<T, std::optional<double>>)
         return value.value_or(std::numeric_limits<double>::quiet_NaN());
+    else if constexpr (std::is_same_v<T, std::optional<std::string>>)
+        return value.value_or("");
     else if constexpr (is_word<T, item>)
         return std::string(FieldWords<T>::words[static_cast<std::size_t>(value)]);
     else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, int>)
@@ -122,6 +125,8 @@ void restore(T& value, const Stored<T, item>& found, const Table& table)
 {
     if constexpr (std::is_same_v<T, std::optional<double>>) {
         value = std::isnan(found) ? std::optional<double>() : found;
+    } else if constexpr (std::is_same_v<T, std::optional<std::string>>) {
+        value = found.empty() ? std::nullopt : std::optional(found);
     } else if constexpr (std::is_enum_v<T> || is_word<T, item>) {
         const auto& words = FieldWords<T>::words;
         std::size_t place = 0;

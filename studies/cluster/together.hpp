@@ -6,6 +6,7 @@
 #include "ensemble/numerics/run_order.hpp"
 #include "ensemble/run/ranks.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,14 +25,14 @@ void together(Ranks* ranks, const F& f)
 {
     if (!ranks)
         return f();
-    std::string refusal;
+    std::optional<std::string> refusal;
     try {
         f();
     } catch (const InputError& error) {
         refusal = error.what();
     }
-    if (const std::string first = first_said(*ranks, refusal); !first.empty())
-        throw AllRefused(first);
+    if (const auto first = first_said(*ranks, refusal))
+        throw AllRefused(*first);
 }
 
 /// The part of what is done once that falls to this rank.

@@ -13,11 +13,11 @@ namespace stylobate {
 
 /// The study under another contact law. Structure, shaking, outcomes and draws are those of the study.
 struct ContactLaw {
-    std::string name;             ///< "softer", "stiffer", "rigid", "ends" or "centroid"
-    std::string words;            ///< "a third of the normal and the tangential stiffness"
-    std::string note{};           ///< what else it changes, a sentence; empty: nothing
-    std::optional<Study> study{}; ///< none: the law does not apply to the study
-    std::string why_not{};        ///< then the reason, without a full stop
+    std::string name;                  ///< "softer", "stiffer", "rigid", "ends" or "centroid"
+    std::string words;                 ///< "a third of the normal and the tangential stiffness"
+    std::optional<std::string> note{}; ///< what else it changes, a sentence; nullopt: nothing
+    std::optional<Study> study{};      ///< none: the law does not apply to the study
+    std::string why_not{};             ///< then the reason, without a full stop
 };
 
 /// A third and three times the stiffness, normal and tangential alike, of [contact], of each bed that has its own, and

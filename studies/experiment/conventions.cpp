@@ -113,12 +113,12 @@ std::string conventions_text(const Study& study)
     return contact_words(study) + "; " + shaking_words(study) + (drawn(study, Quantity::phase) ? ", phase drawn" : "");
 }
 
-std::string conventions_text_of(const std::string& study_toml)
+std::optional<std::string> conventions_text_of(const std::string& study_toml)
 {
     try {
         return conventions_text(parse_study(study_toml, "study"));
     } catch (const InputError&) { // of another version
-        return {};
+        return std::nullopt;
     }
 }
 

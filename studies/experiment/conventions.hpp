@@ -5,6 +5,7 @@
 
 #include "ensemble/model/study.hpp"
 
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -13,7 +14,7 @@ namespace stylobate {
 /// cycles in all, smooth start over 2 cycles, ...". One line, for every summary that has a probability.
 std::string conventions_text(const Study& study);
 
-/// The conventions of the study whose text a file has; empty where this version cannot read it.
-std::string conventions_text_of(const std::string& study_toml);
+/// The conventions of the study whose text a file has; nullopt where this version cannot read it.
+std::optional<std::string> conventions_text_of(const std::string& study_toml);
 
 } // namespace stylobate

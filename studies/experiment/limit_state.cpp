@@ -194,11 +194,11 @@ std::string LimitCounts::interval() const
     return groups_.groups < least_records ? "none" : fmt::format("motions {}", interval_level);
 }
 
-std::string LimitCounts::moving_text() const
+std::optional<std::string> LimitCounts::moving_text() const
 {
     const std::uint64_t moving = reached_[static_cast<std::size_t>(LimitState::moving)];
     if (moving == 0)
-        return {};
+        return std::nullopt;
     const std::uint64_t standing = trials_ - reached_[static_cast<std::size_t>(LimitState::collapse)];
     return fmt::format("{} of {} without collapse still moved at the end.", moving, counted(standing, "realization"));
 }

@@ -8,6 +8,7 @@
 #include "studies/experiment/motions.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -88,8 +89,8 @@ public:
     /// How often several blocks fell before all others, at the same step.
     std::uint64_t first_together() const { return first_together_; }
     std::uint64_t trials() const { return trials_; }
-    /// "12 of 34 realizations without collapse still moved at the end."; empty where none did.
-    std::string moving_text() const;
+    /// "12 of 34 realizations without collapse still moved at the end."; nullopt where none did.
+    std::optional<std::string> moving_text() const;
     /// Median over the realizations that collapsed [s]; NaN if there is none. (As exact as `TimeCounts`.)
     double median_collapse_time_s() const;
     /// Median over those that collapsed in all [s]; NaN if there is none.

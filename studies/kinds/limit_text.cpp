@@ -88,8 +88,8 @@ std::string limits_text(const LimitCounts& counts, const std::vector<std::string
     }
     text += fmt::format("; {}{}\n",
                         std::isnan(collapsed.lower) ? "" : "in brackets: ", describe_interval(counts.interval()));
-    if (const std::string moving = counts.moving_text(); !moving.empty())
-        text += fmt::format("  {}\n", moving);
+    if (const std::optional<std::string> moving = counts.moving_text())
+        text += fmt::format("  {}\n", *moving);
     const std::vector<std::size_t> first = first_fallen(counts);
     constexpr std::size_t most = 5;
     std::string list;

@@ -114,8 +114,8 @@ Json json_of(const S& s, std::initializer_list<JsonName> names = {});
 template <class T>
 Json json_of(const std::vector<T>& list);
 
-/// Adds a value: null where there is none, the word of an enumeration (its number where it has none), the object of a
-/// structure, a list.
+/// Adds a value: null where there is none (an optional text is empty), the word of an enumeration (its number where it
+/// has none), the object of a structure, a list.
 template <class T>
 void add_member(Json& json, std::string_view name, const T& value)
 {
@@ -125,6 +125,8 @@ void add_member(Json& json, std::string_view name, const T& value)
         json.member(name, to_string(value));
     else if constexpr (std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view>)
         json.member(name, value);
+    else if constexpr (std::is_same_v<T, std::optional<std::string>>)
+        json.member(name, value.value_or(""));
     else if constexpr (requires { value.has_value(); })
         value ? add_member(json, name, *value) : add_member(json, name, std::numeric_limits<double>::quiet_NaN());
     else

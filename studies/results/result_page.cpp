@@ -254,10 +254,10 @@ private:
                     "probability is near 1/2.";
         if (collapsed.count > 0)
             text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
-        if (const std::string moving = counts_.moving_text(); !moving.empty())
+        if (const std::optional<std::string> moving = counts_.moving_text())
             text += " " + (rows_.size() == 1 ? std::string("It still moved at the end: its residual displacements are "
                                                            "not known.")
-                                             : moving);
+                                             : *moving);
         page_.paragraph(text);
         if (!invalid_.empty()) {
             std::string list;

@@ -27,13 +27,13 @@ const CLI::App& verb_of(const CLI::App& app, const std::string& word)
         list += (list.empty() ? "" : ", ") + verbs.back();
     }
     verbs.emplace_back("help");
-    std::string meant = nearest_word(word, verbs);
+    auto meant = nearest_word(word, verbs);
     for (const std::string& verb : verbs)
-        if (meant.empty() && word.size() > 2 && verb.starts_with(word))
+        if (!meant && word.size() > 2 && verb.starts_with(word))
             meant = verb;
     throw InputError(fmt::format("{}; the commands are {}.\n  {}",
                                  word.empty() ? "no command is given" : "'" + word + "' is not a command", list,
-                                 meant.empty() ? "Run stylobate --help." : "Did you mean " + meant + "?"));
+                                 meant ? "Did you mean " + *meant + "?" : "Run stylobate --help."));
 }
 
 [[noreturn]] void refuse_option(const CLI::App& app, const CLI::App& verb, const std::string& name)
@@ -42,10 +42,11 @@ const CLI::App& verb_of(const CLI::App& app, const std::string& word)
     for (const CLI::Option* option : verb.get_options())
         for (const std::string& long_name : option->get_lnames())
             known.push_back("--" + long_name);
-    const std::string meant = name.size() == 2 ? "" : nearest_word(name.starts_with("--") ? name : "-" + name, known);
+    const auto meant =
+        name.size() == 2 ? std::nullopt : nearest_word(name.starts_with("--") ? name : "-" + name, known);
     const std::string of = &verb == &app ? "" : verb.get_name();
     throw InputError(fmt::format("{} is not an option{}.\n  {}stylobate {}--help lists the options.", name,
-                                 of.empty() ? of : " of " + of, meant.empty() ? "" : "Did you mean " + meant + "? ",
+                                 of.empty() ? of : " of " + of, meant ? "Did you mean " + *meant + "? " : "",
                                  of.empty() ? of : of + " "));
 }
 

@@ -340,10 +340,10 @@ private:
             // samples
             if (!v_.same_version || !options_.settings.empty())
                 made.study_toml = header_.study_toml;
-            const std::string other = study_difference(header_, reader_.complete(), made);
-            sound_ = other.empty();
-            if (!sound_)
-                check.add({"header", std::nullopt, other, ""});
+            const auto other = study_difference(header_, reader_.complete(), made);
+            sound_ = !other;
+            if (other)
+                check.add({"header", std::nullopt, *other, ""});
             check.text += v_.same_version ? "; inputs, blocks, axes and motions against what it makes"
                                           : "; inputs, blocks, axes and motions against what this version makes of it";
         }

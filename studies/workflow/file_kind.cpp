@@ -110,12 +110,12 @@ RecognisedFile of_sealed(const fs::path& file)
         return {FileKind::risk, ""};
     if (label.format == "stylobate-risk-change")
         return {FileKind::risk, risk_of_comparison};
-    return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind} : RecognisedFile{};
+    return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind.value_or("")} : RecognisedFile{};
 }
 
 RecognisedFile of_hdf5(const fs::path& file)
 {
-    const std::string format = hdf5::label_of(file).format;
+    const std::optional<std::string> format = hdf5::label_of(file).format;
     return {format == "stylobate-calibration" ? FileKind::calibration
             : format == "stylobate-measured"  ? FileKind::campaign
                                               : FileKind::unknown,
@@ -189,8 +189,8 @@ RecognisedFile of_text(const fs::path& file, std::string_view text)
         return {FileKind::functions, ""};
     if (const FileKind kind = of_csv(text); kind != FileKind::unknown)
         return {kind, ""};
-    if (const std::string format = record_format(file); !format.empty())
-        return {FileKind::record, format};
+    if (const auto format = record_format(file))
+        return {FileKind::record, *format};
     return {};
 }
 

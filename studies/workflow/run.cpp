@@ -274,8 +274,8 @@ ShardFile read_shard_file(const std::string& file, const ResultHeader& header)
     const ResultReader reader(file);
     check_is_part(reader, file);
     const ResultHeader& found = reader.header();
-    if (const std::string other = study_difference(found, false, header); !other.empty())
-        throw InputError(file, 0, "is of another study than the first file: " + other + ".");
+    if (const auto other = study_difference(found, false, header))
+        throw InputError(file, 0, "is of another study than the first file: " + *other + ".");
     if (found.code_version != header.code_version)
         throw InputError(file, 0,
                          fmt::format("was begun by version {} and this is version {}. Merge shards with the version "

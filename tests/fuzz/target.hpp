@@ -40,8 +40,8 @@ struct Target {
     std::size_t most_bytes; ///< of an input
     int trials;             ///< inputs of the normal tests: a second or some of them
 };
-extern const Target record_target, study_target, results_target, campaign_target, table_target, nrml_target,
-    hazard_target, decision_target;
+extern const Target record_target, study_target, results_target, campaign_target, table_target, hazard_target,
+    decision_target;
 
 /// Calls a reader. Only an InputError counts as a refusal.
 template <class Read>

@@ -82,7 +82,7 @@ TEST_P(ReaderFuzz, MutationsAreRefusedOrRight)
 
 INSTANTIATE_TEST_SUITE_P(All, ReaderFuzz,
                          testing::Values(&record_target, &study_target, &results_target, &campaign_target,
-                                         &table_target, &nrml_target, &hazard_target, &decision_target),
+                                         &table_target, &hazard_target, &decision_target),
                          [](const auto& info) { return std::string(info.param->name); });
 
 } // namespace

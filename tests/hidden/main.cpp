@@ -54,11 +54,11 @@ void check_effect(const std::string& name)
     names.insert(names.end(), outside_names().begin(), outside_names().end());
     if (std::find(names.begin(), names.end(), name) != names.end())
         return;
-    const std::string meant = nearest_word(name, names);
-    throw InputError("--effect", 0,
-                     fmt::format("'{}' is not an effect.\n  {}", name,
-                                 meant.empty() ? fmt::format("They are {}.", fmt::join(names, ", "))
-                                               : "Did you mean " + meant + "?"));
+    const auto meant = nearest_word(name, names);
+    throw InputError(
+        "--effect", 0,
+        fmt::format("'{}' is not an effect.\n  {}", name,
+                    meant ? "Did you mean " + *meant + "?" : fmt::format("They are {}.", fmt::join(names, ", "))));
 }
 
 Answer answer_of(const VirtualCampaign& made)

@@ -54,8 +54,8 @@ void write_campaign(const fs::path& file, const Flaw& flaw)
     }
     const hdf5::Handle runs = hdf5::create_group(made.id(), "runs");
     const hdf5::Handle run = hdf5::create_group(runs.id(), "000");
-    hdf5::write_integer(run.id(), "motion_id", 0);
-    hdf5::write_integer(run.id(), "repeat", 0);
+    hdf5::write_number(run.id(), "motion_id", H5T_STD_I32LE, 0);
+    hdf5::write_number(run.id(), "repeat", H5T_STD_I32LE, 0);
     hdf5::write_text(run.id(), "kind", "harmonic");
     hdf5::write_real(run.id(), "rate_hz", flaw.rate_hz);
     hdf5::write_array(run.id(), "time_s", time, {samples}, "s");

@@ -161,9 +161,9 @@ void no_curve(FragilityCurve& curve, const FragilityData& data, const CurveOptio
         for (CurvePoint& point : curve.at)
             point.probability = same_everywhere(nan, bounds.probability(point.intensity[0]));
     }
-    const std::string median = median_text(curve.median.records);
+    const auto median = median_text(curve.median.records);
     const std::string where =
-        median.empty() ? "Only bounds of the probabilities can be given." : "The median lies " + median + ".";
+        median ? "The median lies " + *median + "." : "Only bounds of the probabilities can be given.";
     const std::string runs =
         counted(curve.trials, "run") + " of " + counted(static_cast<double>(curve.records), "record");
     if (curve.maximum == Maximum::none)
@@ -204,13 +204,13 @@ void remark(FragilityCurve& curve, bool falls, const Jackknife& without, const C
 
 } // namespace
 
-std::string median_text(const Limits& median, double scale)
+std::optional<std::string> median_text(const Limits& median, double scale)
 {
     const double lower = scale * median.lower, upper = scale * median.upper;
-    return lower > 0 && std::isfinite(upper) ? fmt::format("between {:.4g} and {:.4g}", lower, upper)
-           : lower > 0                       ? fmt::format("above {:.4g}", lower)
-           : std::isfinite(upper)            ? fmt::format("below {:.4g}", upper)
-                                             : std::string();
+    if (lower > 0)
+        return std::isfinite(upper) ? fmt::format("between {:.4g} and {:.4g}", lower, upper)
+                                    : fmt::format("above {:.4g}", lower);
+    return std::isfinite(upper) ? std::optional(fmt::format("below {:.4g}", upper)) : std::nullopt;
 }
 
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options)

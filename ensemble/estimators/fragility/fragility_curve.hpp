@@ -9,6 +9,7 @@
 
 #include "ensemble/estimators/fragility/fragility_data.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,10 +62,10 @@ struct FragilityCurve {
 ///         coefficients
 FragilityCurve fragility_curve(const FragilityData& data, const CurveOptions& options);
 
-/// "between 0.1 and 0.2", "above 0.1", "below 0.2" of the limits of a median without a curve; empty: they bound
-/// nothing.
+/// "between 0.1 and 0.2", "above 0.1", "below 0.2" of the limits of a median without a curve; nullopt if
+/// they bound nothing.
 /// @param scale from their unit to that of the text
-std::string median_text(const Limits& median, double scale = 1);
+std::optional<std::string> median_text(const Limits& median, double scale = 1);
 
 // Test of the form of a fitted curve: a score test that accounts for records, and the sentence that states its result.
 //

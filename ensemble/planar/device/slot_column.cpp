@@ -24,7 +24,7 @@ void write_column(const LaneSet& one, double* column)
     for (std::size_t i = 0; i < state; ++i)
         *column++ = one.model().memory()[i];
     for (std::size_t i = 0; i < formula_rows; ++i) // they lie one behind the other
-        *column++ = one.bases().parameters().cycles_per_step[i];
+        *column++ = one.bases().parameters(0).cycles_per_step[i];
     detail::store_rows(column, 1, 0, SampledMotion{});
     column += sampled_rows;
     detail::store_rows(column, 1, 0, place.watch);
@@ -64,12 +64,12 @@ bool tables_given(const Study& study, const LaneSet::Place& place)
 {
     const BaseMechanisms& base = place.realization.base;
     const bool on_device = !BaseMotion::on_host(study) || BaseMotion::along_shared_samples(study);
-    return !on_device || place.vertical || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
+    return !on_device || place.realization.vertical != nullptr || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
 }
 
 void write_tables(LaneSet& one, std::uint64_t step, double* tables)
 {
-    one.bases().store(0, one.motion(0));
+    one.bases().store(0, one.place(0).motions);
     one.bases().first_step(0) = static_cast<double>(step);
     one.model().fill_tables(one.bases(), one.places());
     const Topology& topology = one.model().topology();

@@ -242,7 +242,7 @@ void SlotSet::close_gaps()
 /// The samples that a slot's base goes along come to the device once, and stay there.
 void SlotSet::keep_samples(int slot)
 {
-    const SampledMotion motion = place(slot).motion.samples();
+    const SampledMotion motion = place(slot).motions[0].samples();
     std::unique_ptr<Memory::Doubles>& kept = own_->samples[motion.sample];
     if (kept)
         return;
@@ -269,7 +269,7 @@ void SlotSet::upload_columns()
     each(changed.size(), [&](std::size_t i) {
         Slot& s = slots_[static_cast<std::size_t>(changed[i])];
         if (sampled) {
-            const SampledMotion motion = s.place.motion.samples();
+            const SampledMotion motion = s.place.motions[0].samples();
             write_samples(memory_.topology, motion, own_->samples.at(motion.sample)->data(), s.column.data());
         }
         std::copy(s.column.begin(), s.column.end(), own_->host_packed.data() + i * rows);
@@ -343,7 +343,7 @@ void SlotSet::leave_device()
     const auto to_lane = [this](Slot& s, const double* column) {
         s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
         s.lane->put(0, std::move(s.place));
-        s.lane->bases().store(0, s.lane->motion(0));
+        s.lane->bases().store(0, s.lane->place(0).motions);
         read_column(*s.lane, column);
         s.place = {};
     };
@@ -389,7 +389,7 @@ void SlotSet::check_stopped_slots()
     take_columns(stopped, [this](Slot& s, const double* column) {
         LaneSet& one = lane();
         one.put(0, std::move(s.place));
-        one.bases().store(0, one.motion(0));
+        one.bases().store(0, one.place(0).motions);
         read_column(one, column);
         one.check(0, check_steps(memory_.topology));
         s.steps = one.steps(0);

@@ -62,11 +62,11 @@ void check(const MechanismRule& rule, const RealizationValues& values, std::size
     std::array<double, most_parameters> at{};
     for (std::size_t p = 0; p < rule.parameters.size(); ++p)
         at[p] = values.of(mechanism, p, place);
-    if (const std::string why = contradiction(rule, at); !why.empty())
+    if (const auto why = contradiction(rule, at))
         throw InputError(fmt::format("mechanisms.{}: in realization {} at {} {}: {}. Change the values, or limit their "
                                      "spread with min and max.",
                                      rule.name, index, rule.place == MechanismPlace::joint ? "joint" : "block", place,
-                                     why));
+                                     *why));
 }
 
 /// What was drawn fits into the blocks.

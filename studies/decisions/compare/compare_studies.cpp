@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace stylobate {
@@ -99,9 +100,9 @@ bool is_fixed(const std::string& key)
                        [&](const std::string& one) { return one.ends_with('.') ? key.starts_with(one) : key == one; });
 }
 
-/// The first key of a kind that is not alike, in the order of the names; empty: there is none.
+/// The first key of a kind that is not alike, in the order of the names; nullopt where all are alike.
 template <class Wanted>
-std::string first_difference(const Keys& base, const Keys& variant, const Wanted& wanted)
+std::optional<std::string> first_difference(const Keys& base, const Keys& variant, const Wanted& wanted)
 {
     Keys all = base;
     all.insert(variant.begin(), variant.end());
@@ -110,7 +111,7 @@ std::string first_difference(const Keys& base, const Keys& variant, const Wanted
         if (wanted(key) && (a == base.end() || b == variant.end() || a->second != b->second))
             return key;
     }
-    return {};
+    return std::nullopt;
 }
 
 std::string value_or_absent(const Keys& keys, const std::string& key)
@@ -153,16 +154,17 @@ void check_comparable(const ResultHeader& base, const std::string& base_name, co
                       const std::string& variant_name)
 {
     const Keys a = keys_of(base, base_name), b = keys_of(variant, variant_name);
-    std::string key;
+    std::optional<std::string> key;
     for (const char* first : {"study.kind", "study.seed", "study.realizations"}) // these name the cause best
-        if (key.empty())
+        if (!key)
             key = first_difference(a, b, [&](const std::string& one) { return one == first; });
-    if (key.empty())
+    if (!key)
         key = first_difference(a, b, is_fixed);
-    if (!key.empty())
+    if (key)
         throw InputError(fmt::format("{0}: {1} {2}, and {3} has {1} {4}.\n  Realizations are compared pair by pair, "
                                      "under the same draws and the same shaking: give both the same value.",
-                                     variant_name, key, value_or_absent(b, key), base_name, value_or_absent(a, key)));
+                                     variant_name, *key, value_or_absent(b, *key), base_name,
+                                     value_or_absent(a, *key)));
     const std::vector<std::string> records = fingerprints(base), others = fingerprints(variant);
     for (std::size_t i = 0; i < std::max(records.size(), others.size()); ++i)
         if (i >= records.size() || i >= others.size() || records[i] != others[i])
@@ -223,10 +225,10 @@ std::vector<std::string> differences_to_know(const ResultHeader& base, const Res
     const auto numeric = [](const std::string& key) {
         return key.starts_with("run.") && key != "run.max_invalid_fraction";
     };
-    if (const std::string key = first_difference(a, b, numeric); !key.empty())
+    if (const std::optional<std::string> key = first_difference(a, b, numeric))
         notes.push_back(fmt::format("The numerics differ ({} {} in the base, {} in the variant): a part of the "
                                     "difference may be theirs.",
-                                    key, value_or_absent(a, key), value_or_absent(b, key)));
+                                    *key, value_or_absent(a, *key), value_or_absent(b, *key)));
     if (base.block_names != variant.block_names)
         notes.push_back(fmt::format("The base has {} blocks, the variant {}: draws of blocks and joints are common "
                                     "where both have one of the same number.",
@@ -247,7 +249,8 @@ Comparison comparison_facts(const Study& base, const ResultHeader& header, const
     comparison.base_toml = header.study_toml;
     comparison.code_version = code_version();
     comparison.level = level;
-    comparison.adjustment = layout.cells == 1 ? "" : layout.groups > 0 ? "holm" : "benjamini-hochberg";
+    if (layout.cells != 1)
+        comparison.adjustment = layout.groups > 0 ? "holm" : "benjamini-hochberg";
     comparison.frequency_hz = header.frequency_hz;
     comparison.pga_m_s2 = header.pga_m_s2;
     comparison.motions = layout.groups;

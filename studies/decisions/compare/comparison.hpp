@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -112,7 +113,7 @@ struct Comparison {
     std::string code_version;
     double level = interval_level;              ///< of intervals and verdicts
     double rate = 0.05;                         ///< of false names among the cells that are named
-    std::string adjustment;                     ///< "benjamini-hochberg" or "holm"; empty: there is one cell
+    std::optional<std::string> adjustment;      ///< "benjamini-hochberg" or "holm"; nullopt: there is one cell
     std::vector<double> frequency_hz, pga_m_s2; ///< axes of a surface
     std::string measure;                        ///< of a fragility study
     std::vector<double> intensity;              ///< its stripes; none of a cloud

@@ -89,8 +89,8 @@ private:
             names += (names.empty() ? "" : ", ") + variant.name;
         page_.paragraph(
             fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
-        if (const std::string conventions = conventions_text_of(c_.base_toml); !conventions.empty())
-            page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, conventions));
+        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
+            page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
                 continue;
@@ -100,8 +100,8 @@ private:
                       : verdict == ChangeVerdict::worse ? "bad"
                                                         : "warn",
                       variant.name, answer_text(c_, variant));
-            if (const std::string harm = harm_text(c_, variant); !harm.empty())
-                page_.note(variant.name + ": " + harm);
+            if (const std::optional<std::string> harm = harm_text(c_, variant))
+                page_.note(variant.name + ": " + *harm);
         }
     }
 

@@ -254,8 +254,8 @@ std::string comparison_text(const Comparison& comparison)
 {
     std::string text = fmt::format("base {}; intervals at {:g} %. {}\n", comparison.base_name, 100 * comparison.level,
                                    common_text(comparison));
-    if (const std::string conventions = conventions_text_of(comparison.base_toml); !conventions.empty())
-        text += "conventions of the base: " + conventions + "\n";
+    if (const std::optional<std::string> conventions = conventions_text_of(comparison.base_toml))
+        text += "conventions of the base: " + *conventions + "\n";
     if (comparison.adaptive_budget > 0)
         text += fmt::format("adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
                             "smaller than {:g}; intervals are valid wherever a cell has stopped\n",
@@ -268,7 +268,7 @@ std::string comparison_text(const Comparison& comparison)
 Json comparison_json(const Comparison& comparison)
 {
     Json json = json_of(comparison, {{"kind", "study_kind"}, "base", "base_results"});
-    json.member("conventions", conventions_text_of(comparison.base_toml))
+    json.member("conventions", conventions_text_of(comparison.base_toml).value_or(""))
         .member("level", comparison.level)
         .member("common", common_text(comparison));
     add_members(json, comparison, {"adjustment", "false_names", "motions", "measure"});
@@ -338,16 +338,16 @@ std::string third_text(const InputDependence& input, std::size_t third)
     }
 }
 
-/// The cells in which it harms, or helps, with the number of them and the one of the largest difference; empty where
+/// The cells in which it harms, or helps, with the number of them and the one of the largest difference; nullopt where
 /// none is named.
-std::string cells_text(const Comparison& c, const VariantComparison& variant, bool worse)
+std::optional<std::string> cells_text(const Comparison& c, const VariantComparison& variant, bool worse)
 {
     const LimitComparison& limit = variant.limits.front();
     if (c.cells() == 1 || !limit.damage)
-        return {};
+        return std::nullopt;
     const std::vector<std::size_t> cells = limit.named(c.rate, worse); // the largest difference first
     if (cells.empty())
-        return {};
+        return std::nullopt;
     const PlaceComparison& most = limit.cells[cells.front()];
     return fmt::format("It {} in {} of {} {} ({}), most at {}: {:.3f} instead of {:.3f}, difference {}.",
                        worse ? "harms" : "helps", cells.size(), limit.cells.size(),
@@ -396,7 +396,7 @@ std::string answer_text(const Comparison& c, const VariantComparison& variant)
     }
 }
 
-std::string harm_text(const Comparison& c, const VariantComparison& variant)
+std::optional<std::string> harm_text(const Comparison& c, const VariantComparison& variant)
 {
     return cells_text(c, variant, true);
 }
@@ -434,9 +434,9 @@ std::vector<std::string> what_would_change_it(const Comparison& c, const Variant
         }
     }
     for (const bool worse : {true, false}) // cells that are not as the answer is
-        if (const std::string cells = cells_text(c, variant, worse);
-            !cells.empty() && answer != (worse ? Sign::more : Sign::less))
-            all.push_back(cells);
+        if (const std::optional<std::string> cells = cells_text(c, variant, worse);
+            cells && answer != (worse ? Sign::more : Sign::less))
+            all.push_back(*cells);
     if (answer == Sign::none)
         all.push_back(more_pairs_text(c, overall));
     if (all.empty())

@@ -8,6 +8,7 @@
 #include "studies/report/json.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,8 @@ std::string common_text(const Comparison& comparison);
 /// difference of -0.043 [-0.060, -0.027] at 95 %. It helps." Of the first limit state.
 std::string answer_text(const Comparison& comparison, const VariantComparison& variant);
 
-/// Where it harms, with the number of cells and the worst one; empty where no cell is named.
-std::string harm_text(const Comparison& comparison, const VariantComparison& variant);
+/// Where it harms, with the number of cells and the worst one; nullopt where no cell is named.
+std::optional<std::string> harm_text(const Comparison& comparison, const VariantComparison& variant);
 
 /// One sentence for each quantity on which the gain depends: "Friction: the difference is -0.08 [-0.10, -0.06] where it
 /// is below 0.65, and -0.01 [-0.03, 0.01] where it is above 0.71 (adjusted p = 1e-5)." Those of an adjusted p-value of

@@ -63,8 +63,8 @@ LawBand band_of(const Comparison& comparison, const std::vector<ContactLaw>& law
         if (law.study) {
             band.laws.push_back(law.name);
             band.words.push_back(law.words);
-            if (!law.note.empty())
-                band.notes.push_back(law.name + ": " + law.note);
+            if (law.note)
+                band.notes.push_back(law.name + ": " + *law.note);
         }
     band.left_out = laws_left_out(laws);
     band.frequency_hz = comparison.frequency_hz;

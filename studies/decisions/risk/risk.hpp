@@ -89,7 +89,7 @@ void visit_fields(std::type_identity<SequenceRisk>, F&& f)
 struct RiskOptions {
     std::vector<double> years = {50, 100};
     double level = 0.9;
-    std::string state; ///< one limit state alone; empty: all
+    std::optional<std::string> state; ///< one limit state alone; nullopt: all
     /// A larger share of the frequency from outside of the range of the runs, or of the hazard's points, gives no
     /// estimate but bounds.
     double most_outside = 0.25;
@@ -132,12 +132,12 @@ struct Risk : RiskFacts {
     const StateRisk& principal() const;
 };
 
-/// Why too much of a frequency comes from outside of the range of the runs, or of the hazard's points; empty: it is
-/// determined.
-std::string why_undetermined(const FrequencyEstimate& estimate, double most_outside);
+/// Why too much of a frequency comes from outside of the range of the runs, or of the hazard's points; nullopt
+/// where it is determined.
+std::optional<std::string> why_undetermined(const FrequencyEstimate& estimate, double most_outside);
 
 /// @throws InputError for a limit state that is asked for and is not among these   @param of "the study"
-void check_state(const std::string& state, const std::vector<std::string>& names, const std::string& of);
+void check_state(const std::optional<std::string>& state, const std::vector<std::string>& names, const std::string& of);
 
 /// Those of an estimate over this hazard, with what a reader must know of the hazard; without a title.
 RiskFacts facts_of(const HazardModel& hazard, const RiskOptions& options);

@@ -55,9 +55,10 @@ StateChange change_of(const Comparison& comparison, const LimitComparison& limit
     wanted.years = options.years;
     found.change = frequency_change(pairs_of(comparison, limit), hazard, wanted);
     for (const auto& [name, of] : {std::pair{"base", &found.change.base}, {"variant", &found.change.variant}})
-        if (const std::string why = why_undetermined(*of, options.most_outside); !why.empty() && found.determined) {
+        if (const std::optional<std::string> why = why_undetermined(*of, options.most_outside);
+            why && found.determined) {
             found.determined = false;
-            found.note = fmt::format("{}: {}", name, why);
+            found.note = fmt::format("{}: {}", name, *why);
         }
     if (found.determined && found.change.few)
         found.note = "Few motions show a change: the limits allow for a further motion that has the largest one.";
@@ -103,7 +104,7 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
         std::vector<std::string> names;
         for (const LimitComparison& limit : variant.limits) {
             names.push_back(limit.name);
-            if (options.state.empty() || options.state == limit.name)
+            if (!options.state || options.state == limit.name)
                 wanted.push_back(&limit);
         }
         check_state(options.state, names, file + " with " + variant.name);

@@ -41,11 +41,10 @@ std::vector<FragilityPoint> share_points(const StateFragility& s)
 /// Says of a state whether too much comes from outside.
 void judge(StateRisk& risk, double most_outside)
 {
-    const std::string why = why_undetermined(risk.estimate, most_outside);
-    if (why.empty())
-        return;
-    risk.determined = false;
-    risk.note = why;
+    if (const std::optional<std::string> why = why_undetermined(risk.estimate, most_outside)) {
+        risk.determined = false;
+        risk.note = *why;
+    }
 }
 
 std::vector<StateRisk> risks_of(const StateFragility& s, const HazardModel& hazard, const RiskOptions& options)
@@ -106,7 +105,7 @@ void check_determined(const Risk& risk)
 
 } // namespace
 
-std::string why_undetermined(const FrequencyEstimate& e, double most_outside)
+std::optional<std::string> why_undetermined(const FrequencyEstimate& e, double most_outside)
 {
     const double outside = e.below + e.above;
     const auto why = [&](double share, const std::string& where, const std::string& remedy) {
@@ -119,16 +118,16 @@ std::string why_undetermined(const FrequencyEstimate& e, double most_outside)
     if (e.beyond_hazard > most_outside)
         return why(e.beyond_hazard, "intensities outside of the hazard's points",
                    "Give the hazard over a wider range.");
-    return "";
+    return std::nullopt;
 }
 
-void check_state(const std::string& state, const std::vector<std::string>& names, const std::string& of)
+void check_state(const std::optional<std::string>& state, const std::vector<std::string>& names, const std::string& of)
 {
-    if (state.empty() || std::ranges::find(names, state) != names.end())
+    if (!state || std::ranges::find(names, *state) != names.end())
         return;
-    const std::string meant = nearest_word(state, names);
-    throw InputError(fmt::format("--state {}: is no limit state of {}; it has {}.{}", state, of, fmt::join(names, ", "),
-                                 meant.empty() ? "" : fmt::format("\n  Did you mean {}?", meant)));
+    const auto meant = nearest_word(*state, names);
+    throw InputError(fmt::format("--state {}: is no limit state of {}; it has {}.{}", *state, of,
+                                 fmt::join(names, ", "), meant ? fmt::format("\n  Did you mean {}?", *meant) : ""));
 }
 
 RiskFacts facts_of(const HazardModel& hazard, const RiskOptions& options)
@@ -145,7 +144,7 @@ Risk risk_of(const Fragility& fragility, const HazardModel& hazard, const RiskOp
     std::vector<std::string> names;
     for (const StateFragility& s : fragility.states) {
         names.push_back(s.state.name);
-        if (options.state.empty() || options.state == s.state.name)
+        if (!options.state || options.state == s.state.name)
             wanted.push_back(&s);
     }
     check_state(options.state, names, "the study");

@@ -192,8 +192,8 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string&
     page.section("The answer");
     page.box(risk.principal().determined ? "good" : "warn", risk.principal().meaning, risk_answer(risk));
     page.paragraph(risk_grounds(risk));
-    if (const std::string conventions = conventions_text_of(risk.study_text); !conventions.empty())
-        page.paragraph("Conventions: " + conventions + ".");
+    if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
+        page.paragraph("Conventions: " + *conventions + ".");
     add_result(risk, page);
     add_parts(risk, page);
     if (risk.sequences)

@@ -238,8 +238,8 @@ std::string risk_text(const Risk& risk)
     std::string text = fmt::format("{}: limit states of {} by the hazard {}, {:g} % intervals\n", risk.title,
                                    risk.fragility_file, hazard_text(risk.hazard), 100 * risk.level);
     text += std::string(as_new_text) + "\n";
-    if (const std::string conventions = conventions_text_of(risk.study_text); !conventions.empty())
-        text += "conventions: " + conventions + "\n";
+    if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
+        text += "conventions: " + *conventions + "\n";
     if (!risk.hazard.fractiles.empty())
         text += "Values are by the best estimate of the hazard; the mean hazard is the mean over its fractiles.\n";
     text += table_text(risk) + parts_text(risk);
@@ -260,7 +260,7 @@ Json risk_json(const Risk& risk)
         .member("site", risk.hazard.site)
         .member("measure", risk.hazard.measure)
         .member("level", risk.level)
-        .member("conventions", conventions_text_of(risk.study_text))
+        .member("conventions", conventions_text_of(risk.study_text).value_or(""))
         .member("states", json_list(risk.states, [&](const StateRisk& s) { return state_json(s, risk); }))
         .member("notes", Json::list(risk.says));
     if (risk.sequences)

@@ -180,9 +180,9 @@ private:
         if (!objective_->is_frequency())
             return;
         const FrequencyEstimate base = objective_->frequency(*base_side_, limit_, layout_);
-        if (const std::string why = why_undetermined(base, RiskOptions{}.most_outside); !why.empty())
+        if (const std::optional<std::string> why = why_undetermined(base, RiskOptions{}.most_outside))
             throw InputError(files_.study, 0,
-                             fmt::format("optimise.hazard: {} of the study as it stands: {}", spec_.minimise, why));
+                             fmt::format("optimise.hazard: {} of the study as it stands: {}", spec_.minimise, *why));
         result_.base_frequency = base.frequency;
     }
 
@@ -223,7 +223,7 @@ private:
                                       change.variant,
                                       {},
                                       std::filesystem::path(points_[i].run->results()).filename().string()});
-            std::string outside;
+            std::optional<std::string> outside;
             double unseen = 0;
             if (objective_->is_frequency()) {
                 const FrequencyEstimate own = objective_->frequency(*points_[i].side, limit_, layout_);

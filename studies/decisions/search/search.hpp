@@ -58,9 +58,9 @@ struct SearchResult {
     PlaceComparison change;                 ///< of that point against the base
     // with a hazard
     RiskNumber base_frequency;
-    ChangeNumber frequency_change; ///< of that point against the base
-    double unseen = 0;             ///< of that point (`FrequencyEstimate::unseen`), in no interval [1/year]
-    std::string outside;           ///< why its frequency is not determined; empty: it is
+    ChangeNumber frequency_change;      ///< of that point against the base
+    double unseen = 0;                  ///< of that point (`FrequencyEstimate::unseen`), in no interval [1/year]
+    std::optional<std::string> outside; ///< why its frequency is not determined; nullopt: it is
     bool is_frequency() const { return !asked.hazard.empty(); }
 };
 

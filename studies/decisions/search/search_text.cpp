@@ -59,8 +59,8 @@ std::string point_text(const SearchResult& r)
     if (r.unseen > 0)
         text += fmt::format(
             "\n    not excluded at intensities where no run reached it, and in no interval: {:.3g} a year", r.unseen);
-    if (!r.outside.empty())
-        text += "\n    " + r.outside;
+    if (r.outside)
+        text += "\n    " + *r.outside;
     return text;
 }
 
@@ -136,7 +136,7 @@ Json search_json(const SearchResult& r)
             .member("frequency_difference_lower", r.frequency_change.fragility.lower)
             .member("frequency_difference_upper", r.frequency_change.fragility.upper)
             .member("unseen", r.unseen)
-            .member("outside", r.outside);
+            .member("outside", r.outside.value_or(""));
     return json;
 }
 

@@ -61,16 +61,17 @@ std::vector<std::string> strings(const KeyReader& keys, std::string_view key)
     return all;
 }
 
-/// A text, or a list of texts that are joined by blanks.
-std::string prose(const KeyReader& keys, std::string_view key)
+/// A text, or a list of texts that are joined by blanks; nullopt where it is absent or has no character.
+std::optional<std::string> prose(const KeyReader& keys, std::string_view key)
 {
     const TomlValue* value = keys.find(key);
-    if (value == nullptr || value->type != Type::array)
-        return keys.text_or_empty(key);
-    std::string text;
-    for (const std::string& part : strings(keys, key))
-        text += (text.empty() ? "" : " ") + part;
-    return text;
+    if (value == nullptr)
+        return std::nullopt;
+    std::string text = value->type != Type::array ? keys.text(key) : "";
+    if (value->type == Type::array)
+        for (const std::string& part : strings(keys, key))
+            text += (text.empty() ? "" : " ") + part;
+    return text.empty() ? std::nullopt : std::optional(text);
 }
 
 /// [from, to], or one number for both, or three and more values.
@@ -170,7 +171,8 @@ std::vector<VariantAxis> read_axes(const KeyReader& keys)
         for (const KeyReader& level : one.tables("levels")) {
             level.allow_only({"name", "set", "only", "also", "law"});
             axis.levels.push_back({level.text("name"), strings(level, "set"), strings(level, "only")});
-            axis.levels.back().law = level.text_or_empty("law");
+            if (level.has("law"))
+                axis.levels.back().law = level.text("law");
             for (const KeyReader& also : level.tables("also")) {
                 also.allow_only({"only", "set"});
                 axis.levels.back().also.push_back({strings(also, "only"), strings(also, "set")});
@@ -204,9 +206,10 @@ Test read_test(const KeyReader& keys, const std::vector<VariantAxis>& axes)
                      "figures"});
     Test test;
     test.id = keys.text("id");
-    test.says = prose(keys, "says");
-    if (test.says.empty())
+    const std::optional<std::string> says = prose(keys, "says");
+    if (!says)
         keys.missing("says", "Give the statement of the paper, in other words.");
+    test.says = *says;
     test.section = keys.text("section");
     test.inference = keys.choice_or("source", source_words, false);
     test.stand_ins = prose(keys, "stand_ins");
@@ -217,8 +220,8 @@ Test read_test(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     if (!keys.has("criterion"))
         keys.missing("criterion", "A claim is decided by a criterion.");
     test.criterion = read_criterion(keys.table("criterion"));
-    const std::string& along = test.criterion.along;
-    if (!along.empty() && axis_index(axes, along) == axes.size())
+    const std::optional<std::string>& along = test.criterion.along;
+    if (along && axis_index(axes, *along) == axes.size())
         keys.table("criterion").refuse("along", "is no axis of this file");
 
     for (const KeyReader& one : keys.tables("ranges")) {
@@ -249,7 +252,7 @@ Figure read_figure(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     Figure figure;
     figure.name = keys.text("name");
     figure.title = keys.text("title");
-    figure.caption = prose(keys, "caption");
+    figure.caption = prose(keys, "caption").value_or("");
     figure.x = keys.text("x");
     if (figure.x != "frequency" && figure.x != "pga" && axis_index(axes, figure.x) == axes.size())
         keys.refuse("x", "is neither frequency nor pga nor an axis of this file");
@@ -294,15 +297,15 @@ std::string measure_text(const Measure& m)
     return text;
 }
 
-/// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; empty for everything.
-std::string window_text(const Window& w, const char* unit)
+/// "at 2.15 m/s2", "from 1 to 8 Hz", "above 4 Hz"; nullopt for everything.
+std::optional<std::string> window_text(const Window& w, const char* unit)
 {
     const std::string of = w.over_f1 ? "of the first natural frequency" : unit;
     const bool open_end = std::isinf(w.to);
     if (!w.values.empty())
         return fmt::format("at {:g} {}", fmt::join(w.values, ", "), of);
     if (open_end)
-        return w.from > 0 ? fmt::format("from {:g} {} on", w.from, of) : "";
+        return w.from > 0 ? std::optional(fmt::format("from {:g} {} on", w.from, of)) : std::nullopt;
     if (w.from == w.to)
         return fmt::format("at {:g} {}", w.from, of);
     return w.from > 0 ? fmt::format("from {:g} to {:g} {}", w.from, w.to, of) : fmt::format("up to {:g} {}", w.to, of);
@@ -363,12 +366,12 @@ std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const
     return settings;
 }
 
-std::string law_of(const std::vector<VariantAxis>& axes, const Levels& levels)
+std::optional<std::string> law_of(const std::vector<VariantAxis>& axes, const Levels& levels)
 {
     for (std::size_t i = 0; i < axes.size(); ++i)
-        if (const Level& level = axes[i].levels[levels[i]]; !level.law.empty())
+        if (const Level& level = axes[i].levels[levels[i]]; level.law)
             return level.law;
-    return {};
+    return std::nullopt;
 }
 
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels)
@@ -435,32 +438,32 @@ std::string criterion_text(const ClaimFile& file, const Test& test)
     case Criterion::Kind::order:
         if (c.way == Criterion::Way::either)
             text = fmt::format("{} differs between levels of {}, in at least one cell", measure_text(c.measure),
-                               file.axes[axis_index(file.axes, c.along)].label);
+                               file.axes[axis_index(file.axes, *c.along)].label);
         else
             text = fmt::format("{} {} from each level of {} to the next, in {}", measure_text(c.measure), way,
-                               file.axes[axis_index(file.axes, c.along)].label,
+                               file.axes[axis_index(file.axes, *c.along)].label,
                                c.any ? "at least one cell and in no cell in the opposite direction" : "every cell");
         break;
     case Criterion::Kind::paired:
         text =
             fmt::format("{} {} from the first level of {} to the last, by pairs of realizations with the same draws, "
                         "over the cells in which 5 to 95 % of the two levels together do",
-                        measure_text(c.measure), way, file.axes[axis_index(file.axes, c.along)].label);
+                        measure_text(c.measure), way, file.axes[axis_index(file.axes, *c.along)].label);
         break;
     case Criterion::Kind::same:
         text =
             fmt::format("the most frequent response mode{} is the same for every {}, in the cells in which something "
                         "moves",
                         c.measure.given ? fmt::format(" (given that it {})", event_text(*c.measure.given)) : "",
-                        file.axes[axis_index(file.axes, c.along)].label);
+                        file.axes[axis_index(file.axes, *c.along)].label);
         break;
     }
     if (!of_onset)
-        if (const std::string where = window_text(c.pga, "m/s²"); !where.empty())
-            text += ", " + where;
+        if (const std::optional<std::string> where = window_text(c.pga, "m/s²"))
+            text += ", " + *where;
     if (test.ranges.size() == 1) {
-        if (const std::string where = window_text(test.ranges.front().frequency, "Hz"); !where.empty())
-            text += ", " + where;
+        if (const std::optional<std::string> where = window_text(test.ranges.front().frequency, "Hz"))
+            text += ", " + *where;
     } else {
         text += "; evaluated separately:";
         for (std::size_t i = 0; i < test.ranges.size(); ++i)
@@ -482,7 +485,7 @@ ClaimFile parse_claims(const std::string& text, const std::string& name)
     ClaimFile file;
     file.file = name;
     file.name = std::filesystem::path(name).stem().string();
-    file.what = prose(keys, "what");
+    file.what = prose(keys, "what").value_or("");
     file.axes = read_axes(keys);
     for (const KeyReader& one : keys.tables("axis"))
         for (const KeyReader& level : one.tables("levels")) {

@@ -86,11 +86,11 @@ struct Criterion {
     Kind kind = Kind::bound;
     Measure measure;
     Window pga;
-    std::optional<double> at_least; ///< bound
-    std::optional<double> at_most;  ///< bound
-    bool any = false;               ///< bound, order: one cell is enough
-    Way way = Way::falls;           ///< trend, order, paired
-    std::string along;              ///< order, paired, same: name of the axis
+    std::optional<double> at_least;   ///< bound
+    std::optional<double> at_most;    ///< bound
+    bool any = false;                 ///< bound, order: one cell is enough
+    Way way = Way::falls;             ///< trend, order, paired
+    std::optional<std::string> along; ///< order, paired, same: name of the axis
 };
 
 /// Every criterion is judged at these margins. A difference counts where it certainly exceeds the margin: a part of the
@@ -110,7 +110,7 @@ struct Level {
     std::vector<std::string> set;  ///< "KEY=VALUE", as on the command line
     std::vector<std::string> only; ///< "AXIS=LEVEL": it is combined with these levels alone
     std::vector<Together> also = {};
-    std::string law = {}; ///< "rigid", "ends" ...: the study under this contact law (contact_laws.hpp)
+    std::optional<std::string> law = {}; ///< "rigid", "ends" ...: the study under this contact law (contact_laws.hpp)
 };
 
 /// One way in which the variants differ.
@@ -128,22 +128,23 @@ struct Range {
 
 /// Words for the page, chosen by the verdict; `claim_page.hpp` lists their fields in braces.
 struct Reasons {
-    std::string confirmed, refuted, depends, untestable;
+    std::optional<std::string> confirmed, refuted, depends, untestable;
 };
 
 struct Test {
-    std::string id;            ///< "P11", "P14a"
-    std::string says;          ///< the statement in our words
-    std::string section;       ///< of the paper, or its figure or table
-    bool inference = false;    ///< it follows from the paper, which does not say it
-    std::string stand_ins;     ///< what of the paper's inputs is missing and replaced
-    std::string after_trials;  ///< what of the criterion was chosen after trial runs
-    std::string contradiction; ///< the inconsistency within the paper
+    std::string id;                           ///< "P11", "P14a"
+    std::string says;                         ///< the statement in our words
+    std::string section;                      ///< of the paper, or its figure or table
+    bool inference = false;                   ///< it follows from the paper, which does not say it
+    std::optional<std::string> stand_ins;     ///< what of the paper's inputs is missing and replaced
+    std::optional<std::string> after_trials;  ///< what of the criterion was chosen after trial runs
+    std::optional<std::string> contradiction; ///< the inconsistency within the paper
     Criterion criterion;
     std::vector<Range> ranges;     ///< at least one
     std::vector<std::string> only; ///< "AXIS=LEVEL": the variants that are judged; several of one axis: any of them
-    std::string untestable;        ///< why no verdict can be given, whatever the numbers are
-    std::string impossible;        ///< why it cannot hold in all variants: a verdict "confirmed" is then withheld
+    std::optional<std::string> untestable; ///< why no verdict can be given, whatever the numbers are
+    std::optional<std::string>
+        impossible; ///< why it cannot hold in all variants: a verdict "confirmed" is then withheld
     Reasons reasons;
     std::vector<std::string> figures; ///< names of figures, of any claim file
 };
@@ -186,8 +187,8 @@ bool picked(const std::vector<VariantAxis>& axes, const Levels& levels, const st
 /// All settings of a combination, axis by axis.
 std::vector<std::string> settings_of(const std::vector<VariantAxis>& axes, const Levels& levels);
 
-/// The contact law that a level names; empty: that of the study.
-std::string law_of(const std::vector<VariantAxis>& axes, const Levels& levels);
+/// The contact law that a level names; nullopt where the study has its own.
+std::optional<std::string> law_of(const std::vector<VariantAxis>& axes, const Levels& levels);
 
 /// "K_N 1e8, smooth start": the levels in words; an axis with one level is left out.
 std::string variant_text(const std::vector<VariantAxis>& axes, const Levels& levels);

@@ -60,7 +60,7 @@ std::string value_of(const std::string& name, const std::string& words, const Re
     }
     if (name == "f1" || name == "rigid") {
         for (const Sample& sample : *r.samples)
-            if (sample.why_not.empty() && picked(r.file->axes, sample.levels, split_words(words)))
+            if (!sample.why_not && picked(r.file->axes, sample.levels, split_words(words)))
                 return fmt::format("{:.4g}", name == "f1" ? sample.f1_hz : sample.rigid_m_s2);
         return "(not run)";
     }
@@ -87,7 +87,7 @@ std::string verdict_text(const Result& r)
         else if (!on.empty())
             text += fmt::format(" on {}", fmt::join(on, ", "));
     }
-    return text + (r.test->stand_ins.empty() ? "" : ", with stand-ins");
+    return text + (r.test->stand_ins ? ", with stand-ins" : "");
 }
 
 /// What the verdict is at each margin.
@@ -114,8 +114,8 @@ std::string why_not_run(const Result& r)
 {
     std::set<std::string> reasons;
     for (const Sample& sample : *r.samples)
-        if (!sample.why_not.empty())
-            reasons.insert(sample.why_not);
+        if (sample.why_not)
+            reasons.insert(*sample.why_not);
     return reasons.empty() ? "no variant was run" : fmt::format("{}", fmt::join(reasons, "; "));
 }
 
@@ -124,20 +124,20 @@ std::string reason_text(const Result& r)
     const Reasons& reasons = r.test->reasons;
     switch (r.verdict.judgement) {
     case Judgement::confirmed:
-        return filled(reasons.confirmed.empty() ? "It holds in all the decided cases." : reasons.confirmed, r);
+        return filled(reasons.confirmed.value_or("It holds in all the decided cases."), r);
     case Judgement::refuted:
-        return filled(reasons.refuted.empty() ? "It fails in all the decided cases." : reasons.refuted, r);
+        return filled(reasons.refuted.value_or("It fails in all the decided cases."), r);
     case Judgement::depends:
         if (r.verdict.tie)
-            return filled("The numbers are too close to separate. " + reasons.untestable, r);
-        return filled(reasons.depends.empty() ? "It {split}." : reasons.depends, r);
+            return filled("The numbers are too close to separate. " + reasons.untestable.value_or(""), r);
+        return filled(reasons.depends.value_or("It {split}."), r);
     case Judgement::untestable: {
-        if (!r.test->untestable.empty())
-            return filled(r.test->untestable + " " + reasons.untestable, r);
-        return filled(
-            "The criterion was met in all the decided cases, but this is physically impossible: " + r.test->impossible +
-                " The criterion or the model is in error, and the claim is not confirmed.",
-            r);
+        if (r.test->untestable)
+            return filled(*r.test->untestable + " " + reasons.untestable.value_or(""), r);
+        return filled("The criterion was met in all the decided cases, but this is physically impossible: " +
+                          *r.test->impossible +
+                          " The criterion or the model is in error, and the claim is not confirmed.",
+                      r);
     }
     case Judgement::not_run:
         break;
@@ -194,10 +194,10 @@ std::string runs_table(const std::vector<Result>& results)
         std::set<std::string> versions;
         for (const Sample& sample : *r->samples) {
             invalid += sample.invalid;
-            run += sample.why_not.empty();
+            run += !sample.why_not;
             for (const auto& cell : sample.cells)
                 valid += cell.size();
-            if (sample.why_not.empty())
+            if (!sample.why_not)
                 versions.insert(sample.version);
         }
         table += markdown_row("`{}.toml` | {} | {} of {} | {} | {} | {}", name, r->file->what, run, r->samples->size(),
@@ -213,14 +213,13 @@ std::string section(const Result& r, const std::string& images, std::map<std::st
     std::string text = fmt::format("## {}\n\n**{}, section {}.** {}\n\n", test.id,
                                    test.inference ? "Inferred from the paper" : "The paper, in our words", test.section,
                                    filled(test.says, r));
-    if (!test.contradiction.empty())
-        text += fmt::format("**Inconsistency.** {}\n\n", filled(test.contradiction, r));
-    if (!test.stand_ins.empty())
-        text += fmt::format("**Stand-ins.** {}\n\n", filled(test.stand_ins, r));
-    text +=
-        fmt::format("**Criterion** (`{}.toml`). {}{}{}\n\n", r.file->name,
-                    test.untestable.empty() ? "" : "For information only: ", criterion_text(*r.file, test),
-                    test.after_trials.empty() ? "" : fmt::format(" Chosen after trial runs: {}", test.after_trials));
+    if (test.contradiction)
+        text += fmt::format("**Inconsistency.** {}\n\n", filled(*test.contradiction, r));
+    if (test.stand_ins)
+        text += fmt::format("**Stand-ins.** {}\n\n", filled(*test.stand_ins, r));
+    text += fmt::format("**Criterion** (`{}.toml`). {}{}{}\n\n", r.file->name,
+                        test.untestable ? "For information only: " : "", criterion_text(*r.file, test),
+                        test.after_trials ? fmt::format(" Chosen after trial runs: {}", *test.after_trials) : "");
     text += fmt::format("**Verdict: {}** ({}). {}\n\n", verdict_text(r), margins_text(r.verdict), reason_text(r));
     if (!r.cases.front().empty())
         text += case_table(r) + "\n";
@@ -262,7 +261,7 @@ std::string distinguishing(const ClaimFile& file, const Figure& figure, const st
     for (std::size_t i = 0; i < file.axes.size(); ++i) {
         std::set<std::size_t> seen;
         for (const Sample& sample : samples)
-            if (sample.why_not.empty() && picked(file.axes, sample.levels, figure.only))
+            if (!sample.why_not && picked(file.axes, sample.levels, figure.only))
                 seen.insert(sample.levels[i]);
         if (seen.size() > 1 && file.axes[i].name != figure.x)
             text += (text.empty() ? "" : ", ") + file.axes[i].label + ' ' + file.axes[i].levels[levels[i]].name;
@@ -469,8 +468,8 @@ std::string claims_page(std::vector<Result> results, const std::string& images, 
 
     page += "\n## Inconsistencies in the paper\n\n";
     for (const Result& r : results)
-        if (!r.test->contradiction.empty())
-            page += fmt::format("- {}: {}\n", r.test->id, filled(r.test->contradiction, r));
+        if (r.test->contradiction)
+            page += fmt::format("- {}: {}\n", r.test->id, filled(*r.test->contradiction, r));
     page += "\n";
     std::map<std::string, std::string> shown;
     for (const Result& r : results)
@@ -494,7 +493,7 @@ std::vector<Curve> curves_of(const ClaimFile& file, const Figure& figure, const 
     const std::size_t axis = axis_index(file.axes, figure.x);
     for (const Measure& measure : figure.measures)
         for (const Sample& sample : samples) {
-            if (!sample.why_not.empty() || !picked(file.axes, sample.levels, figure.only))
+            if (sample.why_not || !picked(file.axes, sample.levels, figure.only))
                 continue;
             const bool of_onset = measure.kind == Measure::Kind::onset;
             const std::string name = joined(distinguishing(file, figure, samples, sample.levels),

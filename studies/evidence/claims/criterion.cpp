@@ -335,7 +335,7 @@ private:
                 text += fmt::format("{}{}: {} {}", text.empty() ? "" : "; ", level_name(*group[k]),
                                     event_text(all[k].event), number_text({}, all[k].share));
             }
-            if (found.number_text.empty() || !alike) {
+            if (compared == 1 || !alike) {
                 found.number = all.front().share;
                 found.number_text = text + at(*group.front(), cell);
             }
@@ -372,7 +372,7 @@ private:
 
     std::string level_name(const Sample& sample) const
     {
-        const std::size_t i = axis_index(file_.axes, c_.along);
+        const std::size_t i = axis_index(file_.axes, *c_.along);
         return file_.axes[i].levels[sample.levels[i]].name;
     }
 
@@ -387,10 +387,10 @@ private:
 std::vector<Case> judge(const ClaimFile& file, const Test& test, const std::vector<Sample>& samples, double margin)
 {
     // groups of variants that differ in the compared axis alone; without one, each variant is a group
-    const std::size_t along = axis_index(file.axes, test.criterion.along);
+    const std::size_t along = test.criterion.along ? axis_index(file.axes, *test.criterion.along) : file.axes.size();
     std::vector<std::vector<const Sample*>> groups;
     for (const Sample& sample : samples) {
-        if (!sample.why_not.empty() || !picked(file.axes, sample.levels, test.only))
+        if (sample.why_not || !picked(file.axes, sample.levels, test.only))
             continue;
         const auto is_of = [&](const std::vector<const Sample*>& group) {
             for (std::size_t i = 0; i < file.axes.size(); ++i)

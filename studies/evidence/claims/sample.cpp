@@ -219,21 +219,22 @@ std::vector<std::string> record_setting(const Study& study, const RunPlace& plac
 }
 
 /// The study of a variant, under the contact law that its levels name.
-LoadedStudy load(const std::string& file, const std::vector<std::string>& settings, const std::string& law)
+LoadedStudy load(const std::string& file, const std::vector<std::string>& settings,
+                 const std::optional<std::string>& law)
 {
-    if (law.empty())
+    if (!law)
         return LoadedStudy::from_file(file, settings);
     for (ContactLaw& one : contact_laws(read_study(file, settings)))
         if (one.name == law) {
             if (!one.study)
-                throw InputError(file, 0, fmt::format("law = \"{}\" does not apply: {}", law, one.why_not));
+                throw InputError(file, 0, fmt::format("law = \"{}\" does not apply: {}", *law, one.why_not));
             Motions motions = motions_of(*one.study);
             return LoadedStudy(Experiment(std::move(*one.study), std::move(motions)));
         }
     throw InputError(file, 0,
                      fmt::format("law = \"{}\" is no contact law.\n  Known: softer, stiffer, rigid, ends, "
                                  "centroid.",
-                                 law));
+                                 *law));
 }
 
 /// @pre the rows are of this study; invalid ones are counted and left out

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,8 @@ struct Sample {
     std::vector<double> pga_m_s2;                ///< (np)
     std::vector<std::vector<Observation>> cells; ///< (nf x np) valid realizations
     std::uint64_t invalid = 0;
-    std::string version; ///< of the code that computed it
-    std::string why_not; ///< why it was not run; empty if it was
+    std::string version;                ///< of the code that computed it
+    std::optional<std::string> why_not; ///< why it was not run; nullopt if it was
 
     const std::vector<Observation>& cell(std::size_t f, std::size_t p) const { return cells[f * pga_m_s2.size() + p]; }
 };

@@ -194,7 +194,7 @@ Verdict verdict_of(const ClaimFile& file, const Test& test, const std::array<std
     };
     if (all(Outcome::none)) {
         verdict.judgement = Judgement::not_run;
-    } else if (!test.untestable.empty() || (all(Outcome::holds) && !test.impossible.empty())) {
+    } else if (test.untestable || (all(Outcome::holds) && test.impossible)) {
         verdict.judgement = Judgement::untestable;
     } else if (all(Outcome::holds) || all(Outcome::fails)) {
         verdict.judgement = all(Outcome::holds) ? Judgement::confirmed : Judgement::refuted;

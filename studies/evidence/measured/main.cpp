@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 namespace {
 
@@ -28,7 +29,8 @@ struct Options {
     PagePlace place;
     int boulder_test = 0;      ///< whose motion is to be written
     std::vector<double> pulse; ///< distance and velocity of the one that is to be written
-    fs::path to;
+    std::optional<fs::path> to;
+    std::optional<fs::path> studies; ///< nullopt: the folder of the pages
     std::vector<std::string> names;
     Machine machine;
     bool quiet = false;
@@ -55,12 +57,12 @@ void write_motion(const Motion& motion, const fs::path& file)
 
 int write_one_motion(const Options& o)
 {
-    if (o.to.empty())
+    if (!o.to)
         throw InputError("--to FILE is missing: where the motion is to be written");
     if (!o.pulse.empty()) {
         if (!(o.pulse[0] > 0 && o.pulse[1] > 0))
             throw InputError("--double-pulse BD V: the distance [m] and the velocity [m/s] must be above 0");
-        write_motion(base_motion_of({o.pulse[0], o.pulse[1], false}, PulsedBlock{}.pulse_s), o.to);
+        write_motion(base_motion_of({o.pulse[0], o.pulse[1], false}, PulsedBlock{}.pulse_s), *o.to);
         return exit_done;
     }
     const BoulderData data = read_boulders(o.place.data / "rock_shake_table");
@@ -70,7 +72,7 @@ int write_one_motion(const Options& o)
         throw InputError(fmt::format(
             "--boulder-motion {}: the table's motion in this test was not measured, or is too weak to move the boulder",
             o.boulder_test));
-    write_motion(test->motion, o.to);
+    write_motion(test->motion, *o.to);
     return exit_done;
 }
 
@@ -80,10 +82,10 @@ int run(Options& o)
         return write_one_motion(o);
     o.place.data = fs::absolute(o.place.data);
     o.place.docs = fs::absolute(o.place.docs);
-    o.place.studies = o.place.studies.empty() ? o.place.docs : fs::absolute(o.place.studies);
+    o.place.studies = o.studies ? fs::absolute(*o.studies) : o.place.docs;
     o.place.run = {o.machine.isa(), o.machine.thread_count()};
-    if (!o.place.predict.empty())
-        o.place.predict = fs::absolute(o.place.predict);
+    if (o.place.predict)
+        o.place.predict = fs::absolute(*o.place.predict);
     o.place.quiet = o.quiet;
     for (const PageCase& c : chosen(page_cases, o.names, "--case {}: unknown case")) {
         if (!fs::is_directory(o.place.data / c.folder)) {
@@ -108,7 +110,7 @@ int main(int argc, char** argv)
     o.place.docs = "docs/measured";
     app.add_option("DATA_DIR", o.place.data, "folder of the measured data")->required();
     app.add_option("-o,--output", o.place.docs, "folder of the pages")->capture_default_str();
-    app.add_option("--studies", o.place.studies, "folder of the study files of the fitted models [that of the pages]");
+    app.add_option("--studies", o.studies, "folder of the study files of the fitted models [that of the pages]");
     app.add_option("--case", o.names, "names of the cases to run (default: all)")->delimiter(',');
     app.add_option("--boulder-motion", o.boulder_test, "writes the table's motion in this boulder test, and no page");
     app.add_option("--double-pulse", o.pulse, "writes the base motion over this distance [m] at this velocity [m/s]")

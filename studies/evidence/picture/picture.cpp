@@ -44,7 +44,7 @@ std::string plotted(const std::string& name, const Series& s, std::size_t k)
 {
     const Style& style = styles[(s.colour >= 0 ? static_cast<std::size_t>(s.colour) : k) % styles.size()];
     const char* axes = s.right ? " axes x1y2" : "";
-    const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_text(s.title);
+    const std::string title = s.title ? "title " + gnuplot_text(*s.title) : "notitle";
     if (s.line)
         return fmt::format("${} using 1:2{} with lines linecolor rgb '{}' linewidth 1.4 {}", name, axes, style.colour,
                            title);
@@ -60,11 +60,11 @@ constexpr const char* frame = "set border linewidth 0.7\nset grid linewidth 0.4 
 } // namespace
 
 std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
-                   const std::string& key, const PictureAxis& right)
+                   const std::string& key, const std::optional<PictureAxis>& right)
 {
     std::string script = frame + axis("x", x) + axis("y", y) + fmt::format("set key {} font ',15'\n", key);
-    if (!right.label.empty())
-        script += "set ytics nomirror\n" + axis("y2", right);
+    if (right)
+        script += "set ytics nomirror\n" + axis("y2", *right);
     std::string plot;
     for (std::size_t k = 0; k < series.size(); ++k) {
         const std::string name = fmt::format("s{}", k);

@@ -3,6 +3,7 @@
 
 #include "io/plots/gnuplot.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct PictureAxis {
 };
 
 struct Series {
-    std::string title;
+    std::optional<std::string> title; ///< in the legend; nullopt: it is not listed
     std::vector<double> x = {}, y = {};
     bool line = false;                       ///< joined, without marks; else marks alone
     std::vector<double> low = {}, high = {}; ///< ends of error bars, or empty
@@ -26,10 +27,10 @@ struct Series {
 };
 
 /// Curves and marks over one another.
-/// @param right axis of the series that use it
+/// @param right axis of the series that use it; nullopt: none does
 /// @param key gnuplot's place of the legend
 std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
-                   const std::string& key = "top right", const PictureAxis& right = {});
+                   const std::string& key = "top right", const std::optional<PictureAxis>& right = std::nullopt);
 
 /// Cells of a grid in the colours of their kinds, with curves over them.
 /// @param kind (y.size() x x.size()) index into `kinds`, row by row

@@ -23,7 +23,7 @@ std::string error_curves(const std::vector<Convergence>& convergences)
     std::vector<Series> lines, marks;
     for (const Convergence& c : convergences) {
         Series measured{fmt::format("{} (slope {:.2f})", c.quantity, c.order), {}, {}, false, {}, {}};
-        Series fitted{"", c.at, {}, true, {}, {}};
+        Series fitted{std::nullopt, c.at, {}, true, {}, {}};
         double level = 0;
         for (std::size_t i = 0; i < c.at.size(); ++i) {
             const double error = std::fabs(c.value[i] - c.exact);
@@ -119,8 +119,8 @@ std::string section(const RunCase& run, const std::string& images)
     const Case& c = run.the_case;
     std::string text = fmt::format("### {}: {}\n\n{}\n\n*Oracle:* {} *Tolerance:* {}\n\n", c.name,
                                    run.passed() ? "passed" : "failed", c.compares, c.oracle, c.tolerance);
-    if (!run.error.empty())
-        return text + fmt::format("The case could not be computed: {}\n\n", run.error);
+    if (run.error)
+        return text + fmt::format("The case could not be computed: {}\n\n", *run.error);
     text += table(run.finding.checks);
     for (const Convergence& shown : run.finding.convergences)
         text += table(shown);

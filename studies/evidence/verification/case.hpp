@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,8 +99,8 @@ Cases all_cases();
 struct RunCase {
     Case the_case;
     Finding finding;
-    std::string error; ///< what was thrown, if something was: then it has failed
-    bool passed() const { return error.empty() && finding.passed(); }
+    std::optional<std::string> error; ///< what was thrown: then it has failed; nullopt: nothing was
+    bool passed() const { return !error && finding.passed(); }
 };
 
 /// Runs the cases, several at a time; results in their order.

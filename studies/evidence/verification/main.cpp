@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,10 @@ std::string processor()
     return "unknown processor";
 }
 
-int run(const std::vector<std::string>& names, const std::filesystem::path& out, std::filesystem::path images)
+int run(const std::vector<std::string>& names, const std::optional<std::filesystem::path>& out,
+        const std::optional<std::filesystem::path>& images)
 {
     const Cases cases = chosen(all_cases(), names, "'{}' is not a verification case");
-    if (images.empty())
-        images = out.parent_path() / "images" / "verification";
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<RunCase> runs = run_cases(cases);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -45,16 +45,18 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
             if (!c.passed())
                 fmt::print("  {}: expected {:.9g}, measured {:.9g}, tolerance {:.2g}\n", c.what, c.expected, c.measured,
                            c.tolerance);
-        if (!r.error.empty())
-            fmt::print("  {}\n", r.error);
+        if (r.error)
+            fmt::print("  {}\n", *r.error);
     }
-    if (!out.empty()) {
-        std::filesystem::create_directories(images);
-        draw(runs, images);
+    if (out) {
+        const std::filesystem::path beside = out->parent_path(),
+                                    to = images.value_or(beside / "images" / "verification");
+        std::filesystem::create_directories(to);
+        draw(runs, to);
         const std::string made_by =
             fmt::format("Version {}, {}, {}.", code_version(), processor(), to_string(best_isa()));
-        write_whole(out, page(runs, images.lexically_relative(out.parent_path()).generic_string() + "/", made_by));
-        fmt::print("{}\n", out.string());
+        write_whole(*out, page(runs, to.lexically_relative(beside).generic_string() + "/", made_by));
+        fmt::print("{}\n", out->string());
     }
     fmt::print("{} cases in {:.0f} s\n", runs.size(), seconds);
     return passed ? 0 : 1;
@@ -65,7 +67,7 @@ int run(const std::vector<std::string>& names, const std::filesystem::path& out,
 int main(int argc, char** argv)
 {
     CLI::App app("Runs the verification cases and, with --output, writes their page.");
-    std::filesystem::path out, images;
+    std::optional<std::filesystem::path> out, images;
     std::vector<std::string> names;
     app.add_option("-o,--output", out, "the page to write (Markdown)");
     app.add_option("--images", images, "folder for the pictures [images/verification beside the page]");

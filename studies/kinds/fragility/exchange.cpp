@@ -45,8 +45,8 @@ FragilityValue value_of(const CurveEstimate& e)
 /// In OpenQuake's unit of the measure.
 std::string median_bounds(const Limits& median, const std::string& measure)
 {
-    const std::string bounds = median_text(median, per_si_unit(measure));
-    return bounds.empty() ? "no bounds of the median" : "median " + bounds + " " + openquake_unit(measure);
+    const auto bounds = median_text(median, per_si_unit(measure));
+    return bounds ? "median " + *bounds + " " + openquake_unit(measure) : "no bounds of the median";
 }
 
 FragilityFunction lognormal(const Fragility& f, const std::vector<const StateFragility*>& states)

@@ -25,11 +25,11 @@ std::size_t motion_of(const std::vector<std::string>& names, const std::string& 
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
     if (error == std::errc{} && end == wanted.data() + wanted.size() && number < names.size())
         return number;
-    const std::string meant = nearest_word(wanted, names);
+    const auto meant = nearest_word(wanted, names);
     throw InputError(fmt::format("--motion {}: {} has {} motions, by name or by number from 0 to {}.\n  {}", wanted,
                                  results, names.size(), names.size() - 1,
-                                 meant.empty() ? fmt::format("The first is '{}'.", names.front())
-                                               : fmt::format("Did you mean '{}'?", meant)));
+                                 meant ? fmt::format("Did you mean '{}'?", *meant)
+                                       : fmt::format("The first is '{}'.", names.front())));
 }
 
 } // namespace

@@ -110,8 +110,8 @@ std::string fragility_text(const Fragility& f)
             text += fmt::format("; median {} ({}), dispersion {} ({})", number(s.curve.median.value),
                                 interval(s.curve.median.records), number(s.curve.dispersion.value),
                                 interval(s.curve.dispersion.records));
-        else if (const std::string median = median_text(s.curve.median.records); !median.empty())
-            text += "; no curve, median " + median;
+        else if (const auto median = median_text(s.curve.median.records))
+            text += "; no curve, median " + *median;
         text += "\n";
         for (const std::string& remark : remarks(s))
             text += fmt::format("      {}\n", remark);
@@ -268,7 +268,7 @@ void fragility_section(const Fragility& f, HtmlPage& page)
             row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
                                    number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
         else
-            row.insert(row.end(), {"no curve", median_text(s.curve.median.records), "", ""});
+            row.insert(row.end(), {"no curve", median_text(s.curve.median.records).value_or(""), "", ""});
         table.rows.push_back(std::move(row));
     }
     page.table(table);

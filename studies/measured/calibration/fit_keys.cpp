@@ -155,9 +155,9 @@ std::vector<ContactForm> fitted_forms(const std::vector<std::string>& words)
         }
         if (found)
             continue;
-        const std::string meant = nearest_word(word, known);
+        const auto meant = nearest_word(word, known);
         throw InputError(fmt::format("--form {}: it is no contact form; give {}.{}", word, fmt::join(known, ", "),
-                                     meant.empty() ? "" : "\n  Did you mean " + meant + "?"));
+                                     meant ? "\n  Did you mean " + *meant + "?" : ""));
     }
     return forms;
 }

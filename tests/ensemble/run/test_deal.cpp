@@ -255,8 +255,9 @@ TEST(Deal, PortionsShrinkWithWhatIsLeft)
 TEST(Ranks, TheFirstThatSaysSomethingIsHeard)
 {
     ThreadRanks(4).run([](Ranks& ranks) {
-        EXPECT_EQ(first_said(ranks, ranks.rank() < 2 ? "" : std::to_string(ranks.rank())), "2");
-        EXPECT_EQ(first_said(ranks, ""), "");
+        EXPECT_EQ(first_said(ranks, ranks.rank() < 2 ? std::nullopt : std::optional(std::to_string(ranks.rank()))),
+                  "2");
+        EXPECT_EQ(first_said(ranks, std::nullopt), std::nullopt);
         EXPECT_FALSE(all_agree(&ranks, ranks.rank() != 3));
         EXPECT_TRUE(all_agree(&ranks, true));
     });

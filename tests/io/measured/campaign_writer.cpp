@@ -143,19 +143,29 @@ void write_measured_csv(const Campaign& campaign, const fs::path& folder)
     }
 }
 
+/// In 32 bits with a sign, as other programs write it.
+void write_whole(hid_t object, const std::string& name, int value)
+{
+    const hdf5::Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const hdf5::Handle attribute(H5Acreate2(object, name.c_str(), H5T_STD_I32LE, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                                 H5Aclose);
+    if (H5Awrite(attribute.id(), H5T_NATIVE_INT, &value) < 0)
+        throw hdf5::Error("cannot write the attribute '" + name + "'");
+}
+
 void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
 {
     const hdf5::Handle group = hdf5::create_group(runs, run.name);
-    hdf5::write_integer(group.id(), "motion_id", run.motion_id);
-    hdf5::write_integer(group.id(), "repeat", run.repeat);
+    write_whole(group.id(), "motion_id", run.motion_id);
+    write_whole(group.id(), "repeat", run.repeat);
     if (!run.kind.empty())
         hdf5::write_text(group.id(), "kind", run.kind);
     if (run.rate_hz != 0)
         hdf5::write_real(group.id(), "rate_hz", run.rate_hz);
     if (run.run_order)
-        hdf5::write_integer(group.id(), "run_order", *run.run_order);
+        write_whole(group.id(), "run_order", *run.run_order);
     if (run.collapsed)
-        hdf5::write_integer(group.id(), "collapsed", *run.collapsed ? 1 : 0);
+        write_whole(group.id(), "collapsed", *run.collapsed ? 1 : 0);
     hdf5::write_real(group.id(), "collapse_time_s", run.collapse_time_s);
     if (run.time_s.empty())
         return;
@@ -205,7 +215,7 @@ void write_measured_hdf5(const Campaign& campaign, const fs::path& path)
     try {
         hdf5::Handle file = hdf5::create_file(making, 0);
         hdf5::write_text(file.id(), "format", format_name);
-        hdf5::write_integer(file.id(), "format_version", 1);
+        write_whole(file.id(), "format_version", 1);
         if (!campaign.specimen.name.empty())
             hdf5::write_text(file.id(), "specimen", campaign.specimen.name);
         hdf5::write_real(file.id(), "gravity_m_s2", campaign.specimen.gravity_m_s2);

@@ -22,7 +22,7 @@ TEST(Suggest, SaysNothingWhereNothingIsNear)
 {
     EXPECT_EQ(nearest_word("smoth", {"abrupt", "smooth"}), "smooth");
     EXPECT_EQ(nearest_word("SMOOTH", {"abrupt", "smooth"}), "smooth");
-    EXPECT_EQ(nearest_word("zebra", {"abrupt", "smooth"}), "");
+    EXPECT_EQ(nearest_word("zebra", {"abrupt", "smooth"}), std::nullopt);
     EXPECT_EQ(meant_key("drum_width_inch", {"drum_height_m", "drum_width_m"}), "drum_width_m");
     EXPECT_EQ(meant_key("normal_damping", {"damping", "normal_damping_n_s_m"}), "normal_damping_n_s_m");
     EXPECT_EQ(without_unit("normal_damping_n_s_m"), "normal_damping");

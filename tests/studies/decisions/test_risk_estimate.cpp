@@ -21,15 +21,16 @@ TEST(WhyUndetermined, NamesWhereTheFrequencyComesFrom)
         e.beyond_hazard = beyond;
         return why_undetermined(e, 0.25);
     };
-    EXPECT_EQ(why(0.12, 0.12, 0.24), "");
+    EXPECT_EQ(why(0.12, 0.12, 0.24), std::nullopt);
     EXPECT_EQ(why(0.3, 0.1, 0), "40 % of the frequency would come from intensities outside of the range of the runs, "
                                 "more than 25 %. Run the study with weaker intensities.");
     EXPECT_EQ(why(0.1, 0.3, 0), "40 % of the frequency would come from intensities outside of the range of the runs, "
                                 "more than 25 %. Run the study with stronger intensities.");
     EXPECT_EQ(why(0.1, 0.1, 0.3), "30 % of the frequency would come from intensities outside of the hazard's points, "
                                   "more than 25 %. Give the hazard over a wider range.");
-    EXPECT_NE(why(0.2, 0.1, 0.31).find("outside of the hazard's points"), std::string::npos) << "the larger one";
-    EXPECT_NE(why(0.2, 0.2, 0.31).find("with stronger intensities"), std::string::npos) << "as much: more runs";
+    EXPECT_NE(why(0.2, 0.1, 0.31).value().find("outside of the hazard's points"), std::string::npos)
+        << "the larger one";
+    EXPECT_NE(why(0.2, 0.2, 0.31).value().find("with stronger intensities"), std::string::npos) << "as much: more runs";
 }
 
 /// A power law 1e-3 a^-2 of the frequencies of exceedance.

@@ -563,7 +563,7 @@ TEST(ClaimVerdict, WhatIsImpossibleOrUntestableIsNeverConfirmed)
     EXPECT_EQ(verdict(file, four(0.9, 0.9, 0.9, 0.9)).judgement, Judgement::untestable);
     EXPECT_EQ(verdict(file, four(0.9, 0.9, 0.1, 0.9)).judgement, Judgement::depends);
     EXPECT_EQ(verdict(file, four(0.1, 0.1, 0.1, 0.1)).judgement, Judgement::refuted);
-    file.tests[0].impossible.clear();
+    file.tests[0].impossible.reset();
     file.tests[0].untestable = "not stated.";
     EXPECT_EQ(verdict(file, four(0.9, 0.9, 0.9, 0.9)).judgement, Judgement::untestable);
 }

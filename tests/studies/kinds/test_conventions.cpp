@@ -86,7 +86,7 @@ TEST(Conventions, OfTheTextOfAStudy)
 {
     const Study study = read_study(ready_studies + "small_scale_column.toml");
     EXPECT_EQ(conventions_text_of(study.text), conventions_text(study));
-    EXPECT_EQ(conventions_text_of("[study]\nkind = \"of another time\"\n"), "");
+    EXPECT_EQ(conventions_text_of("[study]\nkind = \"of another time\"\n"), std::nullopt);
 }
 
 /// Pages with a headline number have the line of its study below a mark "<!-- conventions of STUDY.toml -->":

@@ -79,7 +79,7 @@ TEST(LimitState, CountsByHand)
         EXPECT_GT(share.upper, share.probability);
     }
     EXPECT_EQ(counts.moving_text(), "3 of 5 realizations without collapse still moved at the end.");
-    EXPECT_EQ(LimitCounts(5).moving_text(), "");
+    EXPECT_EQ(LimitCounts(5).moving_text(), std::nullopt);
     EXPECT_EQ(counts.first(), (std::vector<std::uint64_t>{0, 1, 0, 0, 3}));
     EXPECT_EQ(counts.median_collapse_time_s(), 4.5); // of 2, 4, 5, 6
     EXPECT_EQ(counts.median_total_collapse_time_s(), 9);

@@ -423,7 +423,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
             shown.push_back(s);
     picture("errors", verification::curves({"PGA [g]", false, 0, 2.1}, {"PGV/PGA [s]", false, 0, 0.2}, shown));
 
-    Series fits_best{"", {}, {}};
+    Series fits_best{std::nullopt, {}, {}};
     std::vector<Series> by_ratio;
     for (const Dissipation& d : r.dissipation) {
         const std::string title = dashpot_text(d.best.model[0]);

@@ -489,7 +489,7 @@ void draw(const ImpactStudy& s, const std::filesystem::path& folder)
                               {"predicted, m/s", false, -2, 1.5},
                               {sliding(ImpactStudy::newton, "constant mu, e (Newton, Coulomb)", 1),
                                sliding(ImpactStudy::extended, "extended law", 0),
-                               {"", {-2, 1.5}, {-2, 1.5}, true, {}, {}, 5}},
+                               {std::nullopt, {-2, 1.5}, {-2, 1.5}, true, {}, {}, 5}},
                               "top left"));
 }
 
@@ -508,8 +508,8 @@ void planar_impact(const PagePlace& place)
             fmt::print(stderr, "planar_impact: {}\n", done);
     });
     draw(study, place.images());
-    if (!place.predict.empty())
-        predict_table(study, place.predict, place.docs / "planar_impact_predictions.csv");
+    if (place.predict)
+        predict_table(study, *place.predict, place.docs / "planar_impact_predictions.csv");
     write_whole(place.docs / "planar_impact.md", page_text(study, fmt::format("Version {}.", code_version())));
 }
 

@@ -101,8 +101,9 @@ Finding regimes()
                    static_cast<double>(agree) / cells);
         f.equals(fmt::format("{} mm: cells that differ and are not next to the formula's boundary", name), 0,
                  static_cast<double>(far), 0);
-        Series rock{"", {}, {}, true, {}, {}}, edge{"", {B, B}, {B, 1.2}, true, {}, {}},
-            low{"", {B, 1.6}, {B, B}, true, {}, {}}, slide{"Shenton's boundaries", {0, B}, {0, B}, true, {}, {}};
+        Series rock{std::nullopt, {}, {}, true, {}, {}}, edge{std::nullopt, {B, B}, {B, 1.2}, true, {}, {}},
+            low{std::nullopt, {B, 1.6}, {B, B}, true, {}, {}},
+            slide{"Shenton's boundaries", {0, B}, {0, B}, true, {}, {}};
         for (double a = B; a <= 1.6; a += 0.01) {
             rock.x.push_back(a);
             rock.y.push_back(rock_friction(a, B));
