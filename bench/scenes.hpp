@@ -3,7 +3,7 @@
 /// colonnades that stand or lie in a heap.
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/sampling/sampler.hpp"
 
 #include <vector>

@@ -4,7 +4,7 @@
 
 #include "bench/peers/engine.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 namespace stylobate::peers {
 

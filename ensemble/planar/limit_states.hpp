@@ -3,7 +3,7 @@
 
 #include "ensemble/model/outcome.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -8,7 +8,7 @@
 #include "ensemble/planar/planar_watch.hpp"
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/planar/single_bundle.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 #include "kernels/isa.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/run/executor.hpp"
 
 #include <cstdint>

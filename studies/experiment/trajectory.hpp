@@ -3,7 +3,7 @@
 
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/outcome.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/store/result_store.hpp"
 #include "kernels/isa.hpp"

@@ -23,6 +23,7 @@ const std::set<std::string> planar_words = {"theta", "half_width_m"};
 const std::map<std::string, std::string> planar_places = {
     {"kernels/planar/", "the planar model"},
     {"ensemble/planar/", "the planar model"},
+    {"ensemble/realization/planar_structure.hpp", "the planar model"},
     {"ensemble/model/campaign.hpp", "measured data, which give planar poses"},
     {"ensemble/tracking/", "the planar model, nudged along measured data"},
     {"io/measured/", "measured data, which give planar poses"},

@@ -3,7 +3,7 @@
 
 #include "bench/peers/engine.hpp"
 #include "bench/rocking_cells.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 /// The beds of a realization: their faces, what they carry at rest, their elastic laws, their stiffness at full
 /// contact.
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "kernels/planar/mechanisms/mechanisms.hpp"
 
 #include <vector>

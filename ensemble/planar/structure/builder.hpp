@@ -4,7 +4,7 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/planar/structure/mechanism_builder.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 
 #include <string>

@@ -7,7 +7,7 @@
 /// inertia -m a. By the static theorem the maximum bounds the load at which anything moves from above for friction
 /// (whose flow is not normal) and equals it for rocking alone.
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <vector>
 

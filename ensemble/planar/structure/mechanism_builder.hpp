@@ -2,7 +2,7 @@
 /// The mechanisms of a study, written into a realization.
 
 #include "ensemble/model/nominal.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// Statics of the nominal structure of a study: first frequency, limit of rest.
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -3,7 +3,7 @@
 /// "The behavior of inverted pendulum structures during earthquakes", Bulletin of the Seismological Society of America
 /// 53 (1963) 403).
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 namespace stylobate {
 

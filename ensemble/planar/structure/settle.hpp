@@ -2,7 +2,7 @@
 /// Static equilibrium of blocks under their contact forces, and what holds it beside the contacts.
 
 #include "ensemble/planar/structure/bed.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "kernels/planar/overlap.hpp"
 
 #include <cmath>

@@ -11,7 +11,7 @@
 /// Source: Belytschko, Liu, Moran & Elkhodary, "Nonlinear Finite Elements for Continua and Structures", 2nd edition
 /// (2014), section 6.2; the bounds by blocks and at an edge are own derivations (`kernels/THEORY.md`, section 6).
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <limits>
 #include <vector>

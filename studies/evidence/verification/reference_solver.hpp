@@ -4,7 +4,7 @@
 /// overlap by clipping one polygon with the other (Sutherland and Hodgman), the contact direction from the chord, and
 /// the velocities as backward differences, each Eq. as it is printed.
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <Eigen/Core>
 

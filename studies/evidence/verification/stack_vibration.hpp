@@ -2,7 +2,7 @@
 /// Linear vibrations of a stack on its beds, assembled from discrete springs: the oracle of frequencies and of the
 /// stability of the step.
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Columns of equal drums as realizations, for tests of the step.
 
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/evidence/measured/parts/fall_table.hpp"
 #include "studies/evidence/measured/parts/forecast.hpp"

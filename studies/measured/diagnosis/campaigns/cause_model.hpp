@@ -2,7 +2,7 @@
 /// Causes put into the model: what the diagnosis names is what the kernel runs.
 
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "studies/measured/diagnosis/direct/direct_tests.hpp"
 #include "studies/measured/diagnosis/evidence/balance_fit.hpp"

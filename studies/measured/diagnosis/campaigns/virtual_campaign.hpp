@@ -18,7 +18,7 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
-#include "ensemble/planar/structure/realization.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/specimen.hpp"
 #include "ensemble/tracking/tracking.hpp"

@@ -1,9 +1,7 @@
 #pragma once
-/// One perturbed structure in the plane and its base motion: a pure function of (study, seed, index). Plain data, SI
-/// units.
+/// A structure in the plane: rectangles, and what joins them. Plain data, SI units.
 
 #include "ensemble/model/mechanism_spec.hpp"
-#include "ensemble/model/realization.hpp"
 #include "ensemble/model/structure.hpp"
 #include "kernels/planar/step_model.hpp"
 
@@ -68,7 +66,5 @@ struct PlanarStructure {
         return count;
     }
 };
-
-struct Realization : RealizationHeader, PlanarStructure {};
 
 } // namespace stylobate
