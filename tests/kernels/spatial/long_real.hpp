@@ -14,6 +14,8 @@ struct LongReal {
 
     LongReal() = default;
     LongReal(long double value) : v(value) {}
+    explicit operator long double() const { return v; }
+    explicit operator double() const { return static_cast<double>(v); }
 
     friend LongReal operator+(LongReal a, LongReal b) { return a.v + b.v; }
     friend LongReal operator-(LongReal a, LongReal b) { return a.v - b.v; }
@@ -31,6 +33,7 @@ struct LongReal {
     friend LongReal min_of(LongReal a, LongReal b) { return a.v < b.v ? a : b; }
     friend LongReal max_of(LongReal a, LongReal b) { return a.v > b.v ? a : b; }
     friend LongReal abs_of(LongReal a) { return std::fabs(a.v); }
+    friend LongReal turn_sign(LongReal a, LongReal sign) { return std::signbit(sign.v) ? -a.v : a.v; }
     friend LongReal sqrt_of(LongReal a) { return std::sqrt(a.v); }
 };
 
