@@ -39,9 +39,9 @@ STYLOBATE_INLINE DiscSegment<Real> disc_segment(Real xi)
                                    2.4714130785724018e-05, 3.9626336088755745e-06, 7.492482377329048e-06,
                                    -6.083723737122011e-06, 5.792028119162959e-06,  -2.6237145181884165e-06,
                                    6.604581049354832e-07};
-    const Real zero(0.0), two_thirds(2.0 / 3);
+    const Real zero(0.0), two_thirds = Real(2.0 / 3);
     const Real eta = max_of(Real(1.0) - abs_of(xi), zero);
-    Real p(coefficients[12]);
+    Real p = Real(coefficients[12]);
     for (int i = 11; i >= 0; --i)
         p = fma(p, eta, Real(coefficients[i]));
     const Real part = eta * eta * sqrt_of(eta) * p;
@@ -137,7 +137,7 @@ STYLOBATE_INLINE Real disc_friction_radius(Real xi)
 template <class Real>
 STYLOBATE_INLINE BedLoad<Real> disc_bed(const BedPose<Real>& pose, const DiscBed<Real>& bed)
 {
-    const Real zero(0.0), one(1.0), half(0.5), tiny(Extreme<NumberOf<Real>>::tiny);
+    const Real zero(0.0), one(1.0), half(0.5), tiny = Real(Extreme<NumberOf<Real>>::tiny);
     // the upper normal (a, c): the depth on the upper face is a . p - P_z
     const Vector<Real> a{pose.turn.m13, pose.turn.m23, zero};
     const Real c = one + pose.turn.m33, per_c = one / max_of(one + c, Real(1e-3));
