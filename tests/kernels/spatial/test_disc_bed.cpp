@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace stylobate {
@@ -231,6 +232,43 @@ TEST(SpatialDiscBed, NothingWhereTheFacesAreApart)
                                    load.lateral_y, load.torque.x, load.torque.y, load.torque.z})
             EXPECT_EQ(value, 0);
     }
+}
+
+/// Bodies at rest are exactly upright and centred, or tilted and displaced by rounding.
+template <class Real>
+void expect_finite_loads()
+{
+    using Number = typename Lanes<Real>::Number;
+    const double least = std::numeric_limits<Number>::min();
+    for (const double tilt : {0.0, least, 1e-30, 1e-18, 1e-9})
+        for (const double offset : {0.0, least, 1e-30, 1e-18, 1e-9})
+            for (const double depth : {-1e-6, -least, 0.0, least, 1e-6})
+                for (const double lower : {0.4, 0.5, 0.6, 1e3}) {
+                    SCOPED_TRACE(testing::Message() << tilt << ' ' << offset << ' ' << depth << ' ' << lower);
+                    const auto q = rotation_by<Real>(0.3 * tilt, tilt, 0);
+                    const spatial::BedPose<Real> pose{
+                        spatial::minus_identity(q),
+                        {static_cast<Real>(offset), static_cast<Real>(-0.2 * offset), static_cast<Real>(-depth)}};
+                    const auto load =
+                        spatial::disc_bed(pose, spatial::DiscBed<Real>{Real(3e9), Real(0.5), static_cast<Real>(lower)});
+                    for (const Real value : {load.energy, load.moment_x, load.moment_y, load.lateral_x, load.lateral_y,
+                                             load.torque.x, load.torque.y, load.torque.z, load.first_x, load.first_y,
+                                             load.second_xx, load.second_xy, load.second_yy, load.friction_radius})
+                        EXPECT_TRUE(std::isfinite(value));
+                    // all presses, except the crescent of the offset, where the depth exceeds the tilt
+                    const double whole = 3e9 * std::acos(-1.0) * std::min(0.25, lower * lower) * depth;
+                    if (depth == 1e-6) {
+                        EXPECT_NEAR(load.force / whole, 1, 2e-9 + 8 * std::numeric_limits<Number>::epsilon());
+                    } else if (depth == -1e-6) {
+                        EXPECT_EQ(load.force, 0);
+                    }
+                }
+}
+
+TEST(SpatialDiscBed, LoadIsFiniteAtRest)
+{
+    expect_finite_loads<double>();
+    expect_finite_loads<float>();
 }
 
 /// The torque of friction of a pure spin about the pressure's centre is mu times the integral of pressure times
