@@ -2,6 +2,7 @@
 /// Slow integrals over the patch of a polygon on a rectangle, strip by strip, and poses of one over the other.
 
 #include "kernels/spatial/polygon_bed.hpp"
+#include "tests/kernels/spatial/rotations.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,25 +11,6 @@
 #include <vector>
 
 namespace stylobate::spatial {
-
-/// Rotation by the vector given [rad].
-template <class Real>
-Quaternion<Real> rotation_by(Real x, Real y, Real z)
-{
-    using std::cos, std::sin, std::sqrt;
-    const long double X = static_cast<long double>(x), Y = static_cast<long double>(y), Z = static_cast<long double>(z);
-    const long double angle = sqrt(X * X + Y * Y + Z * Z);
-    const long double s = angle > 0 ? sin(angle / 2) / angle : 0.5L;
-    return {Real(cos(angle / 2)), Real(s * X), Real(s * Y), Real(s * Z)};
-}
-
-/// First `second`, then `first`.
-template <class Real>
-Quaternion<Real> product(const Quaternion<Real>& first, const Quaternion<Real>& second)
-{
-    return relative_rotation(Quaternion<Real>{first.w, Real(0) - first.x, Real(0) - first.y, Real(0) - first.z},
-                             second);
-}
 
 /// Two faces, and where the upper one lies: tilt by `tilt` downwards in the direction `azimuth`, after a twist.
 struct Scene {
@@ -71,8 +53,8 @@ inline std::vector<std::array<double, 2>> part_of(const std::vector<std::array<d
 inline Placed placed(const Scene& s)
 {
     Placed p;
-    p.q = product(rotation_by(-s.tilt * std::sin(s.azimuth), s.tilt * std::cos(s.azimuth), 0.0),
-                  rotation_by(0.0, 0.0, s.twist));
+    p.q = product(rotation_by<double>(-s.tilt * std::sin(s.azimuth), s.tilt * std::cos(s.azimuth), 0),
+                  rotation_by<double>(0, 0, s.twist));
     const Matrix<double> m = minus_identity(p.q);
     p.depth = {-m.m31, -m.m32, 0};
     const HalfPlane X{1 + m.m11, m.m12, s.offset_x - s.lower.centre_x},
@@ -103,16 +85,18 @@ inline Placed placed(const Scene& s)
     return p;
 }
 
-/// Integrals over the patch, on the upper face, about its anchor.
+/// What is integrated.
 struct PatchSums {
     double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     double pressure = 0, moment_x = 0, moment_y = 0, polar = 0; ///< with the weight depth
     double energy = 0;                                          ///< with half the depth's square
 };
 
-/// The integrals by the midpoint rule over `strips` strips, each exact (Gauss, three points) between the ends that the
-/// half planes leave of it. The strips run at 0.5 rad to the axes, so that no side of the patch lies along them.
-inline PatchSums integrate(const Scene& s, const Placed& p, int strips)
+/// Integrates over the patch: `add(x, y, d, w)` is called with points of the upper face, their depths and their weights
+/// [m2]. The midpoint rule over `strips` strips; along each, Gauss' rule of three points between the ends that the half
+/// planes leave of it. The strips run at 0.5 rad to the axes, so that no side of the patch lies along them.
+template <class Add>
+void integrate(const Scene& s, const Placed& p, int strips, const Add& add)
 {
     const double cosine = std::cos(0.5), sine = std::sin(0.5);
     std::vector<HalfPlane> sides = p.sides;
@@ -127,7 +111,6 @@ inline PatchSums integrate(const Scene& s, const Placed& p, int strips)
         const double across = cosine * c[1] - sine * c[0];
         low = std::min(low, across), high = std::max(high, across);
     }
-    PatchSums sum;
     for (int i = 0; i < strips; ++i) {
         const double width = (high - low) / strips, across = low + (i + 0.5) * width;
         double from = -1e9, to = 1e9; // along the strip
@@ -141,14 +124,22 @@ inline PatchSums integrate(const Scene& s, const Placed& p, int strips)
         for (int point = -1; point <= 1 && to > from; ++point) {
             const double along = 0.5 * (from + to) + 0.5 * (to - from) * std::sqrt(0.6) * point;
             const double x = cosine * along - sine * across, y = sine * along + cosine * across;
-            const double w = width * (to - from) * (point == 0 ? 8.0 / 18 : 5.0 / 18);
-            const double d = p.depth.a * x + p.depth.b * y + p.depth.c;
-            sum.area += w, sum.x += w * x, sum.y += w * y;
-            sum.xx += w * x * x, sum.xy += w * x * y, sum.yy += w * y * y;
-            sum.pressure += w * d, sum.moment_x += w * d * x, sum.moment_y += w * d * y;
-            sum.polar += w * d * (x * x + y * y), sum.energy += 0.5 * w * d * d;
+            add(x, y, p.depth.a * x + p.depth.b * y + p.depth.c,
+                width * (to - from) * (point == 0 ? 8.0 / 18 : 5.0 / 18));
         }
     }
+}
+
+/// Integrals over the patch, on the upper face, about its anchor.
+inline PatchSums patch_sums(const Scene& s, const Placed& p, int strips)
+{
+    PatchSums sum;
+    integrate(s, p, strips, [&](double x, double y, double d, double w) {
+        sum.area += w, sum.x += w * x, sum.y += w * y;
+        sum.xx += w * x * x, sum.xy += w * x * y, sum.yy += w * y * y;
+        sum.pressure += w * d, sum.moment_x += w * d * x, sum.moment_y += w * d * y;
+        sum.polar += w * d * (x * x + y * y), sum.energy += 0.5 * w * d * d;
+    });
     return sum;
 }
 

@@ -108,7 +108,8 @@ std::array<double, 6> differences(const Scene& s, const Quaternion<LongReal>& q,
             const Vector<LongReal> step = along(i % 3, size);
             if (i < 3)
                 return load_of<LongReal, corners>(s, q, place + step).energy.v;
-            return load_of<LongReal, corners>(s, product(rotation_by(step.x, step.y, step.z), q), place).energy.v;
+            return load_of<LongReal, corners>(s, product(rotation_by<LongReal>(step.x.v, step.y.v, step.z.v), q), place)
+                .energy.v;
         };
         minus[static_cast<std::size_t>(i)] = static_cast<double>((energy(-h) - energy(h)) / (2 * h));
     }
@@ -163,7 +164,7 @@ void expect_integrals(const Situation& a)
         const Placed p = placed(s);
         if (p.sides.empty())
             continue;
-        const PatchSums want = integrate(s, p, 16000);
+        const PatchSums want = patch_sums(s, p, 16000);
         const BedLoad<double> load = load_of<double, corners>(s, p.q, p.place);
         const std::string where = std::string(a.name) + ", pose " + std::to_string(n);
         // corners of the patch within a strip: 1e-7 of the sum
@@ -318,7 +319,7 @@ TEST(PolygonBed, ForceOfASideByHand)
 TEST(PolygonBed, NothingWhereFacesAreApart)
 {
     const Rectangle<double> face{0.2, 0.1, 0.5, 0.4};
-    const Matrix<double> tilt = minus_identity(rotation_by(0.01, 0.02, 0.3));
+    const Matrix<double> tilt = minus_identity(rotation_by<double>(0.01, 0.02, 0.3));
     for (const Vector<double>& place : {Vector<double>{0, 0, 0.1}, Vector<double>{2, 0, -0.01},
                                         Vector<double>{0, -2, -0.01}, Vector<double>{1.5, 1.5, -0.01}}) {
         const BedLoad<double> load = rectangle_bed({tilt, place}, 1e9, face, face);
@@ -340,7 +341,7 @@ TEST(PolygonBed, SixteenCornersLieBetweenTwoDiscs)
     int lifted = 0;
     for (int n = 0; n < 500; ++n) {
         const double tilt = std::pow(10, random.in({-6, -0.3})), azimuth = random.in({0, 6.3});
-        const Quaternion<double> q = rotation_by(tilt * std::cos(azimuth), tilt * std::sin(azimuth), 0.0);
+        const Quaternion<double> q = rotation_by<double>(tilt * std::cos(azimuth), tilt * std::sin(azimuth), 0);
         const double height = std::sin(tilt) * radius * random.in({-1.5, 0.9});
         const BedPose<double> pose{minus_identity(q), {0, 0, height}};
         const BedLoad<double> polygon =
@@ -360,7 +361,7 @@ TEST(PolygonBed, SixteenCornersPressedByTheWholeFace)
 {
     // regular polygon of n corners: A = n/2 R2 sin(2 pi/n), second moment A R2 (2 + cos(2 pi/n)) / 12
     const double radius = 0.8, angle = std::numbers::pi / 8;
-    const Quaternion<double> q = rotation_by(1e-7, 2e-7, 0.0);
+    const Quaternion<double> q = rotation_by<double>(1e-7, 2e-7, 0);
     const BedPose<double> pose{minus_identity(q), {0, 0, -1e-6}}; // the torques are a thirtieth of force x 1 m
     const BedLoad<double> polygon =
         polygon_bed(pose, PolygonBed<double, 16>{1.0, sixteen_corners(0.0, 0.0, radius), {0, 0, 5, 5}});
