@@ -30,7 +30,7 @@ struct DiscSegment {
 /// xi at least 1 is the whole disc, at most -1 none of it.
 ///
 /// m = eta^(5/2) P(eta) with eta = 1 - |xi|, and pi/4 minus that where xi > 0. P interpolates at the 13 Chebyshev
-/// nodes of [0, 1]; its relative error is 3e-14. The other integrals are m and powers of w = sqrt(1 - xi2).
+/// nodes of [0, 1]; its relative error is 3.5e-14. The other integrals are m and powers of w = sqrt(1 - xi2).
 template <class Real>
 STYLOBATE_INLINE DiscSegment<Real> disc_segment(Real xi)
 {
@@ -52,8 +52,8 @@ STYLOBATE_INLINE DiscSegment<Real> disc_segment(Real xi)
     return {f, m, fnma(xi, first, Real(4.0) * m), first, fnma(xi, first, m)};
 }
 
-/// The ellipse for the common part of two discs whose centres are `offset` apart; `from` the upper centre, towards the
-/// lower one. Primes are derivatives with respect to the offset.
+/// The ellipse for the common part of two discs whose centres are apart by an offset, with the origin in the upper
+/// centre and the first axis towards the lower one. Primes are derivatives with respect to the offset.
 template <class Real>
 struct Ellipse {
     Real half_along, half_across;                    ///< A along the line of the centres and B across it [m]
