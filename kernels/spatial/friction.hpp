@@ -14,10 +14,11 @@
 
 namespace stylobate::spatial {
 
-/// @pre K_t > 0, mu >= 0, the others >= 0
+/// @pre mu >= 0, the others > 0; or all 0: then nothing resists
 template <class Real>
 struct FrictionLaw {
     Real K_t;        ///< stiffness along the face [N/m]
+    Real per_K_t;    ///< 1 / K_t [m/N]
     Real C_n_per_dt; ///< dashpot along the normal, per area of the patch [N/m3]
     Real C_t_per_dt; ///< dashpot along the face, per area of the patch [N/m3]
     Real mu;
@@ -81,12 +82,15 @@ STYLOBATE_INLINE BedComponents<Real> bed_rates(const BedLoad<Real>& load, const 
 {
     const Vector<Real>& w = motion.rotation;
     const Vector<Real> slide = motion.displacement + cross(w, centre);
-    return {motion.displacement.z,
-            fms(w.x, load.t21, w.y * load.t11),
-            fms(w.x, load.t22, w.y * load.t12),
-            slide.x,
-            slide.y,
-            load.friction_radius * w.z};
+    // faces that are apart neither close nor slide
+    const auto touches = load.force > Real(0.0);
+    const auto if_touching = [&](Real rate) { return select(touches, rate, Real(0.0)); };
+    return {if_touching(motion.displacement.z),
+            if_touching(fms(w.x, load.t21, w.y * load.t11)),
+            if_touching(fms(w.x, load.t22, w.y * load.t12)),
+            if_touching(slide.x),
+            if_touching(slide.y),
+            if_touching(load.friction_radius * w.z)};
 }
 
 /// The dashpot along the normal, c v at each point of the patch. If the sum would pull the faces together with more
@@ -135,7 +139,7 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
     const Real kept = min_of(one, limit / trial);
     bed.springs = {sx * kept, sy * kept, st * kept};
     bed.excess = {sx - bed.springs.x, sy - bed.springs.y, st - bed.springs.twist};
-    bed.slip = (trial - trial * kept) / law.K_t;
+    bed.slip = (trial - trial * kept) * law.per_K_t;
     // the total with the dashpot stays within the limit, too
     const Real C_t = law.C_t_per_dt * load.area;
     const Real fx = fma(C_t, bed.rates.x, bed.springs.x), fy = fma(C_t, bed.rates.y, bed.springs.y);
@@ -156,20 +160,21 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
 
 /// Energy of the springs of friction [J].
 template <class Real>
-STYLOBATE_INLINE Real spring_energy(const FrictionSprings<Real>& s, Real K_t)
+STYLOBATE_INLINE Real spring_energy(const FrictionSprings<Real>& s, Real per_K_t)
 {
-    return Real(0.5) * fma(s.x, s.x, fma(s.y, s.y, s.twist * s.twist / torsion_ratio<Real>())) / K_t;
+    const Real per_ratio = Real(1.0 / torsion_ratio<double>());
+    return Real(0.5) * fma(s.x, s.x, fma(s.y, s.y, s.twist * s.twist * per_ratio)) * per_K_t;
 }
 
 /// Energy that slipping took from the springs in this step [J]: the work of the mean of the forces before and after it,
 /// less the energy that the springs gained.
 /// @param before the springs as the last step left them
 template <class Real>
-STYLOBATE_INLINE Real slip_loss(const BedForce<Real>& bed, const FrictionSprings<Real>& before, Real K_t)
+STYLOBATE_INLINE Real slip_loss(const BedForce<Real>& bed, const FrictionSprings<Real>& before, Real per_K_t)
 {
-    const Real twist = bed.excess.twist * (bed.springs.twist + before.twist) / torsion_ratio<Real>();
-    return Real(0.5) * fma(bed.excess.x, bed.springs.x + before.x, fma(bed.excess.y, bed.springs.y + before.y, twist)) /
-           K_t;
+    const Real twist = bed.excess.twist * (bed.springs.twist + before.twist) * Real(1.0 / torsion_ratio<double>());
+    return Real(0.5) * fma(bed.excess.x, bed.springs.x + before.x, fma(bed.excess.y, bed.springs.y + before.y, twist)) *
+           per_K_t;
 }
 
 /// Energy that the dashpots took in this step [J]: the work of the mean of their forces before and after it, as central

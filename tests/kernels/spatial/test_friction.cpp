@@ -22,7 +22,7 @@ private:
     std::uniform_real_distribution<double> unit_{0, 1};
 };
 
-const FrictionLaw<double> no_dashpots{1e6, 0, 0, 0.7};
+const FrictionLaw<double> no_dashpots{1e6, 1e-6, 0, 0, 0.7};
 const FrictionSprings<double> at_rest{0, 0, 0};
 
 /// A level disc of 0.5 m radius that is pressed evenly by 100 N, in closed form.
@@ -124,7 +124,7 @@ TEST(SpatialFriction, NothingWhereFacesAreApart)
 {
     BedLoad<double> load = level_disc();
     load.force = 0;
-    const FrictionLaw<double> law{1e6, 1e5, 1e5, 0.7};
+    const FrictionLaw<double> law{1e6, 1e-6, 1e5, 1e5, 0.7};
     for (const double v : {1e-3, -1e-3}) {
         const BedForce<double> bed = bed_force(load, law, {{v, v, v}, {v, -v, v}}, {5, 4, 3});
         EXPECT_EQ(size(bed.force.x, bed.force.y, bed.force.z), 0);
@@ -150,10 +150,10 @@ TEST(SpatialFriction, SpringsAndSlipTakeTheWorkToRounding)
         const Vector<double> turning{-bed.torque.x, -bed.torque.y, -bed.torque.z};
         work += 0.5 * dot(now + force, motion.displacement) + 0.5 * dot(turning + torque, motion.rotation);
         force = now, torque = turning;
-        loss += slip_loss(bed, springs, no_dashpots.K_t);
+        loss += slip_loss(bed, springs, no_dashpots.per_K_t);
         springs = bed.springs;
         slipped += bed.slip > 0;
-        ASSERT_NEAR(work, loss + spring_energy(springs, no_dashpots.K_t), 1e-13 * (1 + work)) << n;
+        ASSERT_NEAR(work, loss + spring_energy(springs, no_dashpots.per_K_t), 1e-13 * (1 + work)) << n;
     }
     EXPECT_GT(slipped, 100);
     EXPECT_LT(slipped, 900);
@@ -164,18 +164,18 @@ TEST(SpatialFriction, EnergyOfSlidingAndSpinningByHand)
 {
     // once on the limit, a step of sliding takes mu N times its way; one of spinning takes 2/3 mu N R times its angle
     const BedForce<double> slid = bed_force(level_disc(), no_dashpots, {{1e-3, 0, 0}, {0, 0, 0}}, {70, 0, 0});
-    EXPECT_NEAR(slip_loss(slid, {70, 0, 0}, 1e6), 70 * 1e-3, 1e-15);
+    EXPECT_NEAR(slip_loss(slid, {70, 0, 0}, 1e-6), 70 * 1e-3, 1e-15);
     const BedForce<double> spun = bed_force(level_disc(), no_dashpots, {{0, 0, 0}, {0, 0, 1e-3}}, {0, 0, 70});
-    EXPECT_NEAR(slip_loss(spun, {0, 0, 70}, 1e6), 70.0 / 3 * 1e-3, 1e-15);
+    EXPECT_NEAR(slip_loss(spun, {0, 0, 70}, 1e-6), 70.0 / 3 * 1e-3, 1e-15);
     // 70 N on 1e6 N/m, and 70/3 N m on 125000 N m
-    EXPECT_NEAR(spring_energy(FrictionSprings<double>{70, 0, 0}, 1e6), 0.5 * 70 * 70e-6, 1e-18);
-    EXPECT_NEAR(spring_energy(FrictionSprings<double>{0, 0, 70}, 1e6), 0.5 * 70 / 3.0 * 70 / 3.0 / 125000, 1e-18);
+    EXPECT_NEAR(spring_energy(FrictionSprings<double>{70, 0, 0}, 1e-6), 0.5 * 70 * 70e-6, 1e-18);
+    EXPECT_NEAR(spring_energy(FrictionSprings<double>{0, 0, 70}, 1e-6), 0.5 * 70 / 3.0 * 70 / 3.0 / 125000, 1e-18);
 }
 
 TEST(SpatialDashpot, ByHand)
 {
     // 5e4 N/m3 on pi/4 m2, closing by 1e-5 m; then opening so fast that it would pull; then a tilt about the middle
-    const FrictionLaw<double> law{1e6, 5e4, 0, 0.7};
+    const FrictionLaw<double> law{1e6, 1e-6, 5e4, 0, 0.7};
     const double c = 5e4 * std::numbers::pi / 4;
     EXPECT_NEAR(bed_force(level_disc(), law, {{0, 0, -1e-5}, {0, 0, 0}}, at_rest).normal, 100 + 1e-5 * c, 1e-12);
     EXPECT_NEAR(bed_force(level_disc(), law, {{0, 0, 1e-5}, {0, 0, 0}}, at_rest).normal, 100 - 1e-5 * c, 1e-12);
@@ -215,7 +215,7 @@ TEST(SpatialDashpot, IsASumOverThePatch)
         const Placed p = placed(s);
         ASSERT_FALSE(p.sides.empty());
         const BedLoad<double> load = load_of(s, p, 1e9);
-        FrictionLaw<double> law{1e6, 3e5, 0, 0}; // without friction: only the dashpot is left
+        FrictionLaw<double> law{1e6, 1e-6, 3e5, 0, 0}; // without friction: only the dashpot is left
         const BedMotion<double> motion{random.vector(1e-6), random.vector(1e-6)};
         const BedForce<double> bed = bed_force(load, law, motion, at_rest);
         ASSERT_GT(bed.normal, 0);
@@ -244,7 +244,7 @@ TEST(SpatialDashpot, NeverPullsAndNeverDrives)
     for (int n = 0; n < 2000; ++n) {
         const Scene s = rectangle_scene(random, n % 2);
         const BedLoad<double> load = load_of(s, placed(s), 1e6);
-        const FrictionLaw<double> law{1e6, random.in(0, 1e9), random.in(0, 1e6), 0.7};
+        const FrictionLaw<double> law{1e6, 1e-6, random.in(0, 1e9), random.in(0, 1e6), 0.7};
         const double size = s.depth * std::pow(10, random.in(-4, 0));
         const BedForce<double> bed = bed_force(load, law, {random.vector(size), random.vector(size)}, at_rest);
         EXPECT_GE(bed.normal, 0) << n;
