@@ -3,6 +3,7 @@
 
 #include "kernels/base_motion.hpp"
 #include "kernels/planar/bundle.hpp"
+#include "kernels/spatial/bundle.hpp"
 
 #include <string_view>
 #include <vector>
@@ -23,6 +24,12 @@ struct PlanarKernels {
     void (*run_twice)(const Topology&, const Bundle&, int first, int last) = nullptr;
 };
 
+/// The spatial model's step.
+struct SpatialKernels {
+    /// Runs steps `first` to `last - 1` of the tables of base motion.
+    void (*run)(const spatial::Topology&, const spatial::Bundle&, int first, int last) = nullptr;
+};
+
 struct KernelTable {
     Isa isa = Isa::scalar;
     int lanes = 1;        ///< realizations in a register
@@ -34,6 +41,7 @@ struct KernelTable {
     /// Multiply-adds on registers, `count` of them: the peak of the machine. Returns a number, so that none is removed.
     double (*peak_fma)(long count) = nullptr;
     PlanarKernels planar{};
+    SpatialKernels spatial{};
     /// `fill` of a bundle of two registers: null where `planar.run_twice` is.
     void (*fill_twice)(MotionFormula, const FormulaParameters&, const double* first_step, double* table) = nullptr;
 };

@@ -5,6 +5,7 @@
 #include "kernels/isa.hpp"
 #include "kernels/planar/rigid/rigid_step.hpp"
 #include "kernels/planar/step.hpp"
+#include "kernels/spatial/step.hpp"
 
 #include <type_traits>
 
@@ -112,7 +113,8 @@ constexpr KernelTable kernel_table(Isa isa, int twice_blocks = 0)
                       fill_base_table<Real, Here>,
                       fill_single_base_table<Real, Single, Here>,
                       peak_fma<Real, Here>,
-                      {run_model<Real, Here>, run_single_model<Single, Here>}};
+                      {run_model<Real, Here>, run_single_model<Single, Here>},
+                      {spatial::run_steps<Real, Here>}};
     if constexpr (!std::is_void_v<Two>) {
         table.planar.twice_blocks = twice_blocks;
         table.planar.run_twice = run_stack<Two, Here>;
