@@ -113,6 +113,8 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return {study.excitation.frequency_hz};
     case Quantity::pulse_gamma:
         return {study.excitation.gamma};
+    case Quantity::direction:
+        return {study.excitation.direction_deg};
     }
     return {0};
 }

@@ -37,6 +37,15 @@ struct RealizationHeader {
     double motion_scale = 1; ///< factor on its own motion
     /// Vertical base motion of its own, which starts with the shaking; else null.
     std::shared_ptr<const Motion> vertical;
+
+    // In space (`motions_in_space`): what is above is the first component of the shaking, along `direction_rad`.
+    double direction_rad = 0; ///< azimuth of the first component, from x towards z
+    /// PGA of the first component over `pga_m_s2`, which is the pair's (`ExcitationSpec::pga_of_pair`).
+    double first_share = 1;
+    /// Samples of the second component, in the time and with the factor of the first one's; null: there is none, or
+    /// it is in closed form.
+    std::shared_ptr<const Motion> second;
+
     double gravity_m_s2 = 9.81;
     double step_s = 0;
     std::vector<double> inputs; ///< drawn values in the order of `input_names(study)`

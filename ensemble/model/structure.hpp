@@ -68,6 +68,8 @@ struct StructureSpec {
     double gravity_m_s2 = 9.81;          ///< the acceleration of gravity
     std::vector<ColumnSpec> columns;     ///< from the left
     std::vector<EpistyleSpec> epistyles; ///< from the left
+    int dimensions = 2;                  ///< 2: in the plane; 3: in space, where columns and epistyles have any order
+    bool spatial() const { return dimensions == 3; }
     friend bool operator==(const StructureSpec&, const StructureSpec&) = default;
 };
 

@@ -35,6 +35,8 @@ const char* to_string(Quantity quantity)
         return "pulse_frequency";
     case Quantity::pulse_gamma:
         return "pulse_gamma";
+    case Quantity::direction:
+        return "direction";
     }
     return "?";
 }

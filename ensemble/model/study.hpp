@@ -74,6 +74,23 @@ enum class PgaOf {
     mean         ///< the mean of the peaks: one scale for all realizations of a cell, whose peaks differ
 };
 
+/// What one number states of the strength of two horizontal components a1 and a2 (of accelerations, and of the
+/// responses of an oscillator to them). P1 and P2 are their largest sizes.
+enum class OfPair {
+    first,          ///< P1
+    larger,         ///< the larger one of P1 and P2
+    geometric_mean, ///< sqrt(P1 P2)
+    at_once         ///< the largest length of the vector (a1, a2)
+};
+
+/// A component of a recorded motion beside the first one.
+struct ComponentSpec {
+    std::string file;      ///< empty: that of the first component, or the one beside it that is named like it
+    std::string component; ///< empty: the only one, or by its direction
+    std::string unit;      ///< empty: the file gives it
+    friend bool operator==(const ComponentSpec&, const ComponentSpec&) = default;
+};
+
 /// How long a realization is simulated after the shaking, if it does not come to rest before.
 enum class Tail {
     structure, ///< long enough for a fall: `tail_after_shaking()`
@@ -123,9 +140,22 @@ struct ExcitationSpec {
     bool baseline = true;  ///< correct the record's baseline
     std::optional<BandPass> band_pass; ///< filter it too
 
+    // In space: the motion above is the first component, along `direction_deg`; the second one is horizontal and
+    // across it (direction + 90 degrees), the third one is vertical. Angles are in the unit of study files, whose
+    // texts must read back to the same bits.
+    double direction_deg = 0;      ///< azimuth of the first component, from x towards z
+    double second_ratio = 0;       ///< of a synthetic motion: second over first component; 0: there is none
+    double second_phase_deg = 90;  ///< of a harmonic, tapered or pulse: added to the first's phase
+    double second_correlation = 0; ///< of noise: of the two components before they are scaled
+    double vertical_ratio = 0;     ///< vertical over first component; 0: there is none, or it is `Study::vertical`
+    std::optional<ComponentSpec> second; ///< of a record or table
+    OfPair pga_of_pair = OfPair::first;  ///< what `pga_m_s2` is of two components
+
     std::optional<double> tail_s; ///< simulated at most after the shaking; none: as `tail` says
     Tail tail = Tail::structure;  ///< in a study file `rest` is the default of kinds that report what remains
 
+    /// Whether it has a second horizontal component.
+    bool has_second() const { return second_ratio > 0 || second.has_value(); }
     friend bool operator==(const ExcitationSpec&, const ExcitationSpec&) = default;
 };
 
@@ -142,9 +172,10 @@ enum class Quantity {
     tilt,                 ///< of the base, out of level; per structure [rad]
     phase,                ///< of the harmonic or pulse; per structure [rad]
     pulse_frequency,      ///< of a velocity pulse; per structure [Hz]
-    pulse_gamma           ///< oscillatory character of a velocity pulse; per structure
+    pulse_gamma,          ///< oscillatory character of a velocity pulse; per structure
+    direction             ///< of the shaking in space; per structure [degrees, as in study files]
 };
-inline constexpr int quantity_count = 12;
+inline constexpr int quantity_count = 13;
 const char* to_string(Quantity quantity);
 
 enum class DistributionKind { normal, lognormal, uniform, log_uniform };

@@ -18,6 +18,7 @@ struct DrawnShaking {
     double phase_rad = 0;
     double pulse_frequency_hz = 0; ///< of a study other than a surface
     double pulse_gamma = 0;
+    double direction_rad = 0; ///< of a study in space
 };
 
 /// The shaking as a part of a realization: a pure function of (study, index) and the drawn parameters.

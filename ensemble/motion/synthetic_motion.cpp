@@ -107,6 +107,25 @@ double SyntheticMotion::acceleration_m_s2(double time_s) const
     return scale_ * std::visit([time_s](const auto& shape) { return shape.acceleration(time_s); }, shape_);
 }
 
+namespace {
+
+/// The length of the vector of two motions.
+struct Together {
+    const SyntheticMotion& first;
+    const SyntheticMotion& second;
+
+    double duration_s() const { return std::max(first.duration_s(), second.duration_s()); }
+    double fastest_hz() const { return std::max(first.fastest_hz(), second.fastest_hz()); }
+    double acceleration(double t) const { return std::hypot(first.acceleration_m_s2(t), second.acceleration_m_s2(t)); }
+};
+
+} // namespace
+
+double peak_at_once(const SyntheticMotion& first, const SyntheticMotion& second)
+{
+    return peak_acceleration(Together{first, second});
+}
+
 Motion sampled(const SyntheticMotion& motion)
 {
     constexpr double samples_per_cycle = 64;

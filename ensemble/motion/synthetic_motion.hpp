@@ -42,6 +42,9 @@ private:
 /// predominant frequency.
 Motion sampled(const SyntheticMotion& motion);
 
+/// Largest length of the vector of two accelerations, as exact as `peak_acceleration`.
+double peak_at_once(const SyntheticMotion& first, const SyntheticMotion& second);
+
 /// Largest |acceleration| of a shape of unit amplitude, to 1e-12 of it: sampled 32 times a cycle of its fastest
 /// component, and refined around every peak close to the largest one by golden-section search (Kiefer, "Sequential
 /// minimax search for a maximum", Proceedings of the American Mathematical Society 4 (1953) 502).

@@ -26,6 +26,7 @@ enum class Stream : std::uint64_t {
     phase = 9,                ///< phase of the harmonic or pulse; element = 0
     pulse_frequency = 10,     ///< of a velocity pulse; element = 0
     pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
+    direction = 14,           ///< of the shaking in space; element = 0
     base_noise = 64,          ///< white noise of a synthetic earthquake; element = sample
     mean_peak = 65,           ///< white noise of the motions by which a mean peak is found; index = motion, from 0
     virtual_specimen = 66,    ///< contacts and scatter of a campaign with nothing hidden; index = campaign
@@ -40,8 +41,11 @@ enum class Stream : std::uint64_t {
     years = 74, ///< earthquakes of simulated years; index = history, element 0: their number, 3 i + 1 to 3 i + 3: time,
                 ///< intensity and motion of earthquake i; from 2^32 on the same of those below the threshold
     past = 75,  ///< likelihoods that a count allows; index = cell, element = place of a draw in their order
-    monument = 76,  ///< simulated monuments; index = monument, element = number of the draw
-    structure = 77, ///< seed of another structure of a site; index = its number, element = 0
+    monument = 76,         ///< simulated monuments; index = monument, element = number of the draw
+    structure = 77,        ///< seed of another structure of a site; index = its number, element = 0
+    second_noise = 78,     ///< white noise of the second horizontal component; element = sample
+    vertical_noise = 79,   ///< white noise of the vertical component; element = sample
+    second_mean_peak = 80, ///< second components of the motions by which a mean peak is found; index = motion, from 0
     /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =
     /// joint or block, 0 of the base and of what is drawn once.
     mechanisms = 128

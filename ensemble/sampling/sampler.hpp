@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -113,7 +114,8 @@ private:
         header.index = index;
         RealizationValues values = values_.values(points, index, header.inputs);
         const DrawnShaking shaking{values[Quantity::phase][0], values[Quantity::pulse_frequency][0],
-                                   values[Quantity::pulse_gamma][0]};
+                                   values[Quantity::pulse_gamma][0],
+                                   values[Quantity::direction][0] * (std::numbers::pi / 180)};
         Realization realization = builder_.build(std::move(values), std::move(header));
         shaking_.apply(*study_, shaking, builder_.scales(realization), realization);
         realization.step_s = builder_.step_s(realization);

@@ -13,13 +13,15 @@ namespace {
 constexpr std::array streams = {Stream::friction,      Stream::normal_stiffness, Stream::tangential_stiffness,
                                 Stream::damping_ratio, Stream::drum_width,       Stream::drum_height,
                                 Stream::drum_offset,   Stream::density,          Stream::tilt,
-                                Stream::phase,         Stream::pulse_frequency,  Stream::pulse_gamma};
+                                Stream::phase,         Stream::pulse_frequency,  Stream::pulse_gamma,
+                                Stream::direction};
 static_assert(streams.size() == quantity_count);
 
 /// Quantities of which a value below 0 means nothing.
 bool is_positive(Quantity quantity)
 {
-    return quantity != Quantity::drum_offset && quantity != Quantity::tilt && quantity != Quantity::phase;
+    return quantity != Quantity::drum_offset && quantity != Quantity::tilt && quantity != Quantity::phase &&
+           quantity != Quantity::direction;
 }
 
 /// Quantities of which each bed has its own.

@@ -42,6 +42,12 @@ std::optional<std::uint64_t> whole_number(const TomlValue& value)
     return std::nullopt;
 }
 
+/// A setting as in a study file.
+std::string given_as(const std::string& key, const std::string& word)
+{
+    return key + " = " + (key == model_key ? word : toml_quoted(word));
+}
+
 std::string with_todo(const std::string& what, std::string todo)
 {
     while (!todo.empty() && todo.back() == ' ')
@@ -111,7 +117,7 @@ void KeyReader::refuse_unused(const std::vector<std::string>& used, const std::s
 
 void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word) const
 {
-    refuse_unused(table.names_where(kind, word), fmt::format("{} = \"{}\"", kind, word));
+    refuse_unused(table.names_where(kind, word), given_as(kind, word));
 }
 
 void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, const std::string& word,
@@ -119,7 +125,7 @@ void KeyReader::refuse_unused(const TableKey& table, const std::string& kind, co
 {
     for (const TomlKey* key : table.keys)
         if (!key->used_where(kind, word) && has(*key))
-            refuse(key->name, fmt::format("is not used by {} = \"{}\"", kind, word), todo);
+            refuse(key->name, "is not used by " + given_as(kind, word), todo);
 }
 
 KeyReader KeyReader::table(std::string_view key) const

@@ -132,6 +132,10 @@ void TomlKey::set_default(std::string toml)
 
 bool TomlKey::used_where(std::string_view key, std::string_view value) const
 {
+    if (key == model_key) {
+        const char* model = model_names[value == "3" ? 1 : 0];
+        return std::find(models.begin(), models.end(), model) != models.end();
+    }
     return std::all_of(used.begin(), used.end(), [&](const Condition& condition) {
         return condition.key != key ||
                std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();

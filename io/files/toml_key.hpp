@@ -86,6 +86,10 @@ enum class KeyType {
     named          ///< tables under names of the user's, all with these keys; without keys, with any
 };
 
+/// The key that chooses the model of a study, and the models in the order of its values 2 and 3.
+inline constexpr const char* model_key = "structure.dimensions";
+inline constexpr std::array model_names = {"planar", "spatial"};
+
 /// A key is used only where another one has one of these values.
 struct Condition {
     std::string key; ///< dotted, from the top: "excitation.kind"
@@ -115,9 +119,9 @@ struct KeyFacts {
     std::vector<Condition> used = {}; ///< all must hold; none: always used
     /// A value to begin with, as TOML, for a file that is written for the user; empty: the default.
     std::string example = {};
-    std::vector<std::string> words = {};          ///< of a number: words that may stand in its place
-    std::vector<std::string> excludes = {};       ///< keys of its table in whose place it stands
-    std::vector<std::string> models = {"planar"}; ///< models for which it holds; by default every one there is
+    std::vector<std::string> words = {};                     ///< of a number: words that may stand in its place
+    std::vector<std::string> excludes = {};                  ///< keys of its table in whose place it stands
+    std::vector<std::string> models = {"planar", "spatial"}; ///< models that use it; by default every one there is
 };
 
 /// What all descriptions have in common.
@@ -138,7 +142,8 @@ struct TomlKey {
 
     /// Must be given wherever it is used.
     bool needed() const { return absent.empty(); }
-    /// Whether a condition on `key` allows `value`; true where there is no such condition.
+    /// Whether a condition on `key` allows `value`; true where there is no such condition. The models that use it are a
+    /// condition on `model_key`.
     bool used_where(std::string_view key, std::string_view value) const;
     /// "m/s2", from the end of the name: the unit is part of the key; empty: none.
     std::string unit() const;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <numbers>
 
 namespace stylobate {
 
@@ -23,14 +24,26 @@ std::vector<Name<DistributionKind>> distributions(bool relative)
     return allowed;
 }
 
+/// A full turn of an angle, over which a uniform distribution goes without ends; 0 of what is no such angle.
+double turn_of(Quantity quantity)
+{
+    return quantity == Quantity::phase ? 2 * std::numbers::pi : quantity == Quantity::direction ? 360 : 0;
+}
+
+/// The same for people.
+std::string turn_words(double turn)
+{
+    return turn == 360 ? "360" : "2 pi";
+}
+
 std::unique_ptr<SpreadKey> make(Quantity quantity)
 {
     const auto key = [&](const Range& value, bool relative, const char* sd, std::vector<Name<Per>> allowed,
                          const char* means, KeyFacts facts = {}) {
         facts.absent = "not perturbed";
         return std::make_unique<SpreadKey>(
-            to_string(quantity), means,
-            SpreadKey::Quality{value, sd, relative, std::move(allowed), quantity == Quantity::phase}, std::move(facts));
+            to_string(quantity), means, SpreadKey::Quality{value, sd, relative, std::move(allowed), turn_of(quantity)},
+            std::move(facts));
     };
     using Motion = ExcitationKind;
     switch (quantity) {
@@ -65,6 +78,11 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
         return key(frequency_range, true, "sd_hz", {structure}, "frequency of a velocity pulse",
                    {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface, StudyKind::survival})},
                     .example = "{ distribution = \"lognormal\", sigma_ln = 0.4 }"});
+    case Quantity::direction:
+        return key(azimuth_range, false, "sd_deg", {structure}, "direction of the shaking in space, in degrees",
+                   {.used = {not_for_motions({Motion::none})},
+                    .example = "{ distribution = \"uniform\" }",
+                    .models = in_space()});
     case Quantity::pulse_gamma:
         break;
     }
@@ -85,8 +103,8 @@ std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParame
 } // namespace
 
 SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts)
-    : TableKey(std::move(key), std::move(means), {}, std::move(facts)), relative(quality.relative),
-      turns(quality.turns), value(quality.value),
+    : TableKey(std::move(key), std::move(means), {}, std::move(facts)), relative(quality.relative), turn(quality.turn),
+      value(quality.value),
       distribution("distribution", distributions(quality.relative), "the distribution", {.example = "\"normal\""}),
       sd(quality.deviation_key, {0, value.high, true, value.hint, value.slips},
          "standard deviation of a normal distribution",
@@ -96,9 +114,10 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
       sigma_ln("sigma_ln", sigma_ln_range, "standard deviation of the logarithm of a lognormal distribution",
                {.absent = "needed for a lognormal distribution"}),
       from("from", quality.value, "lower end of a uniform or log_uniform distribution",
-           {.absent = quality.turns ? "0, with `to` = 2 pi" : "needed for a uniform distribution"}),
+           {.absent =
+                quality.turn > 0 ? "0, with `to` = " + turn_words(quality.turn) : "needed for a uniform distribution"}),
       to("to", quality.value, "upper end of a uniform or log_uniform distribution",
-         {.absent = quality.turns ? "2 pi" : "needed for a uniform distribution"}),
+         {.absent = quality.turn > 0 ? turn_words(quality.turn) : "needed for a uniform distribution"}),
       min("min", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
       max("max", quality.value, "truncates a normal or lognormal distribution", {.absent = "not truncated"}),
       per("per", quality.allowed.front().value, quality.allowed, "whether each has its own value, or all the same")

@@ -41,13 +41,13 @@ struct SpreadKey : TableKey {
         std::string deviation_key;      ///< of the standard deviation; its unit is part of it
         bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
         std::vector<Name<Per>> allowed; ///< the first is the default
-        bool turns = false;             ///< a phase: without ends a uniform one is a full turn
+        double turn = 0; ///< of an angle: a full turn, over which a uniform one goes without ends; 0: needs ends
     };
     SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts = {});
     SpreadKey(const SpreadKey&) = delete; // `keys` points into it
 
     bool relative;
-    bool turns;
+    double turn; ///< see `Quality`
     Range value;
     WordKey<DistributionKind> distribution;
     NumberKey sd, cov, sigma_ln, from, to, min, max;

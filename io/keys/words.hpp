@@ -76,6 +76,17 @@ inline Condition not_for_motions(std::initializer_list<ExcitationKind> kinds)
     return where_not("excitation.kind", excitation_kind_names, kinds);
 }
 
+/// The value of `model_key`.
+inline const char* dimensions_word(const StructureSpec& structure)
+{
+    return structure.spatial() ? "3" : "2";
+}
+/// Of a key that studies in space alone use.
+inline std::vector<std::string> in_space()
+{
+    return {model_names[1]};
+}
+
 inline Condition with_rigid_contacts()
 {
     return where("contact.form", contact_form_names, {ContactForm::rigid});
@@ -91,6 +102,7 @@ inline KeyUse key_use(const Study& study)
 {
     KeyUse use{{{"study.kind", word_for(study_kind_names, study.kind)},
                 {"structure.kind", word_for(structure_kind_names, study.structure.kind)},
+                {model_key, dimensions_word(study.structure)},
                 {"contact.form", word_for(contact_form_names, study.contact.form)},
                 {"excitation.kind", word_for(excitation_kind_names, study.excitation.kind)}}};
     if (study.fragility)

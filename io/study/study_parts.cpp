@@ -105,6 +105,12 @@ void read_tail(const KeyReader& keys, ExcitationSpec& e)
 
 } // namespace
 
+void refuse_other_model(const KeyReader& keys, const TableKey& table, const StructureSpec& structure)
+{
+    keys.refuse_unused(table, model_key, dimensions_word(structure),
+                       fmt::format("Remove it, or give {} = {}.", model_key, structure.spatial() ? 2 : 3));
+}
+
 std::string acceleration_unit(const std::string& word)
 {
     return word == "gal" ? "cm/s2" : word; // one name for one unit, so that equal studies have equal texts

@@ -41,6 +41,9 @@ ChosenContact choose_contact(const KeyReader& top, Study& study);
 /// The steps and the precision of contacts that yield; `run.accuracy` must be read. Nothing without an accuracy.
 void choose_steps(const KeyReader& keys_of_run, Study& study);
 
+/// Refuses the keys of a table that the model of the study does not use.
+void refuse_other_model(const KeyReader& keys, const TableKey& table, const StructureSpec& structure);
+
 StructureSpec read_structure(const KeyReader& keys);
 
 /// @param chosen by an accuracy

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace stylobate {
 
@@ -133,9 +132,9 @@ void read_normal(const KeyReader& keys, const Rule& rule, Spread& p)
 
 void read_uniform(const KeyReader& keys, const Rule& rule, Spread& p)
 {
-    if (rule.key->turns && !keys.has(rule.key->from) && !keys.has(rule.key->to)) {
+    if (rule.key->turn > 0 && !keys.has(rule.key->from) && !keys.has(rule.key->to)) {
         p.from = 0;
-        p.to = 2 * std::numbers::pi;
+        p.to = rule.key->turn;
         return;
     }
     Range range = rule.value;
@@ -231,6 +230,7 @@ void read_of_mechanisms(const KeyReader& section, Study& study)
 
 void read_perturbations(const KeyReader& section, Study& study)
 {
+    refuse_other_model(section, perturbation_table(), study.structure);
     const Layout layout = lay_out(study.structure);
     for (int i = 0; i < quantity_count; ++i) {
         const auto quantity = static_cast<Quantity>(i);

@@ -185,7 +185,8 @@ std::string use_words(const TomlKey& key)
     for (const Condition& condition : key.used)
         text += (text.empty() ? "" : ", and ") + condition.key + " = " + listed(condition.values);
     if (key.models != KeyFacts().models)
-        text += (text.empty() ? "" : ", and ") + std::string("model = ") + listed(key.models);
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", and ", model_key,
+                            key.models.front() == model_names.front() ? 2 : 3);
     return text;
 }
 

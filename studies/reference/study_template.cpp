@@ -57,7 +57,7 @@ private:
     std::string value_of(const TomlKey& key, const std::string& path) const
     {
         if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
-            return toml_quoted(kind->second);
+            return path == model_key ? kind->second : toml_quoted(kind->second);
         // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
         if (path == "contact.damping" && comes_to_rest_)
             return toml_quoted(word_for(damping_at_names, DampingAt::ends));

@@ -54,10 +54,16 @@ TEST(StudyReference, StatesTheModelsOfAKeyThatDoesNotHoldForAll)
 {
     const NumberKey all("drift_m", Range{0, 1}, "drift"), one("drift_m", Range{0, 1}, "drift", {.models = {"spatial"}});
     EXPECT_EQ(use_words(all), "");
-    EXPECT_EQ(use_words(one), "model = \"spatial\"");
+    EXPECT_EQ(use_words(one), "structure.dimensions = 3");
     for_each_key([&](const std::string& path, const TomlKey& key) {
-        EXPECT_EQ(key.models, std::vector<std::string>{"planar"}) << path;
+        EXPECT_FALSE(key.models.empty()) << path;
+        for (const std::string& model : key.models)
+            EXPECT_TRUE(model == "planar" || model == "spatial") << path;
     });
+    EXPECT_TRUE(all.used_where(model_key, "2"));
+    EXPECT_TRUE(all.used_where(model_key, "3"));
+    EXPECT_FALSE(one.used_where(model_key, "2"));
+    EXPECT_TRUE(one.used_where(model_key, "3"));
 }
 
 TEST(StudySchema, IsJsonAndHasEveryTable)
