@@ -274,7 +274,7 @@ void Draw::step()
 
 bool Draw::conclude()
 {
-    limits_.conclude(realization_);
+    limits_.conclude();
     return fallen();
 }
 

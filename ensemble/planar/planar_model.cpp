@@ -393,7 +393,7 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
         });
     // a realization that was set aside has no outcome
     const bool valid = state != State::invalid;
-    (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r, o);
+    (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r.step_s, r.drums, o);
     if (study_.design().end_state) {
         o.bed_offset_m.assign(offsets.size(), 0);
         o.rotation_rad.assign(static_cast<std::size_t>(r.drums), 0);

@@ -88,7 +88,7 @@ public:
     }
     static void check_limits(Place& place, int done);
     static bool fallen(const Place& place) { return place.measured.limits.fallen(); }
-    static void conclude(Place& place) { place.measured.limits.conclude(place.realization); }
+    static void conclude(Place& place) { place.measured.limits.conclude(); }
     bool leaves(int lane, const Place& place) const { return leaves_beds(topology_, bundle_, lane, place.watch); }
     HandOver hand_over(int lane, const Place& place) const;
     /// Displacements, slip and rotations of a realization that has ended.

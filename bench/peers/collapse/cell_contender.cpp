@@ -114,7 +114,7 @@ DrawEnd run_draw(const Engine& engine, std::size_t setting, double step_s, const
         if (limits.fallen())
             return {true, n * step_s};
     }
-    limits.conclude(draw);
+    limits.conclude();
     return {limits.fallen(), n * step_s};
 }
 

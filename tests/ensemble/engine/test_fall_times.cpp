@@ -157,9 +157,9 @@ TEST(FallTimes, OfTwoBlocksFoundAtOneLook)
         inside[3] = inside_3;
         inside[5] = inside_5;
         limits.check(r, 2 * chunk_steps, moved, inside, chunk_steps);
-        limits.conclude(r);
+        limits.conclude();
         Outcome o;
-        limits.write(r, o);
+        limits.write(r.step_s, r.drums, o);
         return o;
     };
     const Outcome later = ended(20, 10), same = ended(10, 10), whole = ended(-1, 63);

@@ -401,7 +401,7 @@ TEST(LimitStates, FollowAScript)
     moved[0].y_m = -0.011; // of 0.025: below 0.6 of it
     check(640);
     Outcome o;
-    limits.write(r, o);
+    limits.write(r.step_s, r.drums, o);
     const double dt = r.step_s;
     EXPECT_EQ(o.fall_time_s, (std::vector<double>{640 * dt, -1, -1, 384 * dt, 576 * dt}));
     EXPECT_EQ(o.first_collapse_block, 3);
@@ -452,9 +452,9 @@ TEST(LimitStates, WhatHasTurnedAtTheEndHasFallen)
     moved[2].theta_rad = 1.0; // not beyond atan(150 / 60) = 1.190
     limits.check(r, 64, moved, std::vector<int>(r.blocks.size(), chunk_steps - 1), chunk_steps);
     EXPECT_FALSE(limits.fallen());
-    limits.conclude(r);
+    limits.conclude();
     Outcome o;
-    limits.write(r, o);
+    limits.write(r.step_s, r.drums, o);
     EXPECT_EQ(o.fallen_blocks, 1);
     EXPECT_EQ(o.first_collapse_block, 0);
     EXPECT_EQ(o.total_collapse_time_s, -1);
