@@ -1,5 +1,7 @@
 #include "ensemble/model/nominal.hpp"
 
+#include "ensemble/model/layout_in_space.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,8 +72,12 @@ RealizationValues nominal_values(const Study& study, const Layout& layout,
     for (int q = 0; q < quantity_count; ++q)
         values.all.push_back(nominal_values(study, layout, static_cast<Quantity>(q)));
     values[Quantity::friction].push_back(study.contact.friction);
-    values[Quantity::normal_stiffness].push_back(study.contact.normal_stiffness_n_m2);
-    values[Quantity::tangential_stiffness].push_back(study.contact.tangential_stiffness_n_m);
+    const ContactSpec& contact = study.contact;
+    const bool spatial = study.structure.spatial();
+    values[Quantity::normal_stiffness].push_back(spatial ? contact.normal_stiffness_n_m3
+                                                         : contact.normal_stiffness_n_m2);
+    values[Quantity::tangential_stiffness].push_back(spatial ? contact.tangential_stiffness_n_m3
+                                                             : contact.tangential_stiffness_n_m);
     for (const ActingMechanism& mechanism : mechanisms)
         values.all.insert(values.all.end(), mechanism.values.begin(), mechanism.values.end());
     return values;
@@ -90,22 +96,24 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
     case Quantity::friction:
         return of_beds(layout, &BedSpec::friction, contact.friction);
     case Quantity::normal_stiffness:
-        return of_beds(layout, &BedSpec::normal_stiffness_n_m2, contact.normal_stiffness_n_m2);
+        return structure.spatial() ? of_beds(layout, &BedSpec::normal_stiffness_n_m3, contact.normal_stiffness_n_m3)
+                                   : of_beds(layout, &BedSpec::normal_stiffness_n_m2, contact.normal_stiffness_n_m2);
     case Quantity::tangential_stiffness:
-        return of_beds(layout, &BedSpec::tangential_stiffness_n_m, contact.tangential_stiffness_n_m);
+        return structure.spatial()
+                   ? of_beds(layout, &BedSpec::tangential_stiffness_n_m3, contact.tangential_stiffness_n_m3)
+                   : of_beds(layout, &BedSpec::tangential_stiffness_n_m, contact.tangential_stiffness_n_m);
     case Quantity::damping_ratio:
         return {contact.normal_damping_ratio};
     case Quantity::drum_width:
-        return of_blocks(layout, [](const PlacedBlock& block) { return block.width_m; });
+        return of_blocks(layout, [](const PlacedBlock& block) { return block.drawn_width_m(); });
     case Quantity::drum_height:
         return of_blocks(layout, [](const PlacedBlock& block) { return block.height_m; });
     case Quantity::drum_offset:
         return of_blocks(layout, [](const PlacedBlock& block) { return block.offset_m; });
     case Quantity::density:
-        return of_blocks(layout, [&](const PlacedBlock& block) {
-            return block.mass_kg / (block.width_m * block.height_m * structure.depth_m);
-        });
+        return of_blocks(layout, [&](const PlacedBlock& block) { return block.mass_kg / volume_m3(structure, block); });
     case Quantity::tilt:
+    case Quantity::tilt_x:
         return {0};
     case Quantity::phase:
         return {study.excitation.phase_rad};
@@ -115,6 +123,8 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return {study.excitation.gamma};
     case Quantity::direction:
         return {study.excitation.direction_deg};
+    case Quantity::drum_offset_z:
+        return of_blocks(layout, [](const PlacedBlock& block) { return block.offset_z_m; });
     }
     return {0};
 }
@@ -134,9 +144,15 @@ std::vector<double> static_sinkage_m(const Study& study)
         const auto at = static_cast<std::size_t>(bed.upper);
         const double weight = (upper.mass_kg * study.structure.gravity_m_s2 + carried[at]) / seats[at];
         double left = -ground, right = ground;
+        if (bed.lower >= 0)
+            carried[static_cast<std::size_t>(bed.lower)] += weight;
+        if (study.structure.spatial()) {
+            sinkage[i] = weight / (bed.bed.normal_stiffness_n_m3.value_or(study.contact.normal_stiffness_n_m3) *
+                                   bed_in_plan(layout, bed).area_m2);
+            continue;
+        }
         if (bed.lower >= 0) {
             const PlacedBlock& lower = layout.blocks[static_cast<std::size_t>(bed.lower)];
-            carried[static_cast<std::size_t>(bed.lower)] += weight;
             left = lower.left();
             right = lower.right();
         }
@@ -154,7 +170,7 @@ double nominal_tail_s(const StructureSpec& structure)
             continue;
         top = std::max(top, block.top());
         bottom = std::min(bottom, block.bottom());
-        widest = std::max(widest, block.width_m);
+        widest = std::max({widest, block.width_m, block.depth_m}); // in the plane a placed block has no depth
     }
     return 12 / std::sqrt(0.75 * structure.gravity_m_s2 / std::hypot(widest / 2, 0.5 * (top - bottom)));
 }

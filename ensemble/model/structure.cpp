@@ -1,6 +1,7 @@
 #include "ensemble/model/structure.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/layout_in_space.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,7 @@
 namespace stylobate {
 namespace {
 
-/// Part of a size below which a distance is rounding: sums of lengths as people write them, never a gap or a step.
-constexpr double rounding = 1e-9;
+constexpr double rounding = layout_rounding;
 
 struct Interval {
     double from = 0;
@@ -26,10 +26,9 @@ Interval common(const PlacedBlock& a, const PlacedBlock& b)
     return {std::max(a.left(), b.left()), std::min(a.right(), b.right())};
 }
 
-/// "12 mm", "1.5 m": distances of a message.
 std::string distance(double metres)
 {
-    return std::abs(metres) < 1 ? fmt::format("{:.4g} mm", 1000 * metres) : fmt::format("{:.4g} m", metres);
+    return distance_words(metres);
 }
 
 const PlacedBlock& at(const Layout& layout, int block)
@@ -37,9 +36,14 @@ const PlacedBlock& at(const Layout& layout, int block)
     return layout.blocks[static_cast<std::size_t>(block)];
 }
 
-void check_size(const PlacedBlock& block)
+void check_size(const PlacedBlock& block, bool spatial)
 {
     const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    if (spatial && (!positive(block.depth_m) || !positive(block.top_ratio) || !std::isfinite(block.z_m())))
+        throw InputError(
+            fmt::format("structure: {} is {:g} m deep, its top has {:g} times the width of its bottom, and "
+                        "it stands at z = {:g} m. Sizes must be above 0.",
+                        block.name, block.depth_m, block.top_ratio, block.z_m()));
     if (!positive(block.width_m) || !positive(block.height_m) || !positive(block.mass_kg) ||
         !std::isfinite(block.x_m()))
         throw InputError(fmt::format("structure: {} is {:g} m wide, {:g} m high, has {:g} kg and stands at x = {:g} m. "
@@ -50,7 +54,7 @@ void check_size(const PlacedBlock& block)
 /// Puts the drums of a column one upon the other.
 /// @param of_column behind the name of a block where there are several columns
 /// @return index of the topmost one
-int place_column(const ColumnSpec& column, int number, const std::string& of_column, Layout& layout)
+int place_column(const ColumnSpec& column, int number, const std::string& of_column, bool spatial, Layout& layout)
 {
     const int drums = static_cast<int>(column.drums.size());
     if (drums == 0)
@@ -69,9 +73,17 @@ int place_column(const ColumnSpec& column, int number, const std::string& of_col
         block.mass_kg = drum.mass_kg;
         block.axis_m = column.x_m;
         block.offset_m = drum.offset_m;
+        if (spatial) {
+            block.shape = drum.shape;
+            block.depth_m = drum.depth_m;
+            block.top_ratio = drum.top_width_m / drum.width_m;
+            block.axis_z_m = column.z_m;
+            block.offset_z_m = drum.offset_z_m;
+            block.capital = drum.capital;
+        }
         block.y_m = top + drum.height_m / 2;
         block.fixed = i < column.fixed_blocks;
-        check_size(block);
+        check_size(block, spatial);
         const int index = static_cast<int>(layout.blocks.size());
         if (!block.fixed)
             layout.beds.push_back({i > 0 ? index - 1 : -1, index, drum.bed});
@@ -134,7 +146,7 @@ void place_epistyle(const EpistyleSpec& epistyle, int number, const std::vector<
     block.mass_kg = epistyle.mass_kg;
     block.axis_m = epistyle.x_m;
     block.y_m = level + epistyle.height_m / 2;
-    check_size(block);
+    check_size(block, false);
 
     const int index = static_cast<int>(layout.blocks.size());
     Interval seats;
@@ -182,6 +194,16 @@ void check_overlaps(const std::vector<PlacedBlock>& blocks)
 
 } // namespace
 
+std::string distance_words(double metres)
+{
+    return std::abs(metres) < 1 ? fmt::format("{:.4g} mm", 1000 * metres) : fmt::format("{:.4g} m", metres);
+}
+
+double volume_m3(const StructureSpec& structure, const PlacedBlock& block)
+{
+    return structure.spatial() ? block.frustum().volume_m3() : block.width_m * block.height_m * structure.depth_m;
+}
+
 StructureSpec equal_column(int blocks, int fixed, double width_m, double height_m, double depth_m, double mass_kg,
                            double gravity_m_s2)
 {
@@ -199,22 +221,30 @@ Layout lay_out(const StructureSpec& structure)
 {
     if (structure.columns.empty())
         throw InputError("structure: there is no column.");
-    if (structure.kind == StructureKind::column &&
-        (structure.columns.size() > 1 || structure.columns[0].x_m != 0 || !structure.epistyles.empty()))
+    if (structure.kind == StructureKind::column && (structure.columns.size() > 1 || structure.columns[0].x_m != 0 ||
+                                                    structure.columns[0].z_m != 0 || !structure.epistyles.empty()))
         throw InputError("structure: a column stands alone, at x = 0, without an epistyle. For several columns, give "
                          "kind = \"colonnade\".");
 
+    const bool spatial = structure.spatial();
     Layout layout;
     std::vector<int> tops;
     for (std::size_t c = 0; c < structure.columns.size(); ++c) {
-        if (c > 0 && !(structure.columns[c].x_m > structure.columns[c - 1].x_m))
+        if (!spatial && c > 0 && !(structure.columns[c].x_m > structure.columns[c - 1].x_m))
             throw InputError(fmt::format("structure: column {} stands at x = {:g} m, not to the right of column {} at "
                                          "{:g} m. List the columns from the left.",
                                          c + 1, structure.columns[c].x_m, c, structure.columns[c - 1].x_m));
         const int first = static_cast<int>(layout.blocks.size());
         const std::string of_column = structure.columns.size() > 1 ? fmt::format(" of column {}", c + 1) : "";
-        tops.push_back(place_column(structure.columns[c], static_cast<int>(c), of_column, layout));
-        check_column(layout, first, tops.back());
+        tops.push_back(place_column(structure.columns[c], static_cast<int>(c), of_column, spatial, layout));
+        if (!spatial)
+            check_column(layout, first, tops.back());
+    }
+    if (spatial) {
+        check_columns_in_space(layout, tops);
+        place_epistyles_in_space(structure, tops, layout);
+        check_overlaps_in_space(layout.blocks);
+        return layout;
     }
     for (std::size_t e = 0; e < structure.epistyles.size(); ++e) {
         if (e > 0 && !(structure.epistyles[e].x_m > structure.epistyles[e - 1].x_m))

@@ -1,6 +1,11 @@
 #pragma once
 /// What stands on the ground: columns of drums, and the epistyles that lie on them. Plain data, SI units; and where
 /// each block of it stands at rest.
+///
+/// A structure is in the plane (x to the right, y up), where every block is a rectangle of the same depth, or in space
+/// (z towards the viewer), where blocks have shapes of their own.
+
+#include "ensemble/model/frustum.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -29,6 +34,10 @@ struct BedSpec {
     std::optional<double> restitution;                   ///< of the rigid form
     std::optional<double> normal_damping_ratio = {};     ///< of critical; of a layer in the joint
     std::optional<double> tangential_damping_ratio = {}; ///< the same along the face
+    // in space
+    std::optional<double> normal_stiffness_n_m3 = {};     ///< per area of the bed
+    std::optional<double> tangential_stiffness_n_m3 = {}; ///< per area of the bed
+    double inner_ratio = 0; ///< hollow bed: inner over outer size of its faces; 0: the whole face bears
     friend bool operator==(const BedSpec&, const BedSpec&) = default;
 };
 
@@ -40,6 +49,11 @@ struct DrumSpec {
     double offset_m = 0;  ///< of its centre from the axis of its column
     BedSpec bed = {};     ///< under it; without meaning where it and what it stands on are fixed
     bool capital = false; ///< the uppermost one of its column may be
+    // in space
+    Shape shape = Shape::round;
+    double depth_m = 0;     ///< extent along z of the bottom face; of round and square ones the width
+    double top_width_m = 0; ///< width of the top face, whose depth is smaller in the same proportion
+    double offset_z_m = 0;  ///< of its centre from the axis of its column, along z
     friend bool operator==(const DrumSpec&, const DrumSpec&) = default;
 };
 
@@ -47,10 +61,15 @@ struct ColumnSpec {
     double x_m = 0;              ///< its axis
     int fixed_blocks = 0;        ///< number of drums, the lowest ones, that are fixed to the shaking table
     std::vector<DrumSpec> drums; ///< from the bottom
+    double z_m = 0;              ///< its axis, in space
     friend bool operator==(const ColumnSpec&, const ColumnSpec&) = default;
 };
 
-/// Lies on every column from the first to the last one.
+/// The axis along which an epistyle reaches, in space.
+enum class Along : std::uint8_t { x, z };
+
+/// Lies on every column from the first to the last one. In space: on these two, and on those between them whose axes
+/// are under it.
 struct EpistyleSpec {
     int first_column = 0; ///< from 0, from the left
     int last_column = 0;
@@ -59,6 +78,10 @@ struct EpistyleSpec {
     double height_m = 0;
     double mass_kg = 0;
     BedSpec bed = {}; ///< each of its seats
+    // in space
+    Along along = Along::x;
+    double width_m = 0; ///< horizontally across its length
+    double z_m = 0;     ///< its centre
     friend bool operator==(const EpistyleSpec&, const EpistyleSpec&) = default;
 };
 
@@ -84,14 +107,28 @@ struct PlacedBlock {
     /// base and from the left. Indices in keys and tables count from 0.
     std::string name;
     BlockRole role = BlockRole::drum;
-    int column = 0; ///< of a drum, from the left; -1 for an epistyle
-    double width_m = 0;
+    int column = 0;     ///< of a drum, from the left; -1 for an epistyle
+    double width_m = 0; ///< along x; of a frustum at its bottom
     double height_m = 0;
     double mass_kg = 0;
     double axis_m = 0;   ///< from which its offset counts: of its column, or the place of an epistyle
     double offset_m = 0; ///< of its centre from there
-    double y_m = 0;      ///< centre, above the base
+    double y_m = 0;      ///< centre, half way up, above the base
     bool fixed = false;
+    // in space
+    Shape shape = Shape::rectangle;
+    double depth_m = 0;     ///< along z, at its bottom
+    double top_ratio = 1;   ///< of the top face over the bottom one, along x and z
+    double axis_z_m = 0;    ///< as `axis_m`, along z
+    double offset_z_m = 0;  ///< of its centre from there
+    Along along = Along::x; ///< of an epistyle
+    bool capital = false;
+
+    double z_m() const { return axis_z_m + offset_z_m; } ///< centre
+    /// Its body in space.
+    Frustum frustum() const { return {shape, width_m, depth_m, height_m, top_ratio}; }
+    /// The extent that a realization may draw (`Quantity::drum_width`): its width, of an epistyle its length.
+    double drawn_width_m() const { return along == Along::z ? depth_m : width_m; }
 
     double x_m() const { return axis_m + offset_m; } ///< centre
     double left() const { return x_m() - width_m / 2; }
@@ -111,13 +148,20 @@ struct Layout {
     std::vector<PlacedBed> beds;     ///< column by column from the bottom, then the epistyles' seats from the left
 };
 
+/// Volume of a block [m3]: a rectangle's with the depth of the structure, or a frustum's.
+double volume_m3(const StructureSpec& structure, const PlacedBlock& block);
+
 /// Where the blocks of a structure stand and on what.
+///
+/// In space "above the bed" is above both faces seen from above, and "between the seats" is inside the convex outline
+/// of all seats; a block narrower than the hole of the bed under it, and a capital smaller than the drum under it, are
+/// refused too.
 ///
 /// @throws InputError, naming the blocks and the distance, for a structure that cannot stand: blocks that overlap
 ///         (neighbours that just touch are fine), drums whose common centre of mass is not above the bed under them
 ///         (epistyles left out), an epistyle that one of its columns does not reach or reaches at another height, or
 ///         whose centre of mass is not between its outermost seats; for blocks without size or mass, for columns and
-///         epistyles that are not listed from the left, and for a column that is fixed as a whole
+///         epistyles that are not listed from the left (in the plane), and for a column that is fixed as a whole
 Layout lay_out(const StructureSpec& structure);
 
 /// The block that stands next to one at its right: at the height of its middle, nearest to it; -1: none.

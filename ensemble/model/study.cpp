@@ -37,6 +37,10 @@ const char* to_string(Quantity quantity)
         return "pulse_gamma";
     case Quantity::direction:
         return "direction";
+    case Quantity::drum_offset_z:
+        return "drum_offset_z";
+    case Quantity::tilt_x:
+        return "tilt_x";
     }
     return "?";
 }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,10 @@ enum class DampingAt {
 
 struct ContactSpec {
     ContactForm form = ContactForm::area;
-    double normal_stiffness_n_m2 = 0;    ///< K_N, force per overlap area, for the whole depth
-    double tangential_stiffness_n_m = 0; ///< K_T
+    double normal_stiffness_n_m2 = 0;     ///< K_N, force per overlap area, for the whole depth
+    double tangential_stiffness_n_m = 0;  ///< K_T
+    double normal_stiffness_n_m3 = 0;     ///< in space instead of K_N: per area of the bed
+    double tangential_stiffness_n_m3 = 0; ///< in space instead of K_T: per area of the bed
     double normal_damping_ratio = 0.1;
     double tangential_damping_ratio = 0.1;
     std::optional<double> normal_damping_n_s_m;     ///< C_N itself, instead of the ratio
@@ -173,9 +176,13 @@ enum class Quantity {
     phase,                ///< of the harmonic or pulse; per structure [rad]
     pulse_frequency,      ///< of a velocity pulse; per structure [Hz]
     pulse_gamma,          ///< oscillatory character of a velocity pulse; per structure
-    direction             ///< of the shaking in space; per structure [degrees, as in study files]
+    direction,            ///< of the shaking in space; per structure [degrees, as in study files]
+    // in space, drawn with the quantity of the other direction, from the same distribution
+    drum_offset_z, ///< `drum_offset` along z; per block
+    tilt_x         ///< of the base about x (`tilt` is about z); per structure [rad]
 };
-inline constexpr int quantity_count = 13;
+inline constexpr int quantity_count = 15;
+inline constexpr int perturbable_count = 13; ///< the first ones: those that a study file names
 const char* to_string(Quantity quantity);
 
 enum class DistributionKind { normal, lognormal, uniform, log_uniform };
@@ -225,10 +232,13 @@ struct VerticalSpec {
     bool baseline = true;
 };
 
-/// The structure leaned as one rigid body about a corner; of a colonnade each column alike, and the epistyles ride on
-/// them.
+/// The structure leaned as one rigid body about a corner, or in space about the rim of a face; of a colonnade each
+/// column alike, and the epistyles ride on them.
 struct InitialSpec {
-    double tilt_rad = 0;     ///< > 0 counter-clockwise
+    double tilt_rad = 0; ///< > 0 counter-clockwise; in space towards `tilt_direction_rad`
+    /// In space: azimuth towards which it leans, from x towards z; pi is to the left, as counter-clockwise in the
+    /// plane.
+    double tilt_direction_rad = std::numbers::pi;
     int tilt_from_block = 0; ///< of each column, from the bottom: it and all above it lean about its lower corner
 };
 

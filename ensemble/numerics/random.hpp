@@ -26,6 +26,8 @@ enum class Stream : std::uint64_t {
     phase = 9,                ///< phase of the harmonic or pulse; element = 0
     pulse_frequency = 10,     ///< of a velocity pulse; element = 0
     pulse_gamma = 11,         ///< oscillatory character of a velocity pulse; element = 0
+    drum_offset_z = 12,       ///< offset of a drum along z, in space; element = block
+    tilt_x = 13,              ///< tilt of the base about x, in space; element = 0
     direction = 14,           ///< of the shaking in space; element = 0
     base_noise = 64,          ///< white noise of a synthetic earthquake; element = sample
     mean_peak = 65,           ///< white noise of the motions by which a mean peak is found; index = motion, from 0

@@ -14,14 +14,22 @@ constexpr std::array streams = {Stream::friction,      Stream::normal_stiffness,
                                 Stream::damping_ratio, Stream::drum_width,       Stream::drum_height,
                                 Stream::drum_offset,   Stream::density,          Stream::tilt,
                                 Stream::phase,         Stream::pulse_frequency,  Stream::pulse_gamma,
-                                Stream::direction};
+                                Stream::direction,     Stream::drum_offset_z,    Stream::tilt_x};
 static_assert(streams.size() == quantity_count);
 
 /// Quantities of which a value below 0 means nothing.
 bool is_positive(Quantity quantity)
 {
     return quantity != Quantity::drum_offset && quantity != Quantity::tilt && quantity != Quantity::phase &&
-           quantity != Quantity::direction;
+           quantity != Quantity::direction && quantity != Quantity::drum_offset_z && quantity != Quantity::tilt_x;
+}
+
+/// In space: the quantity of the other direction, which is drawn from the same distribution.
+std::optional<Quantity> across(Quantity quantity)
+{
+    return quantity == Quantity::drum_offset ? std::optional(Quantity::drum_offset_z)
+           : quantity == Quantity::tilt      ? std::optional(Quantity::tilt_x)
+                                             : std::nullopt;
 }
 
 /// Quantities of which each bed has its own.
@@ -49,8 +57,15 @@ ValueSampler::ValueSampler(const Study& study, const RealizationValues& nominal,
         spread.sd = twin_m;
         twin_.emplace(spread, "fragility.twin_m", 0.0);
     }
-    for (const Perturbation& perturbation : study.perturbations)
-        add(study, perturbation);
+    for (const Perturbation& perturbation : study.perturbations) {
+        const int factor = study.design().factor(to_string(perturbation.quantity));
+        add(perturbation, factor);
+        if (const auto other = study.structure.spatial() ? across(perturbation.quantity) : std::nullopt) {
+            Perturbation along_other = perturbation;
+            along_other.quantity = *other;
+            add(along_other, factor);
+        }
+    }
     for (const MechanismPerturbation& perturbation : study.mechanism_perturbations)
         add(study, perturbation, mechanisms);
 
@@ -67,7 +82,8 @@ ValueSampler::ValueSampler(const Study& study, const RealizationValues& nominal,
     points_ = PointSet(study, places);
 }
 
-void ValueSampler::add(const Study& study, Perturbation perturbation)
+/// @param factor of a sensitivity study; -1: none
+void ValueSampler::add(Perturbation perturbation, int factor)
 {
     const Quantity quantity = perturbation.quantity;
     const bool once = perturbation.per == Per::structure;
@@ -77,7 +93,7 @@ void ValueSampler::add(const Study& study, Perturbation perturbation)
     if (is_positive(quantity))
         perturbation.min = std::max(perturbation.min.value_or(0), quantity == Quantity::pulse_gamma ? 1.0 : 0.0);
     Drawn drawn{RealizationValues::slot(quantity), streams[static_cast<std::size_t>(quantity)], once,
-                once ? 1 : about.size(), study.design().factor(to_string(quantity))};
+                once ? 1 : about.size(), factor};
     for (std::size_t i = 0; i < about.size(); ++i) {
         drawn.places.push_back(i);
         drawn.distributions.emplace_back(perturbation, about[i]);

@@ -51,7 +51,7 @@ private:
         std::uint64_t element(std::size_t i) const { return once ? 0 : places[i]; }
     };
 
-    void add(const Study& study, Perturbation perturbation);
+    void add(Perturbation perturbation, int factor);
     void add(const Study& study, MechanismPerturbation perturbation, const std::vector<ActingMechanism>& mechanisms);
     void name(const std::string& quantity, std::optional<std::size_t> numbered);
 

@@ -84,6 +84,8 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
                     .example = "{ distribution = \"uniform\" }",
                     .models = in_space()});
     case Quantity::pulse_gamma:
+    case Quantity::drum_offset_z: // drawn with their other direction
+    case Quantity::tilt_x:
         break;
     }
     return key(
@@ -153,7 +155,7 @@ const SpreadKey& spread_key(Quantity quantity)
 {
     static const auto all = [] {
         std::vector<std::unique_ptr<SpreadKey>> made;
-        for (int i = 0; i < quantity_count; ++i)
+        for (int i = 0; i < perturbable_count; ++i)
             made.push_back(make(static_cast<Quantity>(i)));
         return made;
     }();
@@ -197,7 +199,7 @@ const TableKey& perturbation_table()
 {
     static const TableKey table = [] {
         std::vector<const TomlKey*> keys;
-        for (int i = 0; i < quantity_count; ++i)
+        for (int i = 0; i < perturbable_count; ++i)
             keys.push_back(&spread_key(static_cast<Quantity>(i)));
         keys.push_back(&perturbed_mechanisms());
         return TableKey("perturbation", "what differs from one realization to the next", std::move(keys),

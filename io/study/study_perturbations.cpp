@@ -232,7 +232,7 @@ void read_perturbations(const KeyReader& section, Study& study)
 {
     refuse_other_model(section, perturbation_table(), study.structure);
     const Layout layout = lay_out(study.structure);
-    for (int i = 0; i < quantity_count; ++i) {
+    for (int i = 0; i < perturbable_count; ++i) {
         const auto quantity = static_cast<Quantity>(i);
         if (!section.has(to_string(quantity)))
             continue;

@@ -113,7 +113,7 @@ public:
         paragraph("The quantities. Those without `cov` can have either sign: their distributions are normal and "
                   "uniform.");
         out_ += markdown_head("quantity | keys of the deviation | range | per | meaning");
-        for (int i = 0; i < quantity_count; ++i)
+        for (int i = 0; i < perturbable_count; ++i)
             quantity(spread_key(static_cast<Quantity>(i)), "");
         out_ += "\n";
         paragraph("### `[perturbation.mechanisms]`\n\nA parameter of a mechanism that `[mechanisms]` names: "

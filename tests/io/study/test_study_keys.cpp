@@ -155,7 +155,7 @@ std::vector<std::string> samples()
                                        "{ distribution = \"lognormal\", sigma_ln = 0.01 }"});
         return texts;
     };
-    for (int i = 0; i < quantity_count; ++i) {
+    for (int i = 0; i < perturbable_count; ++i) {
         const SpreadKey& key = spread_key(static_cast<Quantity>(i));
         const std::string kind = key.name.starts_with("pulse") ? "pulse" : "harmonic";
         for (const std::string& spread : spreads(key))
