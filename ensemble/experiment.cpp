@@ -1,6 +1,7 @@
 #include "ensemble/experiment.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/motions_in_space.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ struct Experiment::Parts {
 
     Parts(Study s, Motions m)
         : study(std::move(s)), motions(std::move(m)),
-          sampler(study, address(motions.record), address(motions.vertical), motions.drawn)
+          sampler(study, address(motions.record), address(motions.vertical), motions.drawn, address(motions.second))
     {
     }
     Parts(const Parts&) = delete;
@@ -58,6 +59,12 @@ const Sampler& Experiment::sampler() const
 
 double shaking_s(const Experiment& experiment, const Realization& r)
 {
+    if (r.spatial()) {
+        double end_s = 0;
+        for (const BaseMotion& motion : motions_in_space(experiment.study().excitation, r, experiment.record()))
+            end_s = std::max(end_s, motion.duration_s());
+        return end_s;
+    }
     const double end = BaseMotion(experiment.study().excitation, r, experiment.record()).duration_s();
     if (r.vertical == nullptr)
         return end;

@@ -16,6 +16,7 @@ namespace stylobate {
 struct Motions {
     std::optional<Motion> record{};           ///< of a study with `excitation.kind` "record" or "table"
     std::optional<Motion> vertical{};         ///< of one with a vertical record
+    std::optional<Motion> second{};           ///< second horizontal component of a record or table in space
     std::shared_ptr<const MotionSet> drawn{}; ///< of a fragility study
 };
 

@@ -24,26 +24,9 @@ RealizationHeader times(RealizationHeader realization, double factor)
     return realization;
 }
 
-/// The first component by itself.
-RealizationHeader first_of(const RealizationHeader& realization)
-{
-    RealizationHeader first = realization;
-    first.pga_m_s2 *= realization.first_share;
-    return first;
-}
-
 bool has_phase(ExcitationKind kind)
 {
     return kind == ExcitationKind::harmonic || kind == ExcitationKind::tapered || kind == ExcitationKind::pulse;
-}
-
-/// The second component of a motion in closed form.
-RealizationHeader second_of(const ExcitationSpec& excitation, const RealizationHeader& first)
-{
-    RealizationHeader second = times(first, excitation.second_ratio);
-    if (has_phase(excitation.kind))
-        second.phase_rad += excitation.second_phase_deg * (std::numbers::pi / 180);
-    return second;
 }
 
 /// At rest, in the form in which the kernels or the host make the tables of the other components.
@@ -55,10 +38,25 @@ BaseMotion still(const ExcitationSpec& excitation, const RealizationHeader& firs
 
 } // namespace
 
+RealizationHeader first_component(const RealizationHeader& realization)
+{
+    RealizationHeader first = realization;
+    first.pga_m_s2 *= realization.first_share;
+    return first;
+}
+
+RealizationHeader second_component(const ExcitationSpec& excitation, const RealizationHeader& first)
+{
+    RealizationHeader second = times(first, excitation.second_ratio);
+    if (has_phase(excitation.kind))
+        second.phase_rad += excitation.second_phase_deg * (std::numbers::pi / 180);
+    return second;
+}
+
 std::array<BaseMotion, 3> motions_in_space(const ExcitationSpec& excitation, const RealizationHeader& realization,
                                            const Motion* record)
 {
-    const RealizationHeader first = first_of(realization);
+    const RealizationHeader first = first_component(realization);
     std::array<BaseMotion, 3> motions = {BaseMotion(excitation, first, record), still(excitation, first),
                                          still(excitation, first)};
     if (realization.second != nullptr) {
@@ -66,7 +64,7 @@ std::array<BaseMotion, 3> motions_in_space(const ExcitationSpec& excitation, con
         second.motion = realization.second;
         motions[1] = BaseMotion(excitation, second, record);
     } else if (excitation.second_ratio > 0 && first.motion == nullptr) {
-        motions[1] = BaseMotion(excitation, second_of(excitation, first), record);
+        motions[1] = BaseMotion(excitation, second_component(excitation, first), record);
     }
     if (realization.vertical != nullptr)
         motions[2] = BaseMotion::along(realization.vertical, realization.step_s, realization.change.offset_s);
@@ -102,15 +100,14 @@ double pga_of_pair_over_first(const ExcitationSpec& excitation, const Realizatio
     } else if (has_phase(excitation.kind) && excitation.second_phase_deg != 0) {
         RealizationHeader first = realization;
         first.pga_m_s2 = 1;
-        at_once =
-            peak_at_once(SyntheticMotion(excitation, first), SyntheticMotion(excitation, second_of(excitation, first)));
+        at_once = peak_at_once(SyntheticMotion(excitation, first),
+                               SyntheticMotion(excitation, second_component(excitation, first)));
     }
     return at_once;
 }
 
-double peak_at_once(const Motion& first, const Motion& second)
+double peak_at_once(const std::vector<double>& a, const std::vector<double>& b)
 {
-    const std::vector<double>&a = first.acceleration_m_s2, &b = second.acceleration_m_s2;
     double largest = 0;
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
         largest = std::max(largest, square(i < a.size() ? a[i] : 0) + square(i < b.size() ? b[i] : 0));

@@ -24,6 +24,7 @@
 #include "ensemble/motion/base_motion.hpp"
 
 #include <array>
+#include <vector>
 
 namespace stylobate {
 
@@ -44,8 +45,14 @@ double pga_of_pair_over_first(const ExcitationSpec& excitation, const Realizatio
 /// By a definition, of the largest sizes of both components and the largest length of their vector.
 double of_pair(OfPair definition, double first, double second, double at_once);
 
-/// Largest length of the vector of two motions, which are linear between their samples: it is at a sample.
+/// Largest length of the vector of two accelerations, which are linear between their samples: it is at a sample.
 /// @pre both have the same spacing; the shorter one is at rest after its end
-double peak_at_once(const Motion& first, const Motion& second);
+double peak_at_once(const std::vector<double>& first, const std::vector<double>& second);
+
+/// The first component of a shaking by itself: `pga_m_s2` is its own PGA.
+RealizationHeader first_component(const RealizationHeader& realization);
+/// The second component of a motion in closed form.
+/// @param first `first_component`
+RealizationHeader second_component(const ExcitationSpec& excitation, const RealizationHeader& first);
 
 } // namespace stylobate

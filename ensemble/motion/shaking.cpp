@@ -1,6 +1,8 @@
 #include "ensemble/motion/shaking.hpp"
 
 #include "ensemble/motion/base_motion.hpp"
+#include "ensemble/motion/motions_in_space.hpp"
+#include "ensemble/motion/noise_in_space.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/motion/synthetic_noise.hpp"
 
@@ -32,6 +34,18 @@ BaseChange distortion_of(const MechanismSpec& spec)
     return change;
 }
 
+std::shared_ptr<const Motion> with_overtones(const Motion& motion, const BaseChange& change)
+{
+    return std::make_shared<const Motion>(Distortion(motion).distorted(motion, change));
+}
+
+/// PGA of the first component of a motion in closed form over that of the pair.
+double share_of_first(const ExcitationSpec& excitation, const RealizationHeader& realization)
+{
+    const bool closed = excitation.kind != ExcitationKind::noise && !is_sampled(excitation.kind);
+    return closed && excitation.second_ratio > 0 ? 1 / pga_of_pair_over_first(excitation, realization) : 1;
+}
+
 /// A motion in another time and of another size.
 Motion scaled(Motion motion, double stretch, double scale)
 {
@@ -50,7 +64,7 @@ Motion scaled(Motion motion, double stretch, double scale)
 } // namespace
 
 Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertical,
-                 std::shared_ptr<const MotionSet> motions)
+                 std::shared_ptr<const MotionSet> motions, const Motion* second)
     : motions_(std::move(motions))
 {
     const ExcitationSpec& excitation = study.excitation;
@@ -65,6 +79,14 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
         predominant_hz_ = record->predominant_frequency_hz;
         record_frequency_hz_ = record->predominant_frequency_hz / excitation.time_scale;
         record_pga_m_s2_ = record->pga_m_s2;
+        if (excitation.second) {
+            if (second == nullptr || second->empty())
+                throw std::invalid_argument("a study with two components was given no second one");
+            second_ = std::make_shared<const Motion>(*second);
+            record_pga_m_s2_ = of_pair(excitation.pga_of_pair, record->pga_m_s2, second->pga_m_s2,
+                                       peak_at_once(record->acceleration_m_s2, second->acceleration_m_s2));
+            first_share_ = record->pga_m_s2 / record_pga_m_s2_;
+        }
         if (study.names(Mechanism::harmonic_distortion)) {
             record_ = *record;
             distortion_ = Distortion(record_);
@@ -91,7 +113,7 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
         const Axis* axis = study.design().frequency_hz;
         for (int i = 0; i < (axis ? axis->count : 1); ++i) {
             const double frequency = axis ? axis->value(i) : excitation.frequency_hz;
-            mean_peak_.push_back(SyntheticNoise(excitation, frequency).mean_peak(study.seed));
+            mean_peak_.push_back(mean_peak(SyntheticNoise(excitation, frequency), excitation, study.seed));
         }
     }
 }
@@ -102,6 +124,7 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales&
     const ExcitationSpec& excitation = study.excitation;
     realization.phase_rad = drawn.phase_rad;
     realization.pulse_gamma = drawn.pulse_gamma;
+    realization.direction_rad = drawn.direction_rad;
     const StudyDesign design = study.design();
     if (design.motions != nullptr)
         return apply_motion(design, realization);
@@ -112,19 +135,40 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales&
         realization.frequency_hz = design.frequency_hz->value(static_cast<int>(row));
     if (design.pga_m_s2)
         realization.pga_m_s2 = design.pga_m_s2->value(static_cast<int>(cell % design.columns));
-    if (excitation.kind == ExcitationKind::noise) {
-        const SyntheticNoise noise(excitation, realization.frequency_hz);
-        const std::uint64_t own = design.motion_index(realization.index);
-        realization.motion = std::make_shared<const Motion>(
-            excitation.pga_of == PgaOf::mean ? noise.motion(study.seed, own, realization.pga_m_s2 / mean_peak_[row])
-                                             : noise.motion_of_peak(study.seed, own, realization.pga_m_s2));
-    }
-    if (realization.change.distorts())
+    if (excitation.kind == ExcitationKind::noise)
+        shake_by_noise(study, design.motion_index(realization.index), row, realization);
+    else if (second_)
+        realization.second = second_;
+    realization.first_share = second_ ? first_share_ : share_of_first(excitation, realization);
+    if (realization.change.distorts()) {
+        if (excitation.has_second())
+            distort_second(excitation, realization);
         distort(excitation, realization);
+    }
     if (vertical_)
         move_vertically(realization);
     if (const int events = design.events_of(realization.index); events > 1)
         repeat(study, events, row, scales, realization);
+}
+
+void Shaking::shake_by_noise(const Study& study, std::uint64_t motion, std::size_t row,
+                             RealizationHeader& realization) const
+{
+    const ExcitationSpec& excitation = study.excitation;
+    const SyntheticNoise noise(excitation, realization.frequency_hz);
+    HorizontalNoise pair =
+        horizontal_noise(noise, excitation, study.seed, motion, Stream::base_noise, Stream::second_noise);
+    const double scale =
+        realization.pga_m_s2 / (excitation.pga_of == PgaOf::mean ? mean_peak_[row] : pair.peak(excitation.pga_of_pair));
+    const auto motion_from = [&](std::vector<double> acceleration, double factor) {
+        return std::make_shared<const Motion>(noise.motion_from(std::move(acceleration), factor));
+    };
+    realization.motion = motion_from(std::move(pair.first), scale);
+    if (!pair.second.empty())
+        realization.second = motion_from(std::move(pair.second), scale);
+    if (excitation.vertical_ratio > 0)
+        realization.vertical = motion_from(noise.acceleration(study.seed, motion, Stream::vertical_noise),
+                                           scale * excitation.vertical_ratio);
 }
 
 void Shaking::repeat(const Study& study, int events, std::size_t row, const Scales& scales,
@@ -179,9 +223,20 @@ void Shaking::distort(const ExcitationSpec& excitation, RealizationHeader& reali
     } else if (excitation.kind == ExcitationKind::noise || SyntheticMotion::covers(excitation.kind)) {
         const Motion plain = excitation.kind == ExcitationKind::noise
                                  ? *realization.motion
-                                 : sampled(SyntheticMotion(excitation, realization));
-        realization.motion = std::make_shared<const Motion>(Distortion(plain).distorted(plain, realization.change));
+                                 : sampled(SyntheticMotion(excitation, first_component(realization)));
+        realization.motion = with_overtones(plain, realization.change);
     }
+}
+
+/// As the first component, which is not distorted yet.
+void Shaking::distort_second(const ExcitationSpec& excitation, RealizationHeader& realization) const
+{
+    if (realization.second)
+        realization.second = with_overtones(*realization.second, realization.change);
+    else if (SyntheticMotion::covers(excitation.kind))
+        realization.second = with_overtones(
+            sampled(SyntheticMotion(excitation, second_component(excitation, first_component(realization)))),
+            realization.change);
 }
 
 /// A vertical record is stretched and scaled as the horizontal one is: they are components of one shaking.

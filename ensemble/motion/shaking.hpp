@@ -28,9 +28,11 @@ public:
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
     /// @param motions  those of a study with a set of motions, else ignored
-    /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
+    /// @param second   the second horizontal component of a record in space, else ignored; not kept
+    /// @throws std::invalid_argument if such a study comes without its record, second component, vertical record or
+    ///         motions
     Shaking(const Study& study, const Motion* record, const Motion* vertical,
-            std::shared_ptr<const MotionSet> motions = nullptr);
+            std::shared_ptr<const MotionSet> motions = nullptr, const Motion* second = nullptr);
 
     /// Fills in the shaking of a realization whose index and whose `change` of the base motion are set.
     /// @param study  the one this was made for
@@ -41,7 +43,10 @@ public:
 private:
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const;
     void apply_motion(const StudyDesign& design, RealizationHeader& realization) const;
+    void shake_by_noise(const Study& study, std::uint64_t motion, std::size_t row,
+                        RealizationHeader& realization) const;
     void distort(const ExcitationSpec& excitation, RealizationHeader& realization) const;
+    void distort_second(const ExcitationSpec& excitation, RealizationHeader& realization) const;
     void move_vertically(RealizationHeader& realization) const;
     /// Several events instead of one. @param row of the surface
     void repeat(const Study& study, int events, std::size_t row, const Scales& scales,
@@ -50,11 +55,13 @@ private:
     Motion record_;                           ///< where it is distorted, or repeated
     Distortion distortion_;                   ///< of it
     std::shared_ptr<const Motion> distorted_; ///< the record as every realization has it; null where each has its own
+    std::shared_ptr<const Motion> second_;    ///< of a record in space
     std::shared_ptr<const Motion> vertical_;
     std::shared_ptr<const MotionSet> motions_;
     double predominant_hz_ = 0; ///< of the record as it stands; 0: there is none
     double record_frequency_hz_ = 0;
-    double record_pga_m_s2_ = 0;
+    double record_pga_m_s2_ = 0; ///< of a pair by its definition
+    double first_share_ = 1;     ///< PGA of its first component over that
     std::vector<double>
         mean_peak_; ///< noise with the PGA of the mean: of unit noise, a surface's frequency by frequency
 };

@@ -14,7 +14,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double samples_per_second = 200, samples_per_cycle = 100;
-constexpr std::uint64_t motions_for_mean = 128;
 
 /// u'' + 2 z w u' + w2 u = f, exactly over steps in which f is linear (Nigam & Jennings 1969).
 class Filter {
@@ -126,9 +125,9 @@ std::vector<double> SyntheticNoise::acceleration(std::uint64_t seed, std::uint64
 double SyntheticNoise::mean_peak(std::uint64_t seed) const
 {
     double sum = 0;
-    for (std::uint64_t i = 0; i < motions_for_mean; ++i)
+    for (std::uint64_t i = 0; i < motions_for_mean_peak; ++i)
         sum += peak(acceleration(seed, i, Stream::mean_peak));
-    return sum / static_cast<double>(motions_for_mean);
+    return sum / static_cast<double>(motions_for_mean_peak);
 }
 
 Motion SyntheticNoise::motion_from(std::vector<double> acceleration, double scale) const

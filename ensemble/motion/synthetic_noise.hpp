@@ -38,6 +38,9 @@
 
 namespace stylobate {
 
+/// Number of motions whose mean peak is taken.
+inline constexpr std::uint64_t motions_for_mean_peak = 128;
+
 class SyntheticNoise {
 public:
     SyntheticNoise(const ExcitationSpec& excitation, double ground_frequency_hz);
@@ -57,10 +60,10 @@ public:
     Motion motion(std::uint64_t seed, std::uint64_t index, double scale) const;
     /// Scaled so that its own peak is `pga_m_s2`.
     Motion motion_of_peak(std::uint64_t seed, std::uint64_t index, double pga_m_s2) const;
-
-private:
+    /// The motion of samples that this noise has, times `scale`.
     Motion motion_from(std::vector<double> acceleration, double scale) const;
 
+private:
     double frequency_hz_, damping_ratio_, low_cut_hz_, low_cut_damping_ratio_;
     double rise_s_, strong_s_, decay_s_;
     double duration_s_, dt_s_;

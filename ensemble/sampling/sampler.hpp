@@ -35,21 +35,23 @@ public:
     /// @param record   the base motion of a study with `excitation.kind` "record" or "table", else ignored; not kept
     /// @param vertical that of a study with a vertical record, else ignored; not kept
     /// @param motions  those of a study with a set of motions, else ignored
+    /// @param second   the second horizontal component of a record in space, else ignored; not kept
     /// @throws InputError if the structure cannot stand, or a perturbation leaves no probability between its limits
-    /// @throws std::invalid_argument if such a study comes without its record, vertical record or motions
+    /// @throws std::invalid_argument if such a study comes without its record, second component, vertical record or
+    ///         motions
     SamplerOf(const Study& study, const Motion* record, const Motion* vertical = nullptr,
-              std::shared_ptr<const MotionSet> motions = nullptr)
-        : study_(&study), builder_(study), shaking_(study, record, vertical, std::move(motions)),
+              std::shared_ptr<const MotionSet> motions = nullptr, const Motion* second = nullptr)
+        : study_(&study), builder_(study), shaking_(study, record, vertical, std::move(motions), second),
           values_(study, builder_.nominal(), builder_.mechanisms())
     {
         if (const ReplicasSpec* replicas = study.design().replica_set)
             for (const Replica& kind : replicas->kinds)
                 forms_.push_back(kind.by == ReplicaBy::form
-                                     ? std::make_shared<const OtherForm>(study, kind.form, record, vertical)
+                                     ? std::make_shared<const OtherForm>(study, kind.form, record, vertical, second)
                                      : nullptr);
     }
-    SamplerOf(const Study&&, const Motion*, const Motion* = nullptr,
-              std::shared_ptr<const MotionSet> = nullptr) = delete;
+    SamplerOf(const Study&&, const Motion*, const Motion* = nullptr, std::shared_ptr<const MotionSet> = nullptr,
+              const Motion* = nullptr) = delete;
 
     /// @param index from 0 to study.total() - 1; in a surface it identifies the cell too. A perturbed replica has all
     ///              properties of its original except the one of its kind: if displaced, its step stays; in another
@@ -92,8 +94,8 @@ private:
         Study study; // stays where it is: the sampler refers to it
         SamplerOf sampler;
 
-        OtherForm(const Study& of, ContactForm form, const Motion* record, const Motion* vertical)
-            : study(in_form(of, form)), sampler(study, record, vertical)
+        OtherForm(const Study& of, ContactForm form, const Motion* record, const Motion* vertical, const Motion* second)
+            : study(in_form(of, form)), sampler(study, record, vertical, nullptr, second)
         {
         }
         OtherForm(const OtherForm&) = delete;
