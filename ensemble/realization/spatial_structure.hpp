@@ -13,11 +13,12 @@
 
 namespace stylobate {
 
-/// A plane face: a disc, or a rectangle.
+/// A plane face: a disc, or a rectangle. Of a bed its sizes are along x and z; of a butt joint along the two axes of the
+/// face, y and z (normal x) or x and y (normal z).
 struct Face {
     bool round = true;
-    double half_x_m = 0; ///< of a disc its radius
-    double half_z_m = 0; ///< of a disc its radius
+    double half_x_m = 0; ///< half size along the first one; of a disc the radius
+    double half_z_m = 0; ///< along the second one; of a disc the radius
 };
 
 /// A rigid body: a drum (a frustum of a cone) or a prism (a frustum of a pyramid), upright in the reference state.
