@@ -14,7 +14,7 @@
 
 namespace stylobate::spatial {
 
-/// @pre mu >= 0, the others > 0; or all 0: then nothing resists
+/// @pre K_t > 0 and per_K_t = 1 / K_t, the others >= 0; or all 0: then nothing resists
 template <class Real>
 struct FrictionLaw {
     Real K_t;        ///< stiffness along the face [N/m]
