@@ -54,6 +54,8 @@ inline const Range time_scale_range{0.001, 1000, false, "2 makes the record twic
 inline const Range phase_range{-100, 100, false, "Angles are in radians.", from_degrees};
 inline const Range azimuth_range{-360, 360, false,
                                  "Directions are in degrees from x towards z: clockwise, seen from above."};
+inline const Range component_ratio_range{0, 10, false, "A component over the first one.", from_percent};
+inline const Range correlation_range{-1, 1, false, "A coefficient of correlation.", from_percent};
 inline const Range tilt_range{-0.5, 0.5, false, "Angles are in radians.", from_degrees};
 inline const Range initial_tilt_range{-1.5, 1.5, false, "Angles are in radians.", from_degrees};
 inline const Range cov_range{0, 5, true, "A coefficient of variation is a fraction of the nominal value: 10 % is 0.1.",

@@ -296,6 +296,55 @@ inline const BooleanKey baseline("baseline", &ExcitationSpec::baseline, "correct
                                  {.used = {for_motions({Motion::record})}});
 inline const ListKey band_pass("band_pass_hz", KeyType::interval, corner_range, "corners of a band-pass filter",
                                {.absent = "no filter", .used = {for_motions({Motion::record})}});
+
+// in space
+
+inline const NumberKey direction(
+    "direction_deg", &ExcitationSpec::direction_deg, azimuth_range,
+    "direction of the first component, which is the motion above: from x towards z, clockwise seen from above",
+    {.used = {moving}, .models = in_space()});
+inline const NumberKey second_ratio(
+    "second_ratio", &ExcitationSpec::second_ratio, component_ratio_range,
+    "second horizontal component (at direction_deg + 90) over the first one: PGA over PGA; of noise standard deviation "
+    "over standard deviation. 0: no second component",
+    {.used = {for_motions({Motion::harmonic, Motion::pulse, Motion::tapered, Motion::noise})}, .models = in_space()});
+inline const NumberKey second_phase("second_phase_deg", &ExcitationSpec::second_phase_deg, azimuth_range,
+                                    "phase of the second component after that of the first: 90 makes an ellipse with "
+                                    "its axes along both, 0 a straight line",
+                                    {.used = {for_motions({Motion::harmonic, Motion::pulse, Motion::tapered})},
+                                     .models = in_space()});
+inline const NumberKey second_correlation("second_correlation", &ExcitationSpec::second_correlation, correlation_range,
+                                          "correlation of both horizontal components of noise; 0: they are independent",
+                                          {.used = {for_motions({Motion::noise})}, .models = in_space()});
+inline const NumberKey vertical_ratio("vertical_ratio", &ExcitationSpec::vertical_ratio, component_ratio_range,
+                                      "vertical component over the first one: the same motion; of noise an independent "
+                                      "one, standard deviation over standard deviation. 0: no vertical component",
+                                      {.used = {moving}, .models = in_space()});
+inline const TextKey other_file("file", &ComponentSpec::file, "its file: a path relative to the study file",
+                                {.absent = "the file of the first component, or the file beside it whose name differs "
+                                           "in the direction alone"});
+inline const TextKey other_component("component", &ComponentSpec::component,
+                                     "which one, where the file has several: its name or its column",
+                                     {.absent = "by its direction"});
+inline const TextKey other_unit("unit", &ComponentSpec::unit, "unit of its acceleration",
+                                {.absent = "that of the first component, or as in the file",
+                                 .words = acceleration_units});
+inline const TableKey second(
+    "second",
+    "second horizontal component, which is at direction_deg + 90; {} takes the other horizontal component of the "
+    "same recording",
+    {&other_file, &other_component, &other_unit},
+    {.absent = "no second component", .used = {sampled}, .models = in_space()});
+inline const TableKey
+    vertical("vertical", "vertical component, as `second`; in the time and with the factor of the first component",
+             {&other_file, &other_component, &other_unit},
+             {.absent = "by vertical_ratio", .used = {sampled}, .excludes = {"vertical_ratio"}, .models = in_space()});
+inline const WordKey<OfPair> pga_of_pair("pga_of_pair", &ExcitationSpec::pga_of_pair, of_pair_names,
+                                         "what the PGA of two horizontal components is: that of the first one, of the "
+                                         "larger one, the geometric mean of both, "
+                                         "or the largest length of their vector at once",
+                                         {.used = {moving, no_list}, .models = in_space()});
+
 inline const NumberKey tail(
     "tail_s", tail_range, "longest simulated time after the shaking",
     {.absent = "\"rest\" in fragility and sensitivity studies, which count residual displacements, and in survival "
@@ -305,11 +354,44 @@ inline const NumberKey tail(
      .used = {moving},
      .words = {tail_names[0].word, tail_names[1].word}});
 
-inline const TableKey table(
-    "excitation", "the motion of the base",
-    {&kind, &duration, &frequency, &pga,    &start,          &end,        &ramp_cycles,     &cycles,    &phase,  &gamma,
-     &from, &to,       &spacing,   &pga_of, &ground_damping, &low_cut,    &low_cut_damping, &rise,      &strong, &decay,
-     &file, &run,      &component, &unit,   &scale_to_pga,   &time_scale, &baseline,        &band_pass, &tail});
+inline const TableKey table("excitation", "the motion of the base",
+                            {&kind,
+                             &duration,
+                             &frequency,
+                             &pga,
+                             &start,
+                             &end,
+                             &ramp_cycles,
+                             &cycles,
+                             &phase,
+                             &gamma,
+                             &from,
+                             &to,
+                             &spacing,
+                             &pga_of,
+                             &ground_damping,
+                             &low_cut,
+                             &low_cut_damping,
+                             &rise,
+                             &strong,
+                             &decay,
+                             &file,
+                             &run,
+                             &component,
+                             &unit,
+                             &scale_to_pga,
+                             &time_scale,
+                             &baseline,
+                             &band_pass,
+                             &direction,
+                             &second_ratio,
+                             &second_phase,
+                             &second_correlation,
+                             &second,
+                             &vertical_ratio,
+                             &vertical,
+                             &pga_of_pair,
+                             &tail});
 
 } // namespace excitation_keys
 

@@ -24,6 +24,7 @@ inline constexpr auto excitation_kind_names = word_list<ExcitationKind>(
     "none", "harmonic", "half_sine", "full_sine", "ricker", "pulse", "tapered", "sweep", "noise", "record", "table");
 inline constexpr auto edge_names = word_list<HarmonicEdge>("smooth", "abrupt");
 inline constexpr auto pga_of_names = word_list<PgaOf>("realization", "mean");
+inline constexpr auto of_pair_names = word_list<OfPair>("first", "larger", "geometric_mean", "at_once");
 inline constexpr auto damping_at_names = word_list<DampingAt>("centroid", "ends");
 inline constexpr auto contact_form_names = word_list<ContactForm>("area", "two_corner", "points", "rigid");
 inline constexpr auto restitution_law_names = word_list<RestitutionLaw>("newton", "poisson");

@@ -256,7 +256,7 @@ void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
     for (const char* name : {"harmonic_distortion", "time_offset"})
         if (keys.has(name))
             keys.refuse(name, "is a measured table's, and is not used by study.kind = \"fragility\"", "Remove it.");
-    if (study.vertical)
+    if (study.vertical && !study.structure.spatial())
         keys.refuse("vertical_motion", "is one record, and study.kind = \"fragility\" has many motions",
                     "Give vertical_motion = { ratio = ... }, or remove it.");
 }
@@ -357,7 +357,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.structure = read_structure(top.table(structure_keys::table));
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
-    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind);
+    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind, study.structure);
+    study.vertical = read_vertical(top.table(excitation_keys::table), study.kind, study.excitation);
     if (has_axes(study.kind)) {
         if (!top.has("surface"))
             top.missing("surface", fmt::format("study.kind = \"{}\" needs the axes frequency_hz and pga_m_s2 in "
@@ -383,6 +384,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     check_tables(top, study.kind);
     read_mechanisms(top.table(mechanisms_table()), study);
     read_perturbations(top.table(perturbation_table()), study);
+    check_direction(top, study);
     if (is_fragility)
         check_mechanisms_of_fragility(top.table(mechanisms_table()), study);
     if (is_sensitivity)
@@ -458,8 +460,12 @@ Study study_of(const TomlValue& root, const std::filesystem::path& file)
         for (std::size_t i = 0; i < study.fragility->records.size(); ++i)
             find_beside(study.fragility->records[i].file, tables[i]);
     }
-    if (study.vertical)
-        find_beside(study.vertical->file, *root.find("mechanisms")->find("vertical_motion"));
+    if (study.excitation.second && !study.excitation.second->file.empty())
+        find_beside(study.excitation.second->file, *root.find("excitation")->find("second"));
+    if (study.vertical && !study.vertical->file.empty())
+        find_beside(study.vertical->file, study.structure.spatial()
+                                              ? *root.find("excitation")->find("vertical")
+                                              : *root.find("mechanisms")->find("vertical_motion"));
     study.text = study_text(study);
     return study;
 }

@@ -103,7 +103,65 @@ void read_tail(const KeyReader& keys, ExcitationSpec& e)
         e.tail_s = keys.maybe(excitation_keys::tail);
 }
 
+/// A component beside the first one. @param key its table
+ComponentSpec read_component(const KeyReader& keys, const TableKey& key, ExcitationKind kind, StudyKind study)
+{
+    using namespace excitation_keys;
+    const KeyReader table = keys.table(key);
+    for (const TextKey* each : {&other_file, &other_component, &other_unit})
+        if (study == StudyKind::fragility && table.has(*each))
+            table.refuse(each->name, "belongs to one record, and a fragility study has many",
+                         fmt::format("Give {0} = {{}}: every record then has its own; or give {0} in "
+                                     "fragility.records.",
+                                     key.name));
+    ComponentSpec component;
+    table.read_fields(key, component);
+    component.unit = acceleration_unit(component.unit);
+    if (kind != ExcitationKind::table)
+        return component;
+    for (const TextKey* each : {&other_component, &other_unit})
+        if (table.has(*each))
+            table.refuse(each->name, "is not used by excitation.kind = \"table\"",
+                         "Remove it: the names of a table's columns have its unit.");
+    if (component.file.empty())
+        table.missing(other_file.name, "A table of samples has one component: give the file of the other one.");
+    return component;
+}
+
+void read_second(const KeyReader& keys, StudyKind study, ExcitationSpec& e)
+{
+    using namespace excitation_keys;
+    if (keys.has(second))
+        e.second = read_component(keys, second, e.kind, study);
+    const bool recorded = e.kind == ExcitationKind::record || e.kind == ExcitationKind::table;
+    for (const TomlKey* key : std::initializer_list<const TomlKey*>{&second_phase, &second_correlation, &pga_of_pair})
+        if (!e.has_second() && keys.has(*key))
+            keys.refuse(key->name, "needs a second component, and there is none",
+                        recorded ? "Give excitation.second, or remove it."
+                                 : "Give excitation.second_ratio, or remove it.");
+}
+
 } // namespace
+
+std::optional<VerticalSpec> read_vertical(const KeyReader& keys, StudyKind study, const ExcitationSpec& excitation)
+{
+    using namespace excitation_keys;
+    if (!keys.has(vertical))
+        return std::nullopt;
+    const ComponentSpec component = read_component(keys, vertical, excitation.kind, study);
+    return VerticalSpec{component.file, component.component, component.unit, excitation.baseline};
+}
+
+void check_direction(const KeyReader& top, const Study& study)
+{
+    const KeyReader keys = top.table(excitation_keys::table);
+    for (const Perturbation& perturbation : study.perturbations)
+        if (perturbation.quantity == Quantity::direction && perturbation.distribution == DistributionKind::uniform &&
+            keys.has(excitation_keys::direction))
+            keys.refuse(excitation_keys::direction.name,
+                        "and perturbation.direction, which draws the direction uniformly, give it twice",
+                        "Give one of the two.");
+}
 
 void refuse_other_model(const KeyReader& keys, const TableKey& table, const StructureSpec& structure)
 {
@@ -116,9 +174,10 @@ std::string acceleration_unit(const std::string& word)
     return word == "gal" ? "cm/s2" : word; // one name for one unit, so that equal studies have equal texts
 }
 
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study)
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure)
 {
     using namespace excitation_keys;
+    refuse_other_model(keys, table, structure);
     ExcitationSpec e;
     e.kind = keys.read(kind);
     const char *motion = word_for(excitation_kind_names, e.kind), *of_study = word_for(study_kind_names, study);
@@ -131,7 +190,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study)
     if (has_axes(study))
         keys.refuse_unused(table, "study.kind", of_study,
                            "Remove it: frequency and PGA are given by the axes of [surface].");
-    const KeyUse use{{{"excitation.kind", motion}, {"study.kind", of_study}}};
+    const KeyUse use{{{"excitation.kind", motion}, {"study.kind", of_study}, {model_key, dimensions_word(structure)}}};
     if (use.of(file) && !keys.has(file))
         keys.missing(file.name, fmt::format("Name {} here, or on the command line: --set excitation.file=PATH",
                                             e.kind == ExcitationKind::record ? "the record" : "the table of samples"));
@@ -155,6 +214,8 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study)
         check_noise(keys, e);
     read_filter(keys, e);
     read_tail(keys, e);
+    if (structure.spatial())
+        read_second(keys, study, e);
     return e;
 }
 

@@ -66,7 +66,12 @@ void refuse_restitution(const KeyReader& top);
 
 /// @param study in a surface frequency and PGA come from its axes; in a fragility study the records and how strong they
 ///        are from [fragility]
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study);
+ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure);
+/// The vertical component of a record or table in space; none where the study has none.
+std::optional<VerticalSpec> read_vertical(const KeyReader& keys, StudyKind study, const ExcitationSpec& excitation);
+/// Refuses a direction that is given twice: by [excitation] and by what replaces it.
+/// @param top of the file
+void check_direction(const KeyReader& top, const Study& study);
 /// Refuses axes that the excitation cannot follow.
 void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes);
 /// One name for a unit of acceleration that has several.

@@ -69,6 +69,8 @@ public:
     /// { key = value, ... }
     std::string inline_table() const
     {
+        if (entries_.empty())
+            return "{}";
         std::string out = "{ ";
         for (const auto& [key, value] : entries_)
             out += (out.size() > 2 ? ", " : "") + key + " = " + value;
@@ -194,17 +196,30 @@ std::string tail_text(Tail tail, const StructureSpec& structure)
 }
 
 /// The keys that the kinds of the excitation and of the study use.
-Entries entries_of(const ExcitationSpec& e, const StructureSpec& structure, const KeyUse& use)
+Entries entries_of_excitation(const Study& study, const KeyUse& use)
 {
     using namespace excitation_keys;
+    const ExcitationSpec& e = study.excitation;
+    KeyUse given = e.pga_m_s2 > 0 ? use : use.without({&scale_to_pga}); // 0: as recorded
+    if (!e.has_second())
+        given = given.without({&second_phase, &second_correlation, &pga_of_pair});
+    const bool recorded_vertical = study.structure.spatial() && study.vertical;
+    if (recorded_vertical)
+        given = given.without({&vertical_ratio});
     Entries out(table);
-    out.add_fields(table, e, e.pga_m_s2 > 0 ? use : use.without({&scale_to_pga})); // 0: as recorded
+    out.add_fields(table, e, given);
+    if (e.second)
+        out.add_text(second.name, inline_fields(second, *e.second));
+    if (recorded_vertical)
+        out.add_text(vertical.name,
+                     inline_fields(vertical, ComponentSpec{study.vertical->file, study.vertical->component,
+                                                           study.vertical->unit}));
     if (e.band_pass)
         out.add(band_pass, std::vector{e.band_pass->low_hz, e.band_pass->high_hz});
     if (e.tail_s)
         out.add(tail, e.tail_s);
     else if (use.of(tail)) // each realization has its own
-        out.add_text(tail.name, tail_text(e.tail, structure));
+        out.add_text(tail.name, tail_text(e.tail, study.structure));
     for (const TomlKey* key : {&duration, &ramp_cycles}) // of a sweep
         if (e.kind == ExcitationKind::sweep)
             out.move_before(*key, tail);
@@ -395,7 +410,7 @@ std::string study_text(const Study& study)
     table(study_keys::table.name, entries_of_study(study, use));
     table(structure_keys::table.name, entries_of(study.structure));
     fields(contact_keys::table, study.contact);
-    table(excitation_keys::table.name, entries_of(study.excitation, study.structure, use));
+    table(excitation_keys::table.name, entries_of_excitation(study, use));
     if (study.surface)
         table(surface_keys::table.name, entries_of(*study.surface));
     if (study.replicas)
