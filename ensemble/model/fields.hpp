@@ -43,7 +43,9 @@ constexpr auto within(Path... path)
 constexpr std::string_view unit_of(std::string_view name)
 {
     // longest endings first
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 15> endings = {{{"_kg_m3", "kg/m3"},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 17> endings = {{{"_kg_m3", "kg/m3"},
+                                                                                        {"_n_m3", "N/m3"},
+                                                                                        {"_deg", "degrees"},
                                                                                         {"_rad_s2", "rad/s2"},
                                                                                         {"_rad_s", "rad/s"},
                                                                                         {"_n_s_m", "N s/m"},

@@ -14,6 +14,9 @@ constexpr auto needed = ParameterRole::needed;
 constexpr auto detail = ParameterRole::detail;
 constexpr auto extra = ParameterRole::extra;
 constexpr std::monostate by_sampler{};
+constexpr auto in_plane = MechanismModels::planar;
+constexpr auto in_space = MechanismModels::spatial;
+constexpr auto in_both = MechanismModels::both;
 
 using Joint_ = JointMechanisms;
 using Block_ = BlockMechanisms;
@@ -77,15 +80,23 @@ constexpr MechanismParameter dowel[] = {
     {"diameter", "_m", "m", 0, 1, false, extra, 0, by_sampler, "diameter of the dowel, for this check"},
     {"embedment", "_m", "m", 0, 10, false, extra, 0, by_sampler,
      "length of the dowel in either block, for this check"}};
-constexpr MechanismParameter adhesion[] = {{"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
-                                            "force of adhesion per contact length, until the joint first slips"}};
+constexpr MechanismParameter adhesion[] = {
+    {"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
+     "force of adhesion per contact length, until the joint first slips", in_plane},
+    {"strength", "_pa", "Pa", 0, 1e9, false, acting, 0, &Joint_::adhesion_pa,
+     "force of adhesion per area of the bed, until the joint first slips", in_space}};
 constexpr MechanismParameter eccentricity[] = {
     {"offset", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_m,
-     "distance of the centre of mass from the geometric centre, to the right"}};
-constexpr MechanismParameter wedge[] = {{"angle", "_rad", "rad", -0.5, 0.5, false, acting, 0, &Joint_::wedge_rad,
-                                         "rotation of the lower block's face, counter-clockwise"}};
-constexpr MechanismParameter drum_offset[] = {{"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler,
-                                               "displacement of the block from its nominal position, to the right"}};
+     "distance of the centre of mass from the geometric centre, to the right"},
+    {"offset_z", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_z_m, "the same along z", in_space}};
+constexpr MechanismParameter wedge[] = {
+    {"angle", "_rad", "rad", -0.5, 0.5, false, acting, 0, &Joint_::wedge_rad,
+     "rotation of the lower block's face, counter-clockwise"},
+    {"angle_x", "_rad", "rad", -0.5, 0.5, false, acting, 0, &Joint_::wedge_x_rad, "the same about x", in_space}};
+constexpr MechanismParameter drum_offset[] = {
+    {"offset", "_m", "m", -10, 10, false, acting, 0, by_sampler,
+     "displacement of the block from its nominal position, to the right"},
+    {"offset_z", "_m", "m", -10, 10, false, acting, 0, by_sampler, "the same along z", in_space}};
 constexpr MechanismParameter tie[] = {
     {"stiffness", "_n_m", "N/m", -1e12, 1e12, false, acting, 0, &Block_::tie_n_m,
      "horizontal stiffness against the base; negative: away from its place"},
@@ -134,29 +145,36 @@ constexpr auto block = MechanismPlace::block;
 constexpr auto base = MechanismPlace::base;
 
 constexpr MechanismRule rules[] = {
-    {Mechanism::stribeck, "stribeck", joint, "friction falls with the velocity of the slip", stribeck},
-    {Mechanism::joint_friction, "joint_friction", joint, "a joint with another friction", joint_friction},
+    {Mechanism::stribeck, "stribeck", joint, "friction falls with the velocity of the slip", stribeck, UsualPlaces::all,
+     in_both},
+    {Mechanism::joint_friction, "joint_friction", joint, "a joint with another friction", joint_friction,
+     UsualPlaces::all, in_both},
     {Mechanism::drag, "drag", block, "drag of a medium on a block", drag},
     {Mechanism::corner_loss, "corner_loss", joint, "chipped corners: a shorter contact face", corner_loss},
     {Mechanism::hertz, "hertz", joint, "contact force that is a nonlinear function of the overlap", hertz},
     {Mechanism::rate_damping, "rate_damping", joint, "damping in proportion to the overlap (Hunt and Crossley)",
      rate_damping},
     {Mechanism::face_damping, "face_damping", joint, "normal damping at the ends of the contact", face_damping},
-    {Mechanism::friction_wear, "friction_wear", joint, "friction that wears off with the slip", friction_wear},
+    {Mechanism::friction_wear, "friction_wear", joint, "friction that wears off with the slip", friction_wear,
+     UsualPlaces::all, in_both},
     {Mechanism::corner_wear, "corner_wear", joint, "corners that wear off with the rocking", corner_wear},
     {Mechanism::table_pitch, "table_pitch", base, "a shaking table that rotates as it accelerates", table_pitch},
     {Mechanism::vertical_motion, "vertical_motion", base, "a base that moves vertically too", vertical_motion},
-    {Mechanism::harmonic_distortion, "harmonic_distortion", base, "overtones of the base motion", harmonic_distortion},
+    {Mechanism::harmonic_distortion, "harmonic_distortion", base, "overtones of the base motion", harmonic_distortion,
+     UsualPlaces::all, in_both},
     {Mechanism::time_offset, "time_offset", base, "a clock of the base that differs from that of the blocks",
-     time_offset},
+     time_offset, UsualPlaces::all, in_both},
     {Mechanism::sensor_gain, "sensor_gain", base, "a base motion with another amplitude than the given one",
-     sensor_gain},
-    {Mechanism::dowel, "dowel", joint, "dowels between two blocks", dowel},
-    {Mechanism::adhesion, "adhesion", joint, "adhesion until the first slip", adhesion},
-    {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity},
-    {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge},
-    {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset},
-    {Mechanism::tie, "tie", block, "a block tied to the base: spring, dashpots, constant force", tie},
+     sensor_gain, UsualPlaces::all, in_both},
+    {Mechanism::dowel, "dowel", joint, "dowels between two blocks", dowel, UsualPlaces::all, in_both},
+    {Mechanism::adhesion, "adhesion", joint, "adhesion until the first slip", adhesion, UsualPlaces::all, in_both},
+    {Mechanism::eccentricity, "eccentricity", block, "an eccentric centre of mass", eccentricity, UsualPlaces::all,
+     in_both},
+    {Mechanism::wedge, "wedge", joint, "a face that is not square", wedge, UsualPlaces::all, in_both},
+    {Mechanism::drum_offset, "drum_offset", block, "a block displaced from its nominal position", drum_offset,
+     UsualPlaces::all, in_both},
+    {Mechanism::tie, "tie", block, "a block tied to the base: spring, dashpots, constant force", tie, UsualPlaces::all,
+     in_both},
     {Mechanism::tendon, "tendon", block, "a cable through a column, from the fixed ground to the top of a drum", tendon,
      UsualPlaces::tops},
     {Mechanism::bearing, "bearing", joint, "a seismic isolator in a joint, beside its friction", bearing,

@@ -62,6 +62,9 @@ enum class UsualPlaces {
     neighbours ///< every epistyle beside another one, which is at its right
 };
 
+/// Which models have a mechanism, or a parameter of one.
+enum class MechanismModels : std::uint8_t { both, planar, spatial };
+
 /// What a parameter is to its mechanism.
 enum class ParameterRole {
     acting, ///< at its neutral value the mechanism does nothing by it; at least one of these is given
@@ -87,17 +90,20 @@ struct JointMechanisms {
     double chip_right_m = 0;          ///< corner_loss: at its right end
     double corner_wear_m_rad = 0;     ///< corner_wear: further loss at both ends per path of the relative rotation
     double wedge_rad = 0;             ///< wedge: the lower block's face is turned by this, counter-clockwise
+    double wedge_x_rad = 0;           ///< wedge, in space: the same about x; `wedge_rad` is about z
+    double adhesion_pa = 0;           ///< adhesion, in space: force per area of the bed, until the joint first slips
     friend bool operator==(const JointMechanisms&, const JointMechanisms&) = default;
 };
 
 /// What the mechanisms make of a block. Every default is neutral.
 struct BlockMechanisms {
-    double drag_n_s2_m2 = 0;   ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
-    double eccentricity_m = 0; ///< eccentricity: centre of mass from the geometric centre, along the width
-    double tie_n_m = 0;        ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative
-    double tie_n_s_m = 0;      ///< tie: c
-    double tie_n = 0;          ///< tie: f
-    double tie_n_m_s = 0;      ///< tie: moment against the rotation, per rate of rotation
+    double drag_n_s2_m2 = 0;     ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
+    double eccentricity_m = 0;   ///< eccentricity: centre of mass from the geometric centre, along the width
+    double eccentricity_z_m = 0; ///< the same along z, in space
+    double tie_n_m = 0;          ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative
+    double tie_n_s_m = 0;        ///< tie: c
+    double tie_n = 0;            ///< tie: f
+    double tie_n_m_s = 0;        ///< tie: moment against the rotation, per rate of rotation
     friend bool operator==(const BlockMechanisms&, const BlockMechanisms&) = default;
 };
 
@@ -152,6 +158,7 @@ struct MechanismParameter {
                  double BaseChange::*, double JointStrengthening::*, double BlockStrengthening::*>
         member;
     const char* says;
+    MechanismModels models = MechanismModels::both;
 
     std::string key() const { return std::string(name) + suffix; }
 };
@@ -163,6 +170,7 @@ struct MechanismRule {
     const char* says;
     std::span<const MechanismParameter> parameters;
     UsualPlaces usual = UsualPlaces::all;
+    MechanismModels models = MechanismModels::planar;
 };
 
 /// All of them, in the order of the enumeration.

@@ -83,6 +83,27 @@ RealizationValues nominal_values(const Study& study, const Layout& layout,
     return values;
 }
 
+DampingRatios damping_ratios(const Study& study, const RealizationValues& values, const BedSpec& own)
+{
+    const ContactSpec& contact = study.contact;
+    DampingRatios ratio{values[Quantity::damping_ratio][0], contact.tangential_damping_ratio};
+    double changed = 1;
+    for (const Perturbation& perturbation : study.perturbations) {
+        if (perturbation.quantity != Quantity::damping_ratio)
+            continue;
+        const bool replaces = perturbation.distribution == DistributionKind::uniform ||
+                              perturbation.distribution == DistributionKind::log_uniform;
+        if (!replaces && contact.normal_damping_ratio != 0)
+            changed = ratio.normal / contact.normal_damping_ratio;
+        ratio.tangential = replaces || contact.normal_damping_ratio == 0 ? ratio.normal : ratio.tangential * changed;
+    }
+    if (own.normal_damping_ratio)
+        ratio.normal = *own.normal_damping_ratio * changed;
+    if (own.tangential_damping_ratio)
+        ratio.tangential = *own.tangential_damping_ratio * changed;
+    return ratio;
+}
+
 std::vector<double> nominal_restitution(const Study& study, const Layout& layout)
 {
     return of_beds(layout, &BedSpec::restitution, study.contact.restitution);

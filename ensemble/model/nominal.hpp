@@ -50,6 +50,17 @@ struct RealizationValues {
 RealizationValues nominal_values(const Study& study, const Layout& layout,
                                  const std::vector<ActingMechanism>& mechanisms);
 
+/// The parts of the critical damping that the dashpots of a joint have.
+struct DampingRatios {
+    double normal = 0;
+    double tangential = 0;
+};
+/// Those of a realization: the ratio that is drawn is the normal one. A value that takes the nominal one's place is
+/// that of both directions; a change of the nominal one changes both in proportion.
+/// @param own of the bed: its own ratio changes as that of [contact] does, and stays where a drawn value takes the
+///            latter's place
+DampingRatios damping_ratios(const Study& study, const RealizationValues& values, const BedSpec& own = {});
+
 /// Of each bed of the layout, in its order.
 std::vector<double> nominal_restitution(const Study& study, const Layout& layout);
 

@@ -13,8 +13,8 @@
 
 namespace stylobate {
 
-/// A plane face: a disc, or a rectangle. Of a bed its sizes are along x and z; of a butt joint along the two axes of the
-/// face, y and z (normal x) or x and y (normal z).
+/// A plane face: a disc, or a rectangle. Of a bed its sizes are along x and z; of a butt joint along the two axes of
+/// the face, y and z (normal x) or x and y (normal z).
 struct Face {
     bool round = true;
     double half_x_m = 0; ///< half size along the first one; of a disc the radius
@@ -58,7 +58,10 @@ struct SolidJoint {
     int upper = 0;
     Normal normal = Normal::y;
     std::array<double, 3> point_m{}; ///< where the anchors of both faces meet in the reference state
-    /// The faces, and their middles from `point_m` along the two axes that follow the normal cyclically.
+    double gap_m = 0;                ///< of a butt joint: between its faces in the reference state
+    /// The faces, and their middles from `point_m` along the two axes that follow the normal cyclically. Of the faces
+    /// of a butt joint, the half size along the normal is that along y. The face of the ground is wide, and of the
+    /// shape of what stands on it.
     Face lower_face, upper_face;
     std::array<double, 2> lower_middle_m{}, upper_middle_m{};
     double inner_ratio = 0; ///< hollow bed (anathyrosis): inner over outer size; 0: the whole face bears

@@ -32,6 +32,14 @@ std::optional<Quantity> across(Quantity quantity)
                                              : std::nullopt;
 }
 
+/// The name of its values in results. In space the stiffness of a bed is per area, in another unit.
+std::string input_name_of(Quantity quantity, bool spatial)
+{
+    const bool of_area =
+        spatial && (quantity == Quantity::normal_stiffness || quantity == Quantity::tangential_stiffness);
+    return (of_area ? "bed_" : "") + std::string(to_string(quantity));
+}
+
 /// Quantities of which each bed has its own.
 bool is_of_beds(Quantity quantity)
 {
@@ -50,7 +58,7 @@ Stream stream_of(Mechanism mechanism, std::size_t parameter)
 
 ValueSampler::ValueSampler(const Study& study, const RealizationValues& nominal,
                            const std::vector<ActingMechanism>& mechanisms)
-    : nominal_(nominal)
+    : nominal_(nominal), spatial_(study.structure.spatial())
 {
     if (const double twin_m = study.design().twin_m; twin_m > 0) {
         Spread spread;
@@ -98,7 +106,7 @@ void ValueSampler::add(Perturbation perturbation, int factor)
         drawn.places.push_back(i);
         drawn.distributions.emplace_back(perturbation, about[i]);
     }
-    name(to_string(quantity), once ? std::nullopt : std::optional(about.size()));
+    name(input_name_of(quantity, spatial_), once ? std::nullopt : std::optional(about.size()));
     drawn_.push_back(std::move(drawn));
 }
 

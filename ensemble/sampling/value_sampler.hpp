@@ -31,9 +31,10 @@ public:
     RealizationValues values(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
 
     /// "friction[0]", "friction[1]" and so on for each bed (or block) of the layout; the name alone for what is drawn
-    /// once for the structure, which is then the value of the first bed or block. Then the parameters of mechanisms:
-    /// "stribeck_velocity[0]" and so on for each joint or block if it is drawn for more than one, with the neutral
-    /// value where the mechanism does not act; else the name alone.
+    /// once for the structure, which is then the value of the first bed or block. In space "drum_offset_z" and "tilt_x"
+    /// follow "drum_offset" and "tilt", and stiffnesses are per area: "bed_normal_stiffness". Then the parameters of
+    /// mechanisms: "stribeck_velocity[0]" and so on for each joint or block if it is drawn for more than one, with the
+    /// neutral value where the mechanism does not act; else the name alone.
     const std::vector<std::string>& input_names() const { return input_names_; }
     const PointSet& points() const { return points_; }
 
@@ -56,6 +57,7 @@ private:
     void name(const std::string& quantity, std::optional<std::size_t> numbered);
 
     RealizationValues nominal_;
+    bool spatial_ = false;
     std::vector<Drawn> drawn_; ///< in the order of the study
     std::vector<std::string> input_names_;
     PointSet points_;

@@ -73,9 +73,14 @@ std::string_view unit_ending_of_input(std::string_view name)
                                                                          {"tangential_stiffness", "_n_m"},
                                                                          {"drum_width", "_m"},
                                                                          {"drum_height", "_m"},
+                                                                         {"bed_normal_stiffness", "_n_m3"},
+                                                                         {"bed_tangential_stiffness", "_n_m3"},
                                                                          {"drum_offset", "_m"},
+                                                                         {"drum_offset_z", "_m"},
                                                                          {"density", "_kg_m3"},
                                                                          {"tilt", "_rad"},
+                                                                         {"tilt_x", "_rad"},
+                                                                         {"direction", "_deg"},
                                                                          {"phase", "_rad"},
                                                                          {"pulse_frequency", "_hz"}};
     for (const auto& [known, ending] : endings)

@@ -12,17 +12,6 @@
 #include <set>
 
 namespace stylobate {
-namespace {
-
-/// A value that is drawn as a whole takes the place of the nominal one.
-bool replaces(const Perturbation& perturbation)
-{
-    return perturbation.distribution == DistributionKind::uniform ||
-           perturbation.distribution == DistributionKind::log_uniform;
-}
-
-} // namespace
-
 PlanarBuilder::PlanarBuilder(const Study& study)
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
       nominal_(nominal_values(study, layout_, mechanisms_.acting())), restitution_(nominal_restitution(study, layout_)),
@@ -195,22 +184,6 @@ std::string PlanarBuilder::name(int block) const
     return i < layout_.blocks.size() ? layout_.blocks[i].name : "the ground";
 }
 
-/// Both damping ratios of a realization.
-PlanarBuilder::Ratios PlanarBuilder::ratios(const RealizationValues& values) const
-{
-    // The ratio that is drawn is the normal one. A value that takes the nominal one's place is that of both; a change
-    // of the nominal one changes both in proportion.
-    const ContactSpec& contact = study_->contact;
-    const double normal = values[Quantity::damping_ratio][0];
-    double tangential = contact.tangential_damping_ratio;
-    for (const Perturbation& perturbation : study_->perturbations)
-        if (perturbation.quantity == Quantity::damping_ratio)
-            tangential = replaces(perturbation) || contact.normal_damping_ratio == 0
-                             ? normal
-                             : tangential * (normal / contact.normal_damping_ratio);
-    return {normal, tangential};
-}
-
 /// The contact of two blocks. @param value of each quantity: which of its values   @param chord_m full contact length
 Joint PlanarBuilder::joint(const RealizationValues& values, const std::vector<Block>& blocks, int lower, int upper,
                            std::size_t value, double chord_m) const
@@ -219,31 +192,20 @@ Joint PlanarBuilder::joint(const RealizationValues& values, const std::vector<Bl
     const Block& below = blocks[static_cast<std::size_t>(lower)];
     const Block& above = blocks[static_cast<std::size_t>(upper)];
     const double mass = contact_mass_kg(below, above);
-    const Ratios ratio = ratios(values);
-    // a bed's own ratio changes as that of [contact] does, and stays where a drawn value takes the latter's place
     const BedSpec own = value < layout_.beds.size() ? layout_.beds[value].bed : BedSpec{};
-    const double changed =
-        std::any_of(study_->perturbations.begin(), study_->perturbations.end(),
-                    [](const Perturbation& p) { return p.quantity == Quantity::damping_ratio && replaces(p); }) ||
-                contact.normal_damping_ratio == 0
-            ? 1
-            : values[Quantity::damping_ratio][0] / contact.normal_damping_ratio;
+    const DampingRatios ratio = damping_ratios(*study_, values, own);
     Joint joint;
     joint.lower = lower;
     joint.upper = upper;
     joint.friction = values[Quantity::friction][value];
     joint.normal_stiffness_n_m2 = values[Quantity::normal_stiffness][value];
     joint.tangential_stiffness_n_m = values[Quantity::tangential_stiffness][value];
-    joint.normal_damping_n_s_m = contact.normal_damping_n_s_m.value_or(
-        2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass));
-    joint.tangential_damping_n_s_m = contact.tangential_damping_n_s_m.value_or(
-        2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass));
-    if (own.normal_damping_ratio)
-        joint.normal_damping_n_s_m =
-            2 * *own.normal_damping_ratio * changed * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass);
-    if (own.tangential_damping_ratio)
-        joint.tangential_damping_n_s_m =
-            2 * *own.tangential_damping_ratio * changed * std::sqrt(joint.tangential_stiffness_n_m * mass);
+    joint.normal_damping_n_s_m = 2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m2 * chord_m * mass);
+    joint.tangential_damping_n_s_m = 2 * ratio.tangential * std::sqrt(joint.tangential_stiffness_n_m * mass);
+    if (contact.normal_damping_n_s_m && !own.normal_damping_ratio)
+        joint.normal_damping_n_s_m = *contact.normal_damping_n_s_m;
+    if (contact.tangential_damping_n_s_m && !own.tangential_damping_ratio)
+        joint.tangential_damping_n_s_m = *contact.tangential_damping_n_s_m;
     joint.restitution = value < restitution_.size() ? restitution_[value] : contact.restitution;
     joint.damping_chord_m = contact.damping_per == DampingPer::chord ? chord_m : 0;
     return joint;

@@ -4,8 +4,8 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/planar/structure/mechanism_builder.hpp"
-#include "ensemble/realization/realization.hpp"
 #include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/realization/realization.hpp"
 
 #include <string>
 #include <utility>
@@ -38,17 +38,11 @@ public:
     void move(const Replica& replica, std::uint64_t original, Realization& realization) const;
 
 private:
-    struct Ratios {
-        double normal;
-        double tangential;
-    };
-
     void watch_pairs();
     void stack(const RealizationValues& values, Realization& realization) const;
     void lay_epistyles(const RealizationValues& values, Realization& realization) const;
     Block block(const RealizationValues& values, std::size_t i, double height_m) const;
     Block ground() const;
-    Ratios ratios(const RealizationValues& values) const;
     Joint joint(const RealizationValues& values, const std::vector<Block>& blocks, int lower, int upper,
                 std::size_t value, double chord_m) const;
     void join(const RealizationValues& values, Realization& realization) const;

@@ -43,10 +43,13 @@ private:
     void lay_epistyles(const RealizationValues& values, Realization& realization) const;
     Solid solid(const RealizationValues& values, std::size_t i, double height_m, double bottom_m) const;
     Solid ground() const;
-    SolidJoint bed(const RealizationValues& values, const Realization& realization, std::size_t j) const;
+    void give_law(const RealizationValues& values, const Realization& realization, std::size_t value, double area,
+                  SolidJoint& joint) const;
     void join(const RealizationValues& values, Realization& realization) const;
-    void apply_mechanisms(const RealizationValues& values, Realization& realization) const;
+    void butt(const RealizationValues& values, Realization& realization) const;
     void check_overlaps(const Realization& realization) const;
+    void apply_mechanisms(const RealizationValues& values, Realization& realization) const;
+    void displace_mass(std::size_t place, Realization& realization) const;
     std::string name(int solid) const;
 
     const Study* study_;
