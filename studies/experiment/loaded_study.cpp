@@ -6,6 +6,7 @@
 #include "io/measured/measured_motion.hpp"
 #include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
+#include "io/records/record_pair.hpp"
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/experiment/limit_state.hpp"
@@ -16,6 +17,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -38,9 +40,15 @@ std::vector<std::string> bed_names(const Study& study)
 }
 
 // the only settings that results take: where a record lies now
-constexpr char of_record[] = "excitation.file=", of_vertical[] = "mechanisms.vertical_motion.file=";
+constexpr char of_record[] = "excitation.file=", of_second[] = "excitation.second.file=";
 
-/// @param what it is: "record", "vertical"
+/// Of a vertical record.
+const char* of_vertical(const Study& study)
+{
+    return study.structure.spatial() ? "excitation.vertical.file=" : "mechanisms.vertical_motion.file=";
+}
+
+/// @param what it is: "record", "second", "vertical"
 std::string fingerprint(const Motion& motion, const char* what)
 {
     uLong crc = crc32(0, nullptr, 0);
@@ -60,6 +68,8 @@ std::string fingerprints(const Motions& motions)
             text += fingerprint(*motions.drawn->motions[i], ("motion " + motions.drawn->names[i]).c_str());
     if (motions.record)
         text += fingerprint(*motions.record, "record");
+    if (motions.second)
+        text += fingerprint(*motions.second, "second");
     if (motions.vertical)
         text += fingerprint(*motions.vertical, "vertical");
     return text;
@@ -115,6 +125,45 @@ void add_set(const LoadedStudy& loaded, const MotionTable& table, StudyFacts& fa
     facts.equal_motions = std::move(names);
 }
 
+/// The components of a record in space beside the first one.
+void add_components(const Study& study, const Record& first, Motions& motions)
+{
+    const ExcitationSpec& excitation = study.excitation;
+    const auto motion = [&](const ComponentSpec& spec, const char* key, Direction direction) {
+        const OtherComponent other{key, spec, direction, excitation.unit};
+        return make_motion(other_component(first, other, pga_range(study)), excitation.baseline, excitation.band_pass);
+    };
+    if (excitation.second)
+        motions.second = motion(*excitation.second, "excitation.second", Direction::horizontal);
+    if (study.vertical)
+        motions.vertical = motion({study.vertical->file, study.vertical->component, study.vertical->unit},
+                                  "excitation.vertical", Direction::vertical);
+}
+
+/// The same of a table.
+void add_tables(const Study& study, Motions& motions)
+{
+    const auto motion = [&](const std::string& file, const char* key) {
+        Motion other = read_base_table(file, {}, pga_range(study));
+        const Motion& first = *motions.record;
+        if (std::fabs(other.dt_s - first.dt_s) > 1e-6 * first.dt_s)
+            throw InputError(file, 0,
+                             fmt::format("{}: it has a sample every {:g} s, and the first component every {:g} s.\n  "
+                                         "Give tables of one motion.",
+                                         key, other.dt_s, first.dt_s));
+        if (other.acceleration_m_s2.size() < first.acceleration_m_s2.size())
+            throw InputError(file, 0,
+                             fmt::format("{}: it has {} samples, fewer than the {} of the first component.\n  Give the "
+                                         "complete file, or cut the first component.",
+                                         key, other.acceleration_m_s2.size(), first.acceleration_m_s2.size()));
+        return other;
+    };
+    if (study.excitation.second)
+        motions.second = motion(study.excitation.second->file, "excitation.second");
+    if (study.vertical)
+        motions.vertical = motion(study.vertical->file, "excitation.vertical");
+}
+
 Experiment with_motions(Study study)
 {
     Motions motions = motions_of(study);
@@ -133,12 +182,17 @@ Motions motions_of(const Study& study, const Record* record)
     else if (excitation.kind == ExcitationKind::record) {
         if (!record)
             check_record_is_there(excitation.file);
-        motions.record =
-            make_motion(record ? *record : read_record(excitation.file, excitation.component, excitation.unit, pga),
-                        excitation.baseline, excitation.band_pass);
-    } else if (excitation.kind == ExcitationKind::table)
+        const Record first =
+            record ? *record : read_record(excitation.file, excitation.component, excitation.unit, pga);
+        motions.record = make_motion(first, excitation.baseline, excitation.band_pass);
+        if (study.structure.spatial())
+            add_components(study, first, motions);
+    } else if (excitation.kind == ExcitationKind::table) {
         motions.record = read_base_table(excitation.file, excitation.run, pga);
-    if (const std::optional<VerticalSpec>& spec = study.vertical)
+        if (study.structure.spatial())
+            add_tables(study, motions);
+    }
+    if (const std::optional<VerticalSpec>& spec = study.vertical; spec && !study.structure.spatial())
         motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit, pga), spec->baseline);
     return motions;
 }
@@ -151,12 +205,14 @@ void check_settings(const Study& study, const std::string& file, const std::vect
     const bool has_record =
         (kind == ExcitationKind::record || kind == ExcitationKind::table) && !study.design().motions;
     for (const std::string& setting : settings) {
-        const bool record = setting.starts_with(of_record);
-        if (!record && !setting.starts_with(of_vertical))
+        const bool record = setting.starts_with(of_record), second = setting.starts_with(of_second);
+        const std::string vertical = of_vertical(study);
+        if (!record && !second && !setting.starts_with(vertical))
             throw InputError(fmt::format("--set {}: the study of {} is fixed; only excitation.file may be set, the "
-                                         "present path of its record (and mechanisms.vertical_motion.file)",
-                                         setting, file));
-        if (record ? !has_record : !study.vertical)
+                                         "present path of its record (and {}{})",
+                                         setting, file, study.excitation.second ? "excitation.second.file and " : "",
+                                         vertical.substr(0, vertical.size() - 1)));
+        if (record ? !has_record : second ? !study.excitation.second : !study.vertical)
             throw InputError(fmt::format("--set {}: the study of {} is not driven by a record", setting, file));
     }
 }
@@ -198,8 +254,11 @@ LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeade
         const std::string print = loaded.text_.substr(at, end - at);
         if (print.starts_with("# motion "))
             check(print.substr(2, print.find(": ") - 2), "fragility.records=", print);
+        else if (print.starts_with("# second"))
+            check(loaded.experiment().motions().second->source, of_second, print);
         else if (print.starts_with("# vertical"))
-            check(study.vertical->file, of_vertical, print);
+            check(study.structure.spatial() ? loaded.experiment().motions().vertical->source : study.vertical->file,
+                  of_vertical(study), print);
         else
             check(study.excitation.file, of_record, print);
         at = end;
