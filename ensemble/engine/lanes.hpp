@@ -58,6 +58,27 @@ inline std::uint64_t whole_checks(double time_s, double step_s, int interval)
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(checks)) * static_cast<std::uint64_t>(interval);
 }
 
+/// A snapshot of what still moves is no residual.
+inline void forget_residuals(Outcome& o)
+{
+    visit_fields(std::type_identity<Outcome>(), [&](const char*, auto field, const FieldFacts& facts) {
+        if constexpr (std::is_same_v<decltype(field), double Outcome::*>)
+            if (facts.none == std::string_view(it_still_moved))
+                o.*field = std::numeric_limits<double>::quiet_NaN();
+    });
+}
+
+/// Of what stood: the dominant of the two ways of moving, by the displacement that each stands for at the edge of a
+/// drum.
+inline State dominant_motion(const OutcomeSpec& spec, double width_m, const Outcome& o)
+{
+    const bool rocks = o.max_relative_rotation_rad > spec.rocking_threshold_rad;
+    const bool slides = o.total_sliding_m > spec.sliding_threshold * width_m;
+    if (rocks && (!slides || o.total_rocking_rad * width_m >= o.total_sliding_m))
+        return State::rocked;
+    return slides ? State::slid : State::stood;
+}
+
 /// What is done to a realization is a function of it alone: whether it is looked at, ended or set aside depends on the
 /// number of its own steps, never on its lane or on its neighbours.
 template <class Model>
@@ -194,7 +215,7 @@ public:
         model_.read(lane, of);
         if (!model_.finite(lane))
             return end(lane, State::invalid, InvalidReason::not_finite);
-        model_.check_limits(of, done);
+        model_.check_limits(lane, of, done);
         if (model_.fallen(of) && study_.outcome.follow == Follow::collapse)
             return end(lane, State::collapsed, InvalidReason::none);
         if (model_.leaves(lane, of)) {

@@ -355,7 +355,7 @@ void PlanarModel::read(int lane, Place& place) const
     }
 }
 
-void PlanarModel::check_limits(Place& place, int done)
+void PlanarModel::check_limits(int, Place& place, int done)
 {
     PlanarMeasured& m = place.measured;
     m.limits.check(place.realization, place.watch.steps, m.moved, m.inside, done);
@@ -385,12 +385,8 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
         o.total_rocking_rad += rotation;
         o.max_relative_rotation_rad = std::max(o.max_relative_rotation_rad, rotation);
     }
-    if (o.at_rest == 0) // a snapshot of what still moves is no residual
-        visit_fields(std::type_identity<Outcome>(), [&](const char*, auto field, const FieldFacts& facts) {
-            if constexpr (std::is_same_v<decltype(field), double Outcome::*>)
-                if (facts.none == std::string_view(it_still_moved))
-                    o.*field = std::numeric_limits<double>::quiet_NaN();
-        });
+    if (o.at_rest == 0)
+        forget_residuals(o);
     // a realization that was set aside has no outcome
     const bool valid = state != State::invalid;
     (valid ? m.limits : LimitStates(r, study_.outcome, 0, 0)).write(r.step_s, r.drums, o);
@@ -404,15 +400,9 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
     }
 }
 
-/// The dominant of the two ways of moving, by the displacement that each stands for at the edge of a drum.
 State PlanarModel::motion_of(const Place& place, const Outcome& o) const
 {
-    const bool rocks = o.max_relative_rotation_rad > study_.outcome.rocking_threshold_rad;
-    const bool slides = o.total_sliding_m > study_.outcome.sliding_threshold * place.scales.width_m;
-    const double opening = o.total_rocking_rad * place.scales.width_m;
-    if (rocks && (!slides || opening >= o.total_sliding_m))
-        return State::rocked;
-    return slides ? State::slid : State::stood;
+    return dominant_motion(study_.outcome, place.scales.width_m, o);
 }
 
 Snapshot PlanarModel::snapshot(int lane, const Place& place) const

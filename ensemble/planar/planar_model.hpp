@@ -8,8 +8,8 @@
 #include "ensemble/planar/planar_watch.hpp"
 #include "ensemble/planar/rigid_order.hpp"
 #include "ensemble/planar/single_bundle.hpp"
-#include "ensemble/realization/realization.hpp"
 #include "ensemble/planar/structure/scales.hpp"
+#include "ensemble/realization/realization.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>
@@ -86,7 +86,7 @@ public:
     {
         return energy_balance(topology_, bundle_, lane, place.watch);
     }
-    static void check_limits(Place& place, int done);
+    static void check_limits(int lane, Place& place, int done);
     static bool fallen(const Place& place) { return place.measured.limits.fallen(); }
     static void conclude(Place& place) { place.measured.limits.conclude(); }
     bool leaves(int lane, const Place& place) const { return leaves_beds(topology_, bundle_, lane, place.watch); }

@@ -11,9 +11,9 @@ namespace {
 
 using spatial::Axis;
 using spatial::BedKind;
-using spatial::OfBody;
-using spatial::OfJoint;
-using spatial::OfRealization;
+using B = spatial::OfBody;
+using J = spatial::OfJoint;
+using W = spatial::OfRealization; // the whole
 
 /// Deeper than this part of the lower of the two bodies, faces are not in contact: no load presses them so far.
 constexpr double deepest_part = 0.1;
@@ -48,16 +48,16 @@ Axis correction_of(const Solid& solid)
 
 void store_body(const Solid& solid, double dt2, Axis correction, const spatial::Bundle& b, int body, int lane)
 {
-    b.at(OfBody::q_w, body, lane) = 1;
-    b.at(OfBody::mass, body, lane) = solid.mass_kg;
+    b.at(B::q_w, body, lane) = 1;
+    b.at(B::mass, body, lane) = solid.mass_kg;
     if (solid.fixed)
         return;
     const auto& I = solid.inertia_kg_m2;
     const spatial::Inertia<double> inertia = spatial::inertia_of(1 / I[0], 1 / I[1], 1 / I[2], correction);
-    b.at(OfBody::dt2_per_mass, body, lane) = dt2 / solid.mass_kg;
-    b.at(OfBody::per_sphere, body, lane) = inertia.sphere;
-    b.at(OfBody::per_top, body, lane) = inertia.top;
-    b.at(OfBody::per_correction, body, lane) = correction == Axis::none ? 0 : inertia.correction;
+    b.at(B::dt2_per_mass, body, lane) = dt2 / solid.mass_kg;
+    b.at(B::per_sphere, body, lane) = inertia.sphere;
+    b.at(B::per_top, body, lane) = inertia.top;
+    b.at(B::per_correction, body, lane) = correction == Axis::none ? 0 : inertia.correction;
 }
 
 /// The half sizes and the middle of a face along the first two axes of the joint, as (half 1, half 2, middle 1,
@@ -78,16 +78,16 @@ void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, c
     const Solid &lower = solid(reversed ? joint.upper : joint.lower),
                 &upper = solid(reversed ? joint.lower : joint.upper);
     const double dt = r.step_s;
-    b.at(OfJoint::stiffness, j, lane) = joint.normal_stiffness_n_m3;
-    b.at(OfJoint::K_t, j, lane) = joint.tangential_stiffness_n_m;
-    b.at(OfJoint::per_K_t, j, lane) = joint.tangential_stiffness_n_m > 0 ? 1 / joint.tangential_stiffness_n_m : 0;
-    b.at(OfJoint::C_n, j, lane) = joint.normal_damping_n_s_m3 / dt;
-    b.at(OfJoint::C_t, j, lane) = joint.tangential_damping_n_s_m3 / dt;
-    b.at(OfJoint::mu, j, lane) = joint.friction;
-    b.at(OfJoint::depth_limit, j, lane) = deepest_part * std::min(lower.height_m, upper.height_m);
+    b.at(J::stiffness, j, lane) = joint.normal_stiffness_n_m3;
+    b.at(J::K_t, j, lane) = joint.tangential_stiffness_n_m;
+    b.at(J::per_K_t, j, lane) = joint.tangential_stiffness_n_m > 0 ? 1 / joint.tangential_stiffness_n_m : 0;
+    b.at(J::C_n, j, lane) = joint.normal_damping_n_s_m3 / dt;
+    b.at(J::C_t, j, lane) = joint.tangential_damping_n_s_m3 / dt;
+    b.at(J::mu, j, lane) = joint.friction;
+    b.at(J::depth_limit, j, lane) = deepest_part * std::min(lower.height_m, upper.height_m);
     const auto store = [&](int first, const auto& values) {
         for (std::size_t k = 0; k < values.size(); ++k)
-            b.at(static_cast<OfJoint::Field>(first + static_cast<int>(k)), j, lane) = values[k];
+            b.at(static_cast<J::Field>(first + static_cast<int>(k)), j, lane) = values[k];
     };
     const auto anchor = [&](const Solid& body) {
         std::array<double, 3> to{};
@@ -95,14 +95,12 @@ void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, c
             to[k] = joint.point_m[k] - body.centre_m[k];
         return to;
     };
-    store(OfJoint::lower_anchor, anchor(lower));
-    store(OfJoint::upper_anchor, anchor(upper));
-    store(OfJoint::lower_half_1,
-          face_fields(reversed ? joint.upper_face : joint.lower_face,
-                      reversed ? joint.upper_middle_m : joint.lower_middle_m, joint.normal, reversed));
-    store(OfJoint::upper_half_1,
-          face_fields(reversed ? joint.lower_face : joint.upper_face,
-                      reversed ? joint.lower_middle_m : joint.upper_middle_m, joint.normal, reversed));
+    store(J::lower_anchor, anchor(lower));
+    store(J::upper_anchor, anchor(upper));
+    store(J::lower_half_1, face_fields(reversed ? joint.upper_face : joint.lower_face,
+                                       reversed ? joint.upper_middle_m : joint.lower_middle_m, joint.normal, reversed));
+    store(J::upper_half_1, face_fields(reversed ? joint.lower_face : joint.upper_face,
+                                       reversed ? joint.lower_middle_m : joint.upper_middle_m, joint.normal, reversed));
 }
 
 } // namespace
@@ -146,10 +144,10 @@ void store_solids(const Realization& r, const SolidTopology& topology, const spa
     for (int j = 0; j < kernel.joints; ++j)
         store_joint(r.space.joints[static_cast<std::size_t>(j)], r, kernel.joint[j].reversed, b, j, lane);
     const double about_z = r.space.base_tilt_rad[0], about_x = r.space.base_tilt_rad[1];
-    b.at(OfRealization::dt2, lane) = dt2;
-    b.at(OfRealization::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(about_z) * std::cos(about_x);
-    b.at(OfRealization::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(about_z) * std::cos(about_x);
-    b.at(OfRealization::gravity_dz, lane) = dt2 * r.gravity_m_s2 * std::sin(about_x);
+    b.at(W::dt2, lane) = dt2;
+    b.at(W::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(about_z) * std::cos(about_x);
+    b.at(W::gravity_dy, lane) = -dt2 * r.gravity_m_s2 * std::cos(about_z) * std::cos(about_x);
+    b.at(W::gravity_dz, lane) = dt2 * r.gravity_m_s2 * std::sin(about_x);
 }
 
 } // namespace stylobate
