@@ -76,9 +76,10 @@ inline const NumberKey tolerance(
     "tolerance", &ReplicasSpec::tolerance,
     {1e-6, 1, false, "The separation limit of replicas: a fraction of the drums' width, and radians.", from_percent},
     "separation at which a motion is no longer predictable: a fraction of the drums' width, and radians");
-inline const TableKey table("twins", "perturbed replicas of every realization of a surface",
-                            {&moves, &block, &step_ratio, &precision, &forms, &followed, &tolerance},
-                            {.absent = "no replicas", .used = {in_studies({StudyKind::surface})}});
+inline const TableKey
+    table("twins", "perturbed replicas of every realization of a surface",
+          {&moves, &block, &step_ratio, &precision, &forms, &followed, &tolerance},
+          {.absent = "no replicas", .used = {in_studies({StudyKind::surface})}, .models = in_plane()});
 
 } // namespace twins_keys
 
@@ -292,10 +293,11 @@ inline const NumberKey sigma_ln("sigma_ln", &HazardSpec::sigma_ln, sigma_ln_rang
 inline const TableKey hazard("hazard", "the rates of shaking at the site, which are updated by `stands_for_years`",
                              {&k0, &k, &intensities, &rates, &file, &site, &sigma_ln}, {.absent = "no rates"});
 
-inline const TableKey table("survival", "past shaking, inferred from the state of a structure",
-                            {&observed, &prior, &level, &events, &pause, &monuments, &structure, &per_motion, &built,
-                             &standing, &stands_for, &hazard},
-                            {.absent = "the defaults of its keys", .used = {in_studies({StudyKind::survival})}});
+inline const TableKey
+    table("survival", "past shaking, inferred from the state of a structure",
+          {&observed, &prior, &level, &events, &pause, &monuments, &structure, &per_motion, &built, &standing,
+           &stands_for, &hazard},
+          {.absent = "the defaults of its keys", .used = {in_studies({StudyKind::survival})}, .models = in_plane()});
 
 } // namespace survival_keys
 

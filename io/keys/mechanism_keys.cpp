@@ -1,5 +1,7 @@
 #include "io/keys/mechanism_keys.hpp"
 
+#include "io/keys/words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +12,18 @@ namespace {
 
 constexpr std::uint64_t most_places = 199; ///< joints or blocks of a structure, counted from 0
 
+std::vector<std::string> models_of(MechanismModels models)
+{
+    return models == MechanismModels::planar    ? in_plane()
+           : models == MechanismModels::spatial ? in_space()
+                                                : KeyFacts().models;
+}
+
 /// How a parameter is described where it may be absent, and a value to begin with.
 KeyFacts facts_of(const MechanismRule& rule, const MechanismParameter& parameter)
 {
+    if (parameter.models != MechanismModels::both)
+        return {.models = models_of(parameter.models)};
     if (parameter.role == ParameterRole::needed)
         return {};
     if (rule.mechanism == Mechanism::stribeck) // neutral: as much as the friction of [contact]
@@ -50,7 +61,7 @@ Range range_of(const MechanismParameter& parameter)
 }
 
 MechanismKey::MechanismKey(const MechanismRule& rule)
-    : TableKey(rule.name, rule.says, {}, {.absent = "no effect"},
+    : TableKey(rule.name, rule.says, {}, {.absent = "no effect", .models = models_of(rule.models)},
                rule.place == MechanismPlace::base ? KeyType::table : KeyType::table_or_list)
 {
     if (rule.place != MechanismPlace::base) {

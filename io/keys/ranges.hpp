@@ -28,6 +28,10 @@ inline const Range gravity_range{0, 100, true, "Gravity is in m/s2; on Earth 9.8
 inline const Range normal_stiffness_range{0, 1e15, true,
                                           "K_N is the force per overlap area for the whole depth, in N/m2."};
 inline const Range tangential_stiffness_range{0, 1e16, true, "K_T is in N/m."};
+inline const Range bed_stiffness_range{0, 1e15, true,
+                                       "The stiffness of a bed is the force per area and depth, in N/m3; dry beds of "
+                                       "stone have 1e9 to 1e10."};
+inline const Range inner_ratio_range{0, 0.95, false, "A fraction of the size of the face.", from_percent};
 inline const Range damping_ratio_range{0, 2, false, "Ratios are fractions of the critical damping: 10 % is 0.1.",
                                        from_percent};
 inline const Range damping_range{0, 1e12, false, "Damping coefficients are in N s/m."};

@@ -41,9 +41,11 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
     const auto key = [&](const Range& value, bool relative, const char* sd, std::vector<Name<Per>> allowed,
                          const char* means, KeyFacts facts = {}) {
         facts.absent = "not perturbed";
-        return std::make_unique<SpreadKey>(
-            to_string(quantity), means, SpreadKey::Quality{value, sd, relative, std::move(allowed), turn_of(quantity)},
-            std::move(facts));
+        SpreadKey::Quality quality{value, sd, relative, std::move(allowed)};
+        quality.turn = turn_of(quantity);
+        if (quantity == Quantity::normal_stiffness || quantity == Quantity::tangential_stiffness)
+            quality.deviation_models = in_plane(); // in space a stiffness is per area
+        return std::make_unique<SpreadKey>(to_string(quantity), means, quality, std::move(facts));
     };
     using Motion = ExcitationKind;
     switch (quantity) {
@@ -51,11 +53,12 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
         return key(friction_range, true, "sd", {joint, structure}, "coefficient of friction, each joint about its own",
                    {.example = "{ distribution = \"normal\", cov = 0.1, min = 0.36, max = 0.84 }"});
     case Quantity::normal_stiffness:
-        return key(normal_stiffness_range, true, "sd_n_m2", {structure, joint}, "K_N, each joint about its own",
+        return key(normal_stiffness_range, true, "sd_n_m2", {structure, joint},
+                   "K_N, in space the stiffness per area, each joint about its own",
                    {.used = {compliant()}, .example = "{ distribution = \"lognormal\", sigma_ln = 0.7 }"});
     case Quantity::tangential_stiffness:
-        return key(tangential_stiffness_range, true, "sd_n_m", {structure, joint}, "K_T, each joint about its own",
-                   {.used = {compliant()}});
+        return key(tangential_stiffness_range, true, "sd_n_m", {structure, joint},
+                   "K_T, in space that per area, each joint about its own", {.used = {compliant()}});
     case Quantity::damping_ratio:
         return key(damping_ratio_range, true, "sd", {structure}, "both damping ratios at once",
                    {.used = {compliant()}});
@@ -65,11 +68,11 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
         return key(length_range, true, "sd_m", {block, structure}, "height of each block");
     case Quantity::drum_offset:
         return key(structure_keys::offset_range, false, "sd_m", {block},
-                   "displacement of each block from its nominal place");
+                   "displacement of each block from its nominal place; in space one along x and one along z");
     case Quantity::density:
         return key(density_range, true, "sd_kg_m3", {block, structure}, "density of each block at its size");
     case Quantity::tilt:
-        return key(tilt_range, false, "sd_rad", {structure}, "tilt of the base");
+        return key(tilt_range, false, "sd_rad", {structure}, "tilt of the base; in space one about z and one about x");
     case Quantity::phase:
         return key(phase_range, false, "sd_rad", {structure}, "phase of a harmonic, tapered or pulse excitation",
                    {.used = {for_motions({Motion::harmonic, Motion::tapered, Motion::pulse})},
@@ -99,7 +102,10 @@ std::unique_ptr<SpreadKey> make(const MechanismRule& rule, const MechanismParame
                                      rule.place == MechanismPlace::joint   ? std::vector{joint, structure}
                                      : rule.place == MechanismPlace::block ? std::vector{block, structure}
                                                                            : std::vector{structure}};
-    return std::make_unique<SpreadKey>(parameter.key(), parameter.says, quality, KeyFacts{.absent = "not perturbed"});
+    KeyFacts facts{.absent = "not perturbed"};
+    if (parameter.models != MechanismModels::both)
+        facts.models = parameter.models == MechanismModels::planar ? in_plane() : in_space();
+    return std::make_unique<SpreadKey>(parameter.key(), parameter.says, quality, std::move(facts));
 }
 
 } // namespace
@@ -110,7 +116,9 @@ SpreadKey::SpreadKey(std::string key, std::string means, const Quality& quality,
       distribution("distribution", distributions(quality.relative), "the distribution", {.example = "\"normal\""}),
       sd(quality.deviation_key, {0, value.high, true, value.hint, value.slips},
          "standard deviation of a normal distribution",
-         {.absent = quality.relative ? "`cov`" : "needed for a normal distribution", .example = "..."}),
+         {.absent = quality.relative ? "`cov`" : "needed for a normal distribution",
+          .example = "...",
+          .models = quality.deviation_models}),
       cov("cov", cov_range, "the same as a fraction of the nominal value",
           {.absent = "`" + quality.deviation_key + "`"}),
       sigma_ln("sigma_ln", sigma_ln_range, "standard deviation of the logarithm of a lognormal distribution",
@@ -169,7 +177,7 @@ const TableKey& perturbed_parameters(Mechanism mechanism)
         std::vector<TableKey> made;
         for (const MechanismRule& rule : mechanism_rules()) {
             made.emplace_back(rule.name, std::string("parameters of ") + rule.name, std::vector<const TomlKey*>{},
-                              KeyFacts{.absent = "not perturbed"});
+                              KeyFacts{.absent = "not perturbed", .models = mechanism_key(rule.mechanism).models});
             for (const MechanismParameter& parameter : rule.parameters)
                 made.back().keys.push_back(keys.emplace_back(make(rule, parameter)).get());
         }

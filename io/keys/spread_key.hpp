@@ -41,6 +41,8 @@ struct SpreadKey : TableKey {
         std::string deviation_key;      ///< of the standard deviation; its unit is part of it
         bool relative = true;           ///< has a nominal value to scale: cov, lognormal, log_uniform make sense
         std::vector<Name<Per>> allowed; ///< the first is the default
+        /// Models in which the standard deviation has the unit of its key.
+        std::vector<std::string> deviation_models = KeyFacts().models;
         double turn = 0; ///< of an angle: a full turn, over which a uniform one goes without ends; 0: needs ends
     };
     SpreadKey(std::string key, std::string means, const Quality& quality, KeyFacts facts = {});

@@ -18,7 +18,8 @@ inline constexpr std::uint64_t most_columns = 50;
 
 // of a drum, a capital or an epistyle
 
-inline const NumberKey width("width_m", &DrumSpec::width_m, length_range, "width of the block",
+inline const NumberKey width("width_m", &DrumSpec::width_m, length_range,
+                             "width of the block; of a round one its diameter, in space at its bottom",
                              {.absent = "drum_width_m; of a capital needed", .example = "1.0"});
 inline const NumberKey height("height_m", &DrumSpec::height_m, length_range, "height of the block",
                               {.absent = "drum_height_m; of a capital needed", .example = "0.8"});
@@ -30,18 +31,40 @@ inline const Range offset_range{-length_range.high, length_range.high, false, le
 inline const NumberKey offset("offset_m", &DrumSpec::offset_m, offset_range,
                               "distance of the block's centre from the axis of its column, to the right; no more "
                               "than its width");
+inline const NumberKey offset_z("offset_z_m", &DrumSpec::offset_z_m, offset_range, "the same along z",
+                                {.models = in_space()});
+inline const NumberKey own_depth("depth_m", &DrumSpec::depth_m, length_range,
+                                 "extent along z, of shape = \"rectangle\"; at its bottom",
+                                 {.absent = "drum_depth_m; of other shapes the width", .models = in_space()});
+inline const NumberKey own_top_width("top_width_m", &DrumSpec::top_width_m, length_range,
+                                     "width of its top face: the block is a frustum of a cone or pyramid",
+                                     {.absent = "its width", .models = in_space()});
+inline const WordKey<Shape> own_shape("shape", &DrumSpec::shape, shape_names, "outline seen from above",
+                                      {.absent = "that of the column", .models = in_space()});
+inline const WordKey<Shape> capital_shape("shape", Shape::square, shape_names,
+                                          "outline seen from above: an abacus is square", {.models = in_space()});
+inline const NumberKey own_inner_ratio("bed_inner_ratio", &BedSpec::inner_ratio, inner_ratio_range,
+                                       "hollow bed under the block: inner over outer size of its faces",
+                                       {.absent = "that of the column; of a capital 0", .models = in_space()});
 inline const NumberKey bed_friction("friction", &BedSpec::friction, friction_range,
                                     "coefficient of friction of the bed under the block",
                                     {.absent = "contact.friction"});
 inline const NumberKey bed_normal_stiffness("normal_stiffness_n_m2", &BedSpec::normal_stiffness_n_m2,
                                             normal_stiffness_range, "K_N of the bed under the block",
-                                            {.absent = "contact.normal_stiffness_n_m2"});
+                                            {.absent = "contact.normal_stiffness_n_m2", .models = in_plane()});
 inline const NumberKey bed_tangential_stiffness("tangential_stiffness_n_m", &BedSpec::tangential_stiffness_n_m,
                                                 tangential_stiffness_range, "K_T of the bed under the block",
-                                                {.absent = "contact.tangential_stiffness_n_m"});
+                                                {.absent = "contact.tangential_stiffness_n_m", .models = in_plane()});
+inline const NumberKey bed_area_stiffness("normal_stiffness_n_m3", &BedSpec::normal_stiffness_n_m3, bed_stiffness_range,
+                                          "stiffness per area of the bed under the block",
+                                          {.absent = "contact.normal_stiffness_n_m3", .models = in_space()});
+inline const NumberKey
+    bed_area_tangential_stiffness("tangential_stiffness_n_m3", &BedSpec::tangential_stiffness_n_m3, bed_stiffness_range,
+                                  "tangential stiffness per area of the bed under the block",
+                                  {.absent = "contact.tangential_stiffness_n_m3", .models = in_space()});
 inline const NumberKey bed_restitution("restitution", &BedSpec::restitution, restitution_range,
                                        "restitution of the bed under the block, of rigid contacts",
-                                       {.absent = "contact.restitution"});
+                                       {.absent = "contact.restitution", .models = in_plane()});
 inline const NumberKey bed_normal_damping(
     "normal_damping_ratio", &BedSpec::normal_damping_ratio, damping_ratio_range,
     "normal dashpot of the bed under the block as a fraction of the critical damping, of a layer in it",
@@ -61,29 +84,42 @@ inline const WholeKey fixed_blocks("fixed_blocks", &ColumnSpec::fixed_blocks,
                                    {0, most_blocks - 1, "At least one of the drums must be free."},
                                    "number of the lowest blocks that are fixed to the shaking table");
 inline const TableKey drums("drums", "the drums one by one from the bottom, instead of `blocks`",
-                            {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
-                             &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping, &bed_tangential_damping,
-                             &count},
+                            {&width, &height, &own_shape, &own_depth, &own_top_width, &mass, &density, &offset,
+                             &offset_z, &bed_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
+                             &bed_area_stiffness, &bed_area_tangential_stiffness, &own_inner_ratio, &bed_restitution,
+                             &bed_normal_damping, &bed_tangential_damping, &count},
                             {.absent = "equal drums"}, KeyType::tables);
 inline const NumberKey drum_width("drum_width_m", &DrumSpec::width_m, length_range,
-                                  "width of the drums; with top_width_m of the lowest",
+                                  "width of the drums, of round ones the diameter; with top_width_m of the lowest",
                                   {.absent = "each of `drums` has its own", .example = "1.0"});
 inline const NumberKey drum_height("drum_height_m", &DrumSpec::height_m, length_range, "height of the drums",
                                    {.absent = "each of `drums` has its own", .example = "0.8"});
 inline const NumberKey top_width("top_width_m", length_range,
-                                 "width of the highest drum: the drums taper linearly; needs density_kg_m3",
+                                 "width of the highest drum, in space of the top of the column: the drums taper "
+                                 "linearly; needs density_kg_m3",
                                  {.absent = "no taper"});
+inline const WordKey<Shape> shape("shape", Shape::round, shape_names, "outline of the drums seen from above",
+                                  {.models = in_space()});
+inline const NumberKey drum_depth("drum_depth_m", length_range,
+                                  "extent of the drums along z, of shape = \"rectangle\"; with top_width_m it shrinks "
+                                  "in the same proportion",
+                                  {.absent = "needed for \"rectangle\", not used otherwise", .models = in_space()});
+inline const NumberKey inner_ratio("bed_inner_ratio", 0.0, inner_ratio_range,
+                                   "hollow beds between drums (anathyrosis): inner over outer size of their faces; 0: "
+                                   "the whole face bears",
+                                   {.models = in_space()});
 inline const NumberKey depth("depth_m", &StructureSpec::depth_m, length_range, "depth of all blocks, out of the plane",
-                             {.needed = true, .example = "1.0"});
+                             {.needed = true, .example = "1.0", .models = in_plane()});
 inline const NumberKey drum_mass("drum_mass_kg", &DrumSpec::mass_kg, mass_range,
                                  "mass of each drum; excludes density_kg_m3", {.absent = "from density_kg_m3"});
 inline const NumberKey density_of_all("density_kg_m3", density_range,
                                       "density of all blocks that have no mass and no density of their own",
                                       {.absent = "masses are given", .example = "2700"});
 inline const TableKey capital("capital", "an additional block on top of the column",
-                              {&width, &height, &mass, &density, &offset, &bed_friction, &bed_normal_stiffness,
-                               &bed_tangential_stiffness, &bed_restitution, &bed_normal_damping,
-                               &bed_tangential_damping},
+                              {&width, &height, &capital_shape, &own_depth, &own_top_width, &mass, &density, &offset,
+                               &offset_z, &bed_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
+                               &bed_area_stiffness, &bed_area_tangential_stiffness, &own_inner_ratio, &bed_restitution,
+                               &bed_normal_damping, &bed_tangential_damping},
                               {.absent = "no capital"});
 inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gravity_range, "acceleration of gravity");
 
@@ -104,12 +140,14 @@ inline const NumberKey column_spacing("column_spacing_m", spacing_range, "distan
                                       colonnade_facts("each of column_list has its place", "3.0"));
 inline const NumberKey x("x_m", &ColumnSpec::x_m, position_range, "place of the column's axis",
                          {.needed = true, .example = "0.0"});
-inline const TableKey column_list("column_list",
-                                  "the columns one by one from the left; values that are omitted are those of all "
-                                  "columns",
-                                  {&x, &blocks, &fixed_blocks, &drums, &drum_width, &drum_height, &drum_mass,
-                                   &density_of_all, &top_width, &capital},
-                                  colonnade_facts("equal columns"), KeyType::tables);
+inline const NumberKey z("z_m", &ColumnSpec::z_m, position_range, "the same along z", {.models = in_space()});
+inline const TableKey
+    column_list("column_list",
+                "the columns one by one from the left, in space in any order; values that are omitted "
+                "are those of all columns",
+                {&x, &z, &blocks, &fixed_blocks, &drums, &shape, &drum_width, &drum_depth, &drum_height, &drum_mass,
+                 &density_of_all, &top_width, &inner_ratio, &capital},
+                colonnade_facts("equal columns"), KeyType::tables);
 inline const WholeKey first_column("first_column", &EpistyleSpec::first_column,
                                    {0, most_columns - 1, "Columns are counted from 0, from the left."},
                                    "the leftmost column on which the piece lies, counted from 0", {.needed = true});
@@ -118,6 +156,14 @@ inline const WholeKey last_column("last_column", &EpistyleSpec::last_column,
                                   "the rightmost column on which the piece lies", {.needed = true});
 inline const NumberKey epistyle_x("x_m", &EpistyleSpec::x_m, position_range, "place of its centre",
                                   {.absent = "between its columns"});
+inline const NumberKey epistyle_z("z_m", &EpistyleSpec::z_m, position_range, "place of its centre along z",
+                                  {.absent = "between its columns", .models = in_space()});
+inline const WordKey<Along> along("along", &EpistyleSpec::along, along_names, "the axis along which it reaches",
+                                  {.absent = "x, or z where its columns are further apart along z",
+                                   .models = in_space()});
+inline const NumberKey own_epistyle_width("width_m", &EpistyleSpec::width_m, length_range,
+                                          "width of the piece, across its length",
+                                          {.absent = "epistyle_width_m", .models = in_space()});
 inline const NumberKey length("length_m", &EpistyleSpec::length_m, length_range, "length along the colonnade",
                               {.absent = "epistyle_length_m"});
 inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, length_range, "height of the piece",
@@ -125,9 +171,11 @@ inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, 
 inline const NumberKey seat_friction("friction", &BedSpec::friction, friction_range,
                                      "coefficient of friction of its seats", {.absent = "contact.friction"});
 inline const TableKey epistyles("epistyles", "the epistyles one by one from the left; [] for none",
-                                {&first_column, &last_column, &epistyle_x, &length, &own_epistyle_height, &mass,
-                                 &density, &seat_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
-                                 &bed_restitution, &bed_normal_damping, &bed_tangential_damping},
+                                {&first_column, &last_column, &epistyle_x, &epistyle_z, &along, &length,
+                                 &own_epistyle_width, &own_epistyle_height, &mass, &density, &seat_friction,
+                                 &bed_normal_stiffness, &bed_tangential_stiffness, &bed_area_stiffness,
+                                 &bed_area_tangential_stiffness, &bed_restitution, &bed_normal_damping,
+                                 &bed_tangential_damping},
                                 colonnade_facts("equal pieces over all columns"), KeyType::tables);
 inline const WholeKey epistyle_bays("epistyle_bays", 1, {1, most_columns - 1, "Bays that one piece spans, or \"all\"."},
                                     "number of bays that each piece spans",
@@ -137,6 +185,9 @@ inline const NumberKey
                     colonnade_facts("the pieces meet over the axes of the columns and end flush with the outer faces"));
 inline const NumberKey epistyle_height("epistyle_height_m", length_range, "height of the epistyles",
                                        colonnade_facts("the pieces are in `epistyles`", "0.8"));
+inline const NumberKey epistyle_width(
+    "epistyle_width_m", length_range, "width of the epistyles, across their length",
+    {.absent = "each of `epistyles` has its own", .used = of_colonnade.used, .example = "1.0", .models = in_space()});
 inline const NumberKey epistyle_mass("epistyle_mass_kg", mass_range, "mass of each piece",
                                      colonnade_facts("from the density"));
 inline const NumberKey epistyle_density("epistyle_density_kg_m3", density_range, "density of the epistyles",
@@ -144,69 +195,92 @@ inline const NumberKey epistyle_density("epistyle_density_kg_m3", density_range,
 
 inline const WordKey<StructureKind> kind("kind", &StructureSpec::kind, structure_kind_names,
                                          "one column, or a colonnade: columns with or without epistyles");
-inline const TableKey table(
-    "structure", "the columns and epistyles",
-    {&kind,        &blocks,    &fixed_blocks,   &drums,           &drum_width,      &drum_height,   &top_width,
-     &depth,       &drum_mass, &density_of_all, &capital,         &gravity,         &columns,       &column_spacing,
-     &column_list, &epistyles, &epistyle_bays,  &epistyle_length, &epistyle_height, &epistyle_mass, &epistyle_density});
+inline const WholeKey dimensions("dimensions", &StructureSpec::dimensions,
+                                 {2, 3, "2: in the plane, blocks are rectangles; 3: in space."},
+                                 "2: a structure in the plane; 3: in space, with round or square drums");
+inline const TableKey table("structure", "the columns and epistyles", {&dimensions,     &kind,
+                                                                       &blocks,         &fixed_blocks,
+                                                                       &drums,          &shape,
+                                                                       &drum_width,     &drum_depth,
+                                                                       &drum_height,    &top_width,
+                                                                       &depth,          &drum_mass,
+                                                                       &density_of_all, &inner_ratio,
+                                                                       &capital,        &gravity,
+                                                                       &columns,        &column_spacing,
+                                                                       &column_list,    &epistyles,
+                                                                       &epistyle_bays,  &epistyle_length,
+                                                                       &epistyle_width, &epistyle_height,
+                                                                       &epistyle_mass,  &epistyle_density});
 
 } // namespace structure_keys
 
 namespace contact_keys {
 
-inline const NumberKey normal_stiffness("normal_stiffness_n_m2", &ContactSpec::normal_stiffness_n_m2,
-                                        normal_stiffness_range,
-                                        "K_N, the force per overlap area for the whole depth; a dry bed of marble has "
-                                        "1e9 to 1e10 N/m3 times the depth",
-                                        {.needed = true, .used = {compliant()}, .example = "3e9"});
+inline const NumberKey
+    normal_stiffness("normal_stiffness_n_m2", &ContactSpec::normal_stiffness_n_m2, normal_stiffness_range,
+                     "K_N, the force per overlap area for the whole depth; a dry bed of marble has "
+                     "1e9 to 1e10 N/m3 times the depth",
+                     {.needed = true, .used = {compliant()}, .example = "3e9", .models = in_plane()});
 inline const NumberKey tangential_stiffness("tangential_stiffness_n_m", &ContactSpec::tangential_stiffness_n_m,
                                             tangential_stiffness_range, "K_T, the force per tangential displacement",
                                             {.absent = "K_N times the width of the widest drum",
-                                             .used = {compliant()}});
+                                             .used = {compliant()},
+                                             .models = in_plane()});
+inline const NumberKey area_stiffness("normal_stiffness_n_m3", &ContactSpec::normal_stiffness_n_m3, bed_stiffness_range,
+                                      "stiffness of the beds: force per area and depth; a dry bed of marble has 1e9 to "
+                                      "1e10",
+                                      {.needed = true, .example = "3e9", .models = in_space()});
+inline const NumberKey area_tangential_stiffness("tangential_stiffness_n_m3", &ContactSpec::tangential_stiffness_n_m3,
+                                                 bed_stiffness_range, "tangential stiffness of the beds, per area",
+                                                 {.absent = "normal_stiffness_n_m3", .models = in_space()});
 inline const NumberKey normal_damping_ratio("normal_damping_ratio", &ContactSpec::normal_damping_ratio,
                                             damping_ratio_range, "normal dashpot as a fraction of the critical damping",
                                             {.used = {compliant()}});
-inline const NumberKey
-    normal_damping("normal_damping_n_s_m", &ContactSpec::normal_damping_n_s_m, damping_range,
-                   "coefficient C_N of the normal dashpot, instead of its ratio",
-                   {.absent = "from the ratio", .used = {compliant()}, .excludes = {"normal_damping_ratio"}});
+inline const NumberKey normal_damping(
+    "normal_damping_n_s_m", &ContactSpec::normal_damping_n_s_m, damping_range,
+    "coefficient C_N of the normal dashpot, instead of its ratio",
+    {.absent = "from the ratio", .used = {compliant()}, .excludes = {"normal_damping_ratio"}, .models = in_plane()});
 inline const NumberKey tangential_damping_ratio("tangential_damping_ratio", &ContactSpec::tangential_damping_ratio,
                                                 damping_ratio_range,
                                                 "tangential dashpot as a fraction of the critical damping",
                                                 {.used = {compliant()}});
-inline const NumberKey
-    tangential_damping("tangential_damping_n_s_m", &ContactSpec::tangential_damping_n_s_m, damping_range,
-                       "coefficient C_T of the tangential dashpot, instead of its ratio",
-                       {.absent = "from the ratio", .used = {compliant()}, .excludes = {"tangential_damping_ratio"}});
+inline const NumberKey tangential_damping("tangential_damping_n_s_m", &ContactSpec::tangential_damping_n_s_m,
+                                          damping_range,
+                                          "coefficient C_T of the tangential dashpot, instead of its ratio",
+                                          {.absent = "from the ratio",
+                                           .used = {compliant()},
+                                           .excludes = {"tangential_damping_ratio"},
+                                           .models = in_plane()});
 inline const WordKey<DampingAt> damping("damping", &ContactSpec::damping, damping_at_names,
                                         "where the normal dashpot acts: at the centroid of the overlap (the paper's "
-                                        "model), or at the ends of the contact",
-                                        {.used = {compliant()}});
+                                        "model), or at the ends of the contact; in space it is spread over the contact",
+                                        {.used = {compliant()}, .models = in_plane()});
 inline const WordKey<DampingPer> damping_per("damping_per", &ContactSpec::damping_per, damping_per_names,
                                              "whether the dashpot's coefficient is that of each contact, or grows with "
                                              "the length of the contact",
-                                             {.used = {compliant()}});
+                                             {.used = {compliant()}, .models = in_plane()});
 inline const WordKey<ContactForm> form("form", &ContactSpec::form, contact_form_names,
                                        "how the overlap becomes a force: by its area (the paper's model), by the "
                                        "penetration of two corners, by points along the face; or not at all, as of "
-                                       "rigid blocks");
+                                       "rigid blocks",
+                                       {.models = in_plane()});
 inline const NumberKey friction("friction", &ContactSpec::friction, friction_range,
                                 "coefficient of friction mu; stone on stone has about 0.4 to 0.8",
                                 {.needed = true, .example = "0.68"});
 
 inline const NumberKey restitution("restitution", &ContactSpec::restitution, restitution_range,
                                    "what an impact gives back: a part of the velocity or of the impulse",
-                                   {.used = {with_rigid_contacts()}});
+                                   {.used = {with_rigid_contacts()}, .models = in_plane()});
 inline const WordKey<RestitutionLaw> restitution_law(
     "restitution_law", &ContactSpec::restitution_law, restitution_law_names,
     "whether an end that meets its face parts again with the part of its closing velocity (Newton), or every end "
     "gives back the part of the impulse with which the impact compresses it (Poisson)",
-    {.used = {with_rigid_contacts()}});
+    {.used = {with_rigid_contacts()}, .models = in_plane()});
 
 inline const TableKey table("contact", "the joints between blocks",
-                            {&normal_stiffness, &tangential_stiffness, &normal_damping_ratio, &normal_damping,
-                             &tangential_damping_ratio, &tangential_damping, &damping, &damping_per, &form, &friction,
-                             &restitution, &restitution_law});
+                            {&normal_stiffness, &tangential_stiffness, &area_stiffness, &area_tangential_stiffness,
+                             &normal_damping_ratio, &normal_damping, &tangential_damping_ratio, &tangential_damping,
+                             &damping, &damping_per, &form, &friction, &restitution, &restitution_law});
 
 } // namespace contact_keys
 
@@ -424,11 +498,16 @@ inline const TableKey table("study", "the kind of study", {&kind, &title, &seed,
 namespace initial_keys {
 
 inline const NumberKey tilt("tilt_rad", &InitialSpec::tilt_rad, initial_tilt_range,
-                            "angle by which the structure leans at the start, counter-clockwise");
+                            "angle by which the structure leans at the start, counter-clockwise; in space towards "
+                            "tilt_direction_rad");
+inline const NumberKey tilt_direction("tilt_direction_rad", &InitialSpec::tilt_direction_rad, phase_range,
+                                      "azimuth towards which it leans, from x towards z; pi: to the left, as "
+                                      "counter-clockwise",
+                                      {.models = in_space()});
 inline const WholeKey tilt_from_block("tilt_from_block", &InitialSpec::tilt_from_block,
                                       {0, 199, "A block of each column, counted from 0, from the bottom."},
                                       "in each column this block and all above it lean; 0: the whole column");
-inline const TableKey table("initial", "the start of the motion", {&tilt, &tilt_from_block},
+inline const TableKey table("initial", "the start of the motion", {&tilt, &tilt_direction, &tilt_from_block},
                             {.absent = "at rest, upright"});
 
 } // namespace initial_keys
@@ -462,7 +541,7 @@ namespace outcome_keys {
 inline const WordKey<Follow> follow("follow", &OutcomeSpec::follow, follow_names,
                                     "how long a realization is followed: until a block has fallen, or until all "
                                     "blocks are at rest",
-                                    {.absent = "\"collapse\" for a column, \"rest\" for a colonnade"});
+                                    {.absent = "\"collapse\" for a column and in space, \"rest\" for a colonnade"});
 inline const NumberKey height_fraction("height_fraction", &OutcomeSpec::collapse_height_fraction,
                                        {0.01, 0.99, false, "A fraction of the rest height.", from_percent},
                                        "a block whose centre is below this fraction of its height at rest has fallen");
@@ -488,7 +567,8 @@ inline const Range stable_step{
 inline const Range any_step{1e-6, 100, false, stable_step.hint};
 
 inline const WordKey<Precision> precision("precision", &RunSpec::precision, precision_names,
-                                          "arithmetic of the steps; single supports only the paper's model");
+                                          "arithmetic of the steps; single supports only the paper's model",
+                                          {.models = in_plane()});
 inline const NumberKey step_fraction("step_fraction", &RunSpec::step_fraction, stable_step,
                                      "time step as a fraction of the largest safe step; up to 100 with "
                                      "allow_step_above_bound; excludes step_s",
@@ -496,7 +576,7 @@ inline const NumberKey step_fraction("step_fraction", &RunSpec::step_fraction, s
 inline const WordKey<StepBasis> step_bound("step_bound", &RunSpec::step_bound, step_basis_names,
                                            "whether the largest safe step is that of each block held by its "
                                            "neighbours, or of the whole structure (longer)",
-                                           {.used = {compliant()}});
+                                           {.used = {compliant()}, .models = in_plane()});
 inline const NumberKey step("step_s", &RunSpec::step_s, {1e-12, 1, false, "Times are in seconds.", from_ms},
                             "a fixed time step instead",
                             {.absent = "from step_fraction", .excludes = {"step_fraction"}});
@@ -505,7 +585,7 @@ inline const NumberKey accuracy("accuracy", &RunSpec::accuracy,
                                 "largest change of a collapse probability by the numerics: those that the study does "
                                 "not give are chosen for it (form and stiffness of the contacts, step, step_bound, "
                                 "precision), or the study is refused; excludes step_s and step_fraction",
-                                {.absent = "none", .excludes = {"step_s", "step_fraction"}});
+                                {.absent = "none", .excludes = {"step_s", "step_fraction"}, .models = in_plane()});
 inline const BooleanKey allow_step_above_bound("allow_step_above_bound", &RunSpec::allow_step_above_bound,
                                                "run even with a step above the largest safe one",
                                                {.used = {compliant()}});

@@ -18,6 +18,8 @@ inline constexpr auto intensity_measure_names = word_list<IntensityMeasure>("pga
 inline constexpr auto sensitivity_method_names = word_list<SensitivityMethod>("sobol", "morris");
 inline constexpr auto sampling_names = word_list<Sampling>("independent", "sobol");
 inline constexpr auto structure_kind_names = word_list<StructureKind>("column", "colonnade");
+inline constexpr auto shape_names = word_list<Shape>("round", "square", "rectangle");
+inline constexpr auto along_names = word_list<Along>("x", "z");
 inline constexpr auto precision_names = word_list<Precision>("double", "single");
 inline constexpr auto follow_names = word_list<Follow>("collapse", "rest");
 inline constexpr auto excitation_kind_names = word_list<ExcitationKind>(
@@ -86,6 +88,12 @@ inline const char* dimensions_word(const StructureSpec& structure)
 inline std::vector<std::string> in_space()
 {
     return {model_names[1]};
+}
+
+/// Of a key that studies in the plane alone use.
+inline std::vector<std::string> in_plane()
+{
+    return {model_names[0]};
 }
 
 inline Condition with_rigid_contacts()

@@ -159,12 +159,12 @@ InitialSpec read_initial(const KeyReader& keys, const StructureSpec& structure)
     return initial;
 }
 
-/// @param kind decides how long a realization is followed unless the study gives it
-OutcomeSpec read_outcome(const KeyReader& keys, StructureKind kind)
+/// @param structure decides how long a realization is followed unless the study gives it
+OutcomeSpec read_outcome(const KeyReader& keys, const StructureSpec& structure)
 {
     using namespace outcome_keys;
     OutcomeSpec o;
-    o.follow = kind == StructureKind::colonnade ? Follow::rest : Follow::collapse;
+    o.follow = structure.kind == StructureKind::colonnade && !structure.spatial() ? Follow::rest : Follow::collapse;
     keys.read_fields(table, o);
     keys.table(collapse).read_fields(collapse, o);
     return o;
@@ -354,8 +354,11 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     if (is_rare && study.sampling != Sampling::independent)
         keys.refuse("sampling", "is not for study.kind = \"rare\"", "Remove it: chains use their own random numbers.");
 
+    study.structure.dimensions =
+        static_cast<int>(top.table(structure_keys::table.name).read(structure_keys::dimensions));
+    refuse_other_model(top, study);
     study.structure = read_structure(top.table(structure_keys::table));
-    study.outcome = read_outcome(top.table(outcome_keys::table), study.structure.kind);
+    study.outcome = read_outcome(top.table(outcome_keys::table), study.structure);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
     study.excitation = read_excitation(top.table(excitation_keys::table), study.kind, study.structure);
     study.vertical = read_vertical(top.table(excitation_keys::table), study.kind, study.excitation);

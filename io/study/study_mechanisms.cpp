@@ -1,3 +1,4 @@
+#include "ensemble/model/plan_face.hpp"
 #include "io/keys/mechanism_keys.hpp"
 #include "io/keys/words.hpp"
 #include "io/study/study_parts.hpp"
@@ -130,6 +131,8 @@ private:
         std::vector<std::string> acting;
         for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
             const NumberKey& parameter = key.parameters[i];
+            if (!parameter.used_where(model_key, dimensions_word(study_.structure)))
+                continue;
             // the neutral value may be the study's, not the key's default
             spec.values[i] = keys.read_or(parameter, spec.values[i]);
             if (rule.parameters[i].role == ParameterRole::needed)
@@ -219,10 +222,22 @@ private:
                 std::abs(spec.values[4]) > layout_.blocks[static_cast<std::size_t>(place)].height_m / 2)
                 keys.refuse("height_m", fmt::format("is outside block {}", place),
                             "Give no more than half its height.");
-            if (spec.mechanism == Mechanism::eccentricity && !(std::abs(spec.values[0]) < width(place) / 2))
+            if (spec.mechanism == Mechanism::eccentricity && study_.structure.spatial())
+                check_centre(keys, spec, place);
+            else if (spec.mechanism == Mechanism::eccentricity && !(std::abs(spec.values[0]) < width(place) / 2))
                 keys.refuse("offset_m", fmt::format("is outside block {}, which is {} m wide", place, width(place)),
                             "Give less than half of its width.");
         }
+    }
+
+    /// In space the centre of mass lies above the bottom face of its block.
+    void check_centre(const KeyReader& keys, const MechanismSpec& spec, int place) const
+    {
+        const PlacedBlock& block = layout_.blocks[static_cast<std::size_t>(place)];
+        const PlanFace face{block.shape == Shape::round, 0, 0, block.width_m / 2, block.depth_m / 2};
+        if (!(outside_m(face, spec.values[0], spec.values[1]) < 0))
+            keys.refuse(keys.has("offset_m") ? "offset_m" : "offset_z_m", fmt::format("is outside block {}", place),
+                        "Give less than half of its width.");
     }
 
     const KeyReader& section_;

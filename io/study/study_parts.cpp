@@ -163,12 +163,6 @@ void check_direction(const KeyReader& top, const Study& study)
                         "Give one of the two.");
 }
 
-void refuse_other_model(const KeyReader& keys, const TableKey& table, const StructureSpec& structure)
-{
-    keys.refuse_unused(table, model_key, dimensions_word(structure),
-                       fmt::format("Remove it, or give {} = {}.", model_key, structure.spatial() ? 2 : 3));
-}
-
 std::string acceleration_unit(const std::string& word)
 {
     return word == "gal" ? "cm/s2" : word; // one name for one unit, so that equal studies have equal texts
@@ -177,7 +171,6 @@ std::string acceleration_unit(const std::string& word)
 ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure)
 {
     using namespace excitation_keys;
-    refuse_other_model(keys, table, structure);
     ExcitationSpec e;
     e.kind = keys.read(kind);
     const char *motion = word_for(excitation_kind_names, e.kind), *of_study = word_for(study_kind_names, study);
@@ -264,8 +257,13 @@ ContactSpec read_contact(const KeyReader& keys, const StructureSpec& structure, 
     c.form = chosen.form ? *chosen.form : keys.read(form);
     const char* word = word_for(contact_form_names, c.form);
     keys.refuse_unused(table, "contact.form", word);
-    const KeyUse use{{{"contact.form", word}}};
+    const KeyUse use{{{"contact.form", word}, {model_key, dimensions_word(structure)}}};
     keys.read_fields(table, c, chosen.stiffness_n_m2 ? use.without({&normal_stiffness}) : use);
+    if (structure.spatial()) {
+        if (!keys.has(area_tangential_stiffness)) // as stiff along the bed as across it
+            c.tangential_stiffness_n_m3 = c.normal_stiffness_n_m3;
+        return c;
+    }
     if (c.form == ContactForm::rigid) {
         c.normal_damping_ratio = c.tangential_damping_ratio = 0;
         return c;

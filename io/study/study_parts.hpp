@@ -41,8 +41,10 @@ ChosenContact choose_contact(const KeyReader& top, Study& study);
 /// The steps and the precision of contacts that yield; `run.accuracy` must be read. Nothing without an accuracy.
 void choose_steps(const KeyReader& keys_of_run, Study& study);
 
-/// Refuses the keys of a table that the model of the study does not use.
-void refuse_other_model(const KeyReader& keys, const TableKey& table, const StructureSpec& structure);
+/// Refuses the keys of a file that the model of the study does not use, kinds that the model does not have, and values
+/// that it has not.
+/// @param top of the file   @param study its kind and the number of its dimensions must be read
+void refuse_other_model(const KeyReader& top, const Study& study);
 
 StructureSpec read_structure(const KeyReader& keys);
 

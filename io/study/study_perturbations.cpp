@@ -23,6 +23,7 @@ struct Rule {
     std::vector<double> nominal;       ///< the values that are perturbed, each once
     Range value;                       ///< what a value may be
     Range sd;                          ///< what a standard deviation may be
+    bool by_cov = false;               ///< a normal distribution is given by `cov` alone
     bool one_for_all = false;          ///< one value is drawn in place of nominal ones that may differ
     const char* section = "[contact]"; ///< where nominal values are given
 };
@@ -43,6 +44,7 @@ Rule rule_for(Quantity quantity, const Study& study, const Layout& layout)
         rule.section = "[structure]";
     else if (quantity == Quantity::pulse_frequency || quantity == Quantity::pulse_gamma)
         rule.section = "[excitation]";
+    rule.by_cov = !key.sd.used_where(model_key, dimensions_word(study.structure));
     if (quantity == Quantity::damping_ratio) {
         rule.nominal = {study.contact.normal_damping_ratio, study.contact.tangential_damping_ratio};
         rule.one_for_all = true;
@@ -116,7 +118,9 @@ void read_normal(const KeyReader& keys, const Rule& rule, Spread& p)
     else if (keys.has(key.sd) || !key.relative)
         p.sd = keys.read_within(key.sd, rule.sd);
     else
-        keys.missing(key.sd.name, "Give it, or cov, the standard deviation as a fraction of the nominal value.");
+        keys.missing(rule.by_cov ? key.cov.name : key.sd.name,
+                     rule.by_cov ? "Give the standard deviation as a fraction of the nominal value."
+                                 : "Give it, or cov, the standard deviation as a fraction of the nominal value.");
     read_ends(keys, rule, p);
 
     if (!key.relative)
@@ -230,7 +234,6 @@ void read_of_mechanisms(const KeyReader& section, Study& study)
 
 void read_perturbations(const KeyReader& section, Study& study)
 {
-    refuse_other_model(section, perturbation_table(), study.structure);
     const Layout layout = lay_out(study.structure);
     for (int i = 0; i < perturbable_count; ++i) {
         const auto quantity = static_cast<Quantity>(i);

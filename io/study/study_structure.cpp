@@ -82,10 +82,16 @@ double read_mass(const std::vector<MassSource>& sources, const Source& size, dou
     return mass;
 }
 
+double volume_of(const DrumSpec& drum)
+{
+    return Frustum{drum.shape, drum.width_m, drum.depth_m, drum.height_m, drum.top_width_m / drum.width_m}.volume_m3();
+}
+
 /// The keys of one column: its own ones, and behind them those of the structure for the keys that it omits.
 class ColumnReader {
 public:
-    ColumnReader(const KeyReader& own, const KeyReader& all, double depth_m) : own_(own), all_(all), depth_m_(depth_m)
+    ColumnReader(const KeyReader& own, const KeyReader& all, const StructureSpec& structure)
+        : own_(own), all_(all), depth_m_(structure.depth_m), spatial_(structure.spatial())
     {
     }
 
@@ -132,6 +138,8 @@ private:
         DrumSpec drum;
         drum.width_m = width_of_all.read();
         drum.height_m = need(both(drum_height)).read();
+        if (spatial_)
+            return frusta(drum, count_of_blocks, width_of_all, top);
         std::vector<DrumSpec> all(count_of_blocks, drum);
         if (!top.given()) {
             drum.mass_kg = read_mass({common_mass()}, width_of_all, drum.width_m * drum.height_m * depth_m_);
@@ -154,6 +162,46 @@ private:
         return all;
     }
 
+    /// In space the drums of a taper are frusta: each begins with the width with which the one below it ends.
+    std::vector<DrumSpec> frusta(DrumSpec drum, std::uint64_t number, const Source& width_of_all,
+                                 const Source& top) const
+    {
+        using namespace structure_keys;
+        drum.bed.inner_ratio = which(inner_ratio).read(inner_ratio);
+        drum.shape = which(shape).read(shape);
+        drum.depth_m = depth_of(drum, both(drum_depth));
+        const MassSource mass_of_all = common_mass();
+        if (top.given() && mass_of_all.keys->has(drum_mass))
+            mass_of_all.keys->refuse(drum_mass.name, "is not used with top_width_m",
+                                     "The drums of a taper differ: give density_kg_m3.");
+        const double bottom_m = drum.width_m, top_m = top.given() ? top.read() : bottom_m, depth_m = drum.depth_m;
+        const auto width_at = [&](std::uint64_t i) {
+            return bottom_m + (top_m - bottom_m) * (static_cast<double>(i) / static_cast<double>(number));
+        };
+        std::vector<DrumSpec> all(number, drum);
+        for (std::uint64_t i = 0; i < number; ++i) {
+            DrumSpec& each = all[i];
+            each.width_m = width_at(i);
+            each.top_width_m = width_at(i + 1);
+            each.depth_m = drum.shape == Shape::rectangle ? depth_m * (each.width_m / bottom_m) : each.width_m;
+            each.mass_kg = read_mass({mass_of_all}, width_of_all, volume_of(each));
+        }
+        return all;
+    }
+
+    /// The extent along z of a block in space whose width and shape are read.
+    double depth_of(const DrumSpec& drum, const std::vector<Source>& sources) const
+    {
+        const Source& depth = first_given(sources);
+        if (drum.shape == Shape::rectangle)
+            return need(sources).read();
+        if (depth.given() && depth.keys == &own_)
+            depth.keys->refuse(depth.name(),
+                               fmt::format("is not used by shape = \"{}\"", word_for(shape_names, drum.shape)),
+                               "Remove it: only a rectangle has a depth of its own.");
+        return drum.width_m;
+    }
+
     std::vector<DrumSpec> listed_drums(const KeyReader& shape) const
     {
         using namespace structure_keys;
@@ -163,7 +211,8 @@ private:
             top.keys->refuse(top.name(), "is not used with drums", "Give each drum of the list its width_m.");
         std::vector<DrumSpec> all;
         for (const KeyReader& keys : shape.tables(drums)) {
-            const DrumSpec drum = read_drum(keys, &drum_width, &drum_height, {{&keys, &mass, &density}, common_mass()});
+            const DrumSpec drum =
+                read_drum(keys, &drum_width, &drum_height, {{&keys, &mass, &density}, common_mass()}, false);
             all.insert(all.end(), keys.read(count), drum);
         }
         if (all.empty())
@@ -176,14 +225,38 @@ private:
     {
         using namespace structure_keys;
         DrumSpec top = read_drum(keys, nullptr, nullptr,
-                                 {{&keys, &mass, &density}, {common_mass().keys, nullptr, &density_of_all}});
+                                 {{&keys, &mass, &density}, {common_mass().keys, nullptr, &density_of_all}}, true);
         top.capital = true;
         return top;
     }
 
+    /// Shape, depth, taper, bed and place of a block in space. @param drum its width must be read
+    void read_in_space(const KeyReader& keys, bool is_capital, DrumSpec& drum) const
+    {
+        using namespace structure_keys;
+        if (is_capital)
+            drum.shape = keys.read(capital_shape);
+        else
+            drum.shape = keys.has(own_shape) ? keys.read(own_shape) : which(shape).read(shape);
+        std::vector<Source> depths = {{&keys, &own_depth}};
+        if (!is_capital)
+            for (const Source& source : both(drum_depth))
+                depths.push_back(source);
+        if (keys.has(own_depth) && drum.shape != Shape::rectangle)
+            keys.refuse(own_depth.name, fmt::format("is not used by shape = \"{}\"", word_for(shape_names, drum.shape)),
+                        "Remove it: only a rectangle has a depth of its own.");
+        drum.depth_m = drum.shape == Shape::rectangle ? need(depths).read() : drum.width_m;
+        drum.top_width_m = keys.read_or(own_top_width, drum.width_m);
+        drum.bed.inner_ratio = is_capital ? 0 : which(inner_ratio).read(inner_ratio);
+        Range allowed = offset_z.range;
+        allowed.low = -drum.depth_m;
+        allowed.high = drum.depth_m;
+        drum.offset_z_m = keys.read_within(offset_z, allowed);
+    }
+
     /// @param width_of_all, height_of_all keys of the column or the structure; null: there are none
     DrumSpec read_drum(const KeyReader& keys, const NumberKey* width_of_all, const NumberKey* height_of_all,
-                       const std::vector<MassSource>& masses) const
+                       const std::vector<MassSource>& masses, bool is_capital) const
     {
         using namespace structure_keys;
         const auto with = [&](const NumberKey& own, const NumberKey* of_all) {
@@ -197,7 +270,9 @@ private:
         DrumSpec drum;
         drum.width_m = size.read();
         drum.height_m = need(with(height, height_of_all)).read();
-        drum.mass_kg = read_mass(masses, size, drum.width_m * drum.height_m * depth_m_);
+        if (spatial_)
+            read_in_space(keys, is_capital, drum);
+        drum.mass_kg = read_mass(masses, size, spatial_ ? volume_of(drum) : drum.width_m * drum.height_m * depth_m_);
         Range allowed = offset.range;
         allowed.low = -drum.width_m;
         allowed.high = drum.width_m;
@@ -209,16 +284,17 @@ private:
     const KeyReader& own_;
     const KeyReader& all_;
     double depth_m_;
+    bool spatial_;
 };
 
-std::vector<ColumnSpec> read_columns(const KeyReader& keys, double depth_m)
+std::vector<ColumnSpec> read_columns(const KeyReader& keys, const StructureSpec& structure)
 {
     using namespace structure_keys;
     std::vector<ColumnSpec> all;
     if (!keys.has(column_list)) {
         const std::uint64_t number = keys.read(columns);
         const double spacing = keys.read(column_spacing);
-        all.assign(number, ColumnReader(keys, keys, depth_m).read());
+        all.assign(number, ColumnReader(keys, keys, structure).read());
         for (std::size_t i = 0; i < number; ++i) // about the middle of the shaking table
             all[i].x_m = (static_cast<double>(i) - 0.5 * static_cast<double>(number - 1)) * spacing;
         return all;
@@ -228,13 +304,39 @@ std::vector<ColumnSpec> read_columns(const KeyReader& keys, double depth_m)
             keys.refuse(other->name, "and column_list exclude each other",
                         "The columns of the list have their own x_m.");
     for (const KeyReader& own : keys.tables(column_list)) {
-        ColumnSpec column = ColumnReader(own, keys, depth_m).read();
+        ColumnSpec column = ColumnReader(own, keys, structure).read();
         column.x_m = own.read(x);
+        column.z_m = own.read_or(z, 0);
         all.push_back(std::move(column));
     }
     if (all.empty() || all.size() > most_columns)
         keys.refuse(column_list.name, fmt::format("has {} columns, outside [1, {}]", all.size(), most_columns));
     return all;
+}
+
+/// The axis along which two columns are further apart.
+Along usual_along(const ColumnSpec& from, const ColumnSpec& to)
+{
+    return std::abs(to.z_m - from.z_m) > std::abs(to.x_m - from.x_m) ? Along::z : Along::x;
+}
+
+/// The row in which all columns stand, along x or along z.
+/// @throws InputError if they do not stand in one row, in their order
+Along row_of(const KeyReader& keys, const std::vector<ColumnSpec>& columns)
+{
+    const Along along = usual_along(columns.front(), columns.back());
+    for (std::size_t c = 1; c < columns.size(); ++c) {
+        const ColumnSpec &before = columns[c - 1], &column = columns[c];
+        const bool in_row = along == Along::z ? column.x_m == before.x_m && column.z_m > before.z_m
+                                              : column.z_m == before.z_m && column.x_m > before.x_m;
+        if (!in_row)
+            keys.refuse(structure_keys::column_list.name,
+                        "has columns that do not stand in one row along x or z, in "
+                        "their order",
+                        "Give each piece: epistyles = [ { first_column = 0, last_column = 1, ... }, ... ], or "
+                        "epistyles = [] for none.");
+    }
+    return along;
 }
 
 /// The epistyles that are given one by one.
@@ -255,10 +357,17 @@ std::vector<EpistyleSpec> listed_epistyles(const KeyReader& keys, const Structur
         epistyle.last_column = static_cast<int>(last);
         epistyle.length_m = size.read();
         epistyle.height_m = need({{&own, &own_epistyle_height}, {&keys, &epistyle_height}}).read();
-        epistyle.x_m = own.read_or(epistyle_x, (structure.columns[first].x_m + structure.columns[last].x_m) / 2);
+        const ColumnSpec &from = structure.columns[first], &to = structure.columns[last];
+        epistyle.x_m = own.read_or(epistyle_x, (from.x_m + to.x_m) / 2);
+        if (structure.spatial()) {
+            epistyle.width_m = need({{&own, &own_epistyle_width}, {&keys, &epistyle_width}}).read();
+            epistyle.z_m = own.read_or(epistyle_z, (from.z_m + to.z_m) / 2);
+            epistyle.along = own.read_or(along, usual_along(from, to));
+        }
+        const double across = structure.spatial() ? epistyle.width_m : structure.depth_m;
         epistyle.mass_kg = read_mass(
             {{&own, &mass, &density}, {&keys, &epistyle_mass, &epistyle_density}, {&keys, nullptr, &density_of_all}},
-            size, epistyle.length_m * epistyle.height_m * structure.depth_m);
+            size, epistyle.length_m * epistyle.height_m * across);
         own.read_fields(epistyles, epistyle.bed);
         all.push_back(epistyle);
     }
@@ -288,13 +397,21 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
                         "Give another number, \"all\", or each piece in epistyles = [ { ... }, ... ].");
     }
     const double height = keys.read(key::epistyle_height);
+    const Along along = structure.spatial() ? row_of(keys, columns) : Along::x;
+    const bool along_z = along == Along::z;
+    const double width = structure.spatial() ? keys.read(key::epistyle_width) : structure.depth_m;
+    const auto place = [&](const ColumnSpec& column) { return along_z ? column.z_m : column.x_m; };
+    const auto half_seat = [&](const DrumSpec& drum) {
+        const double taper = structure.spatial() ? drum.top_width_m / drum.width_m : 1;
+        return taper * (along_z ? drum.depth_m : drum.width_m) / 2;
+    };
     const std::optional<double> length = keys.maybe(key::epistyle_length);
 
     std::vector<EpistyleSpec> epistyles;
     for (std::size_t first = 0; first < bays; first += span) {
         const std::size_t last = first + span;
-        double left = columns[first].x_m;
-        double right = columns[last].x_m;
+        double left = place(columns[first]);
+        double right = place(columns[last]);
         if (length) {
             const double middle = (left + right) / 2;
             left = middle - *length / 2;
@@ -303,14 +420,19 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
             const DrumSpec& outer_left = columns[first].drums.back();
             const DrumSpec& outer_right = columns[last].drums.back();
             if (first == 0)
-                left += outer_left.offset_m - outer_left.width_m / 2;
+                left += (along_z ? outer_left.offset_z_m : outer_left.offset_m) - half_seat(outer_left);
             if (last == bays)
-                right += outer_right.offset_m + outer_right.width_m / 2;
+                right += (along_z ? outer_right.offset_z_m : outer_right.offset_m) + half_seat(outer_right);
         }
         EpistyleSpec epistyle;
         epistyle.first_column = static_cast<int>(first);
         epistyle.last_column = static_cast<int>(last);
-        epistyle.x_m = (left + right) / 2;
+        (along_z ? epistyle.z_m : epistyle.x_m) = (left + right) / 2;
+        if (structure.spatial()) {
+            (along_z ? epistyle.x_m : epistyle.z_m) = along_z ? columns[first].x_m : columns[first].z_m;
+            epistyle.along = along;
+            epistyle.width_m = width;
+        }
         epistyle.length_m = length.value_or(right - left);
         epistyle.height_m = height;
         if (!length_range.contains(epistyle.length_m))
@@ -327,7 +449,7 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
                         "Give epistyle_density_kg_m3, or epistyle_length_m.");
         epistyle.mass_kg =
             read_mass({{&keys, &key::epistyle_mass, &key::epistyle_density}, {&keys, nullptr, &key::density_of_all}},
-                      {&keys, &key::epistyle_height}, epistyle.length_m * height * structure.depth_m);
+                      {&keys, &key::epistyle_height}, epistyle.length_m * height * width);
         epistyles.push_back(epistyle);
     }
     return epistyles;
@@ -351,11 +473,12 @@ StructureSpec read_structure(const KeyReader& keys)
     StructureSpec s;
     s.kind = keys.read(structure_keys::kind);
     keys.refuse_unused(structure_keys::table, "structure.kind", word_for(structure_kind_names, s.kind));
-    keys.read_fields(structure_keys::table, s);
+    keys.read_fields(structure_keys::table, s,
+                     KeyUse{{{model_key, keys.read(structure_keys::dimensions) == 3 ? "3" : "2"}}});
     if (s.kind == StructureKind::column) {
-        s.columns = {ColumnReader(keys, keys, s.depth_m).read()};
+        s.columns = {ColumnReader(keys, keys, s).read()};
     } else {
-        s.columns = read_columns(keys, s.depth_m);
+        s.columns = read_columns(keys, s);
         s.epistyles = read_epistyles(keys, s);
     }
 

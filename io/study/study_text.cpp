@@ -110,23 +110,30 @@ std::string list(const std::vector<std::string>& elements, const std::string& in
     return elements.empty() ? "[]" : out + "\n" + indent + "]";
 }
 
-Entries entries_of(const DrumSpec& drum)
+Entries entries_of(const DrumSpec& drum, const KeyUse& use)
 {
     using namespace structure_keys;
     Entries out;
-    out.add_fields(drums, drum, drum.offset_m != 0 ? KeyUse{} : KeyUse{}.without({&offset}));
-    return out.add_fields(drums, drum.bed);
+    KeyUse of_drum = drum.offset_m != 0 ? use : use.without({&offset});
+    if (drum.offset_z_m == 0)
+        of_drum = of_drum.without({&offset_z});
+    if (drum.shape != Shape::rectangle)
+        of_drum = of_drum.without({&own_depth});
+    if (drum.top_width_m == drum.width_m)
+        of_drum = of_drum.without({&own_top_width});
+    out.add_fields(drums, drum, of_drum);
+    return out.add_fields(drums, drum.bed, use);
 }
 
 /// Equal drums, one upon the other, are one line; a capital is a key of its own.
-void add_drums(Entries& out, const std::vector<DrumSpec>& drums, const std::string& indent = {})
+void add_drums(Entries& out, const std::vector<DrumSpec>& drums, const KeyUse& use, const std::string& indent = {})
 {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < drums.size() && !drums[i].capital;) {
         std::size_t count = 1;
         while (i + count < drums.size() && drums[i + count] == drums[i])
             ++count;
-        Entries entries = entries_of(drums[i]);
+        Entries entries = entries_of(drums[i], use);
         if (count > 1)
             entries.add(structure_keys::count, count);
         lines.push_back(entries.inline_table());
@@ -134,42 +141,42 @@ void add_drums(Entries& out, const std::vector<DrumSpec>& drums, const std::stri
     }
     out.add_text(structure_keys::drums.name, list(lines, indent));
     if (drums.back().capital)
-        out.add_text(structure_keys::capital.name, entries_of(drums.back()).inline_table());
+        out.add_text(structure_keys::capital.name, entries_of(drums.back(), use).inline_table());
 }
 
-std::string columns(const std::vector<ColumnSpec>& columns)
+std::string columns(const std::vector<ColumnSpec>& columns, const KeyUse& use)
 {
     std::vector<std::string> lines;
     for (const ColumnSpec& column : columns) {
         Entries entries;
-        entries.add_fields(structure_keys::column_list, column);
-        add_drums(entries, column.drums, "    ");
+        entries.add_fields(structure_keys::column_list, column, use);
+        add_drums(entries, column.drums, use, "    ");
         lines.push_back(entries.inline_table());
     }
     return list(lines);
 }
 
-std::string epistyles(const std::vector<EpistyleSpec>& epistyles)
+std::string epistyles(const std::vector<EpistyleSpec>& epistyles, const KeyUse& use)
 {
     std::vector<std::string> lines;
     for (const EpistyleSpec& epistyle : epistyles) {
         Entries entries;
-        entries.add_fields(structure_keys::epistyles, epistyle);
+        entries.add_fields(structure_keys::epistyles, epistyle, use);
         entries.add(structure_keys::mass, epistyle.mass_kg);
-        lines.push_back(entries.add_fields(structure_keys::epistyles, epistyle.bed).inline_table());
+        lines.push_back(entries.add_fields(structure_keys::epistyles, epistyle.bed, use).inline_table());
     }
     return list(lines);
 }
 
 /// A column of equal drums in few words; all else block by block.
-Entries entries_of(const StructureSpec& structure)
+Entries entries_of(const StructureSpec& structure, const KeyUse& use)
 {
     using namespace structure_keys;
     Entries out;
-    out.add_fields(table, structure);
+    out.add_fields(table, structure, structure.spatial() ? use : use.without({&dimensions}));
     if (structure.kind == StructureKind::colonnade) {
-        out.add_text(column_list.name, stylobate::columns(structure.columns));
-        out.add_text(structure_keys::epistyles.name, stylobate::epistyles(structure.epistyles));
+        out.add_text(column_list.name, stylobate::columns(structure.columns, use));
+        out.add_text(structure_keys::epistyles.name, stylobate::epistyles(structure.epistyles, use));
         return out;
     }
     const ColumnSpec& column = structure.columns[0];
@@ -178,11 +185,11 @@ Entries entries_of(const StructureSpec& structure)
     if (structure == equal_column(number, column.fixed_blocks, lowest.width_m, lowest.height_m, structure.depth_m,
                                   lowest.mass_kg, structure.gravity_m_s2)) {
         out.add(blocks, number);
-        out.add_fields(table, lowest);
+        out.add_fields(table, lowest, use);
     } else {
-        add_drums(out, column.drums);
+        add_drums(out, column.drums, use);
     }
-    return out.add_fields(table, column);
+    return out.add_fields(table, column, use);
 }
 
 /// A tail without a number, with what it comes to.
@@ -377,7 +384,8 @@ std::string text_of(const MechanismSpec& spec, const Study& study)
         return out.add_fields(key, *study.vertical).inline_table();
     const std::span<const MechanismParameter> rule = rule_of(spec.mechanism).parameters;
     for (std::size_t i = 0; i < key.parameters.size(); ++i)
-        if (rule[i].role != ParameterRole::extra || spec.values[i] != rule[i].neutral)
+        if (key_use(study).of(key.parameters[i]) &&
+            (rule[i].role != ParameterRole::extra || spec.values[i] != rule[i].neutral))
             out.add(key.parameters[i], spec.values[i]);
     return out.inline_table();
 }
@@ -408,7 +416,7 @@ std::string study_text(const Study& study)
         table(key.name, Entries(key).add_fields(key, from, use));
     };
     table(study_keys::table.name, entries_of_study(study, use));
-    table(structure_keys::table.name, entries_of(study.structure));
+    table(structure_keys::table.name, entries_of(study.structure, use));
     fields(contact_keys::table, study.contact);
     table(excitation_keys::table.name, entries_of_excitation(study, use));
     if (study.surface)
