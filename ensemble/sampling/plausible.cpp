@@ -4,6 +4,7 @@
 #include "ensemble/model/structure.hpp"
 #include "ensemble/numerics/unit_slip.hpp"
 #include "ensemble/planar/structure/nominal_statics.hpp"
+#include "ensemble/sampling/plausible_structure.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,8 @@
 namespace stylobate {
 namespace {
 
+using namespace plausible;
+
 /// Largest accelerations that were recorded: 40.2 m/s2 as the vector of three components, 14.3 m/s2 of a horizontal
 /// one (IWTH25, Iwate-Miyagi Nairiku 2008), 27.0 m/s2 of a horizontal one (MYG004, Tohoku 2011); K-NET and KiK-net.
 constexpr double strongest_record_m_s2 = 30, strongest_table_m_s2 = 50, no_record_m_s2 = 100;
@@ -27,24 +30,6 @@ constexpr double fastest_ground_m_s = 5, no_ground_m_s = 50;
 /// Spectral accelerations are about 2.5 times the peak of the ground (plateau of the elastic spectrum of EN
 /// 1998-1:2004).
 constexpr double spectral_amplification = 2.5;
-constexpr double standard_gravity = 9.80665;
-
-using Finding = std::optional<Implausibility>;
-struct Subject {
-    const Study& study;
-    const StudyFacts& facts;
-};
-
-/// " Did you mean cm/s2 (1.2 m/s2) or mm/s2 (0.12 m/s2)?": those with which the value is plausible.
-std::string meant(double value, std::span<const UnitSlip> slips, double high, const char* unit, double low = 0.05)
-{
-    std::string all;
-    for (const UnitSlip& slip : slips)
-        if (value * slip.factor >= low && value * slip.factor <= high)
-            all += fmt::format("{} {} ({:.4g} {})", all.empty() ? " Did you mean" : " or", slip.unit,
-                               value * slip.factor, unit);
-    return all.empty() ? all : all + "?";
-}
 
 /// "a, b, c and 4 others"
 std::string some_of(const std::vector<std::string>& names)
@@ -57,12 +42,6 @@ std::string some_of(const std::vector<std::string>& names)
     return shown == names.size() ? all : fmt::format("{} and {} others", all, names.size() - shown);
 }
 
-template <class... Values>
-Implausibility implausible(bool refused, fmt::format_string<Values...> text, Values&&... values)
-{
-    return {"", refused, fmt::format(text, std::forward<Values>(values)...)};
-}
-
 /// Motions of one frequency, whose velocity decides whether a table or the ground can reach it; small structures are
 /// tested with stronger and faster motions than large ones.
 bool is_sine(ExcitationKind kind)
@@ -70,11 +49,6 @@ bool is_sine(ExcitationKind kind)
     return kind == ExcitationKind::harmonic || kind == ExcitationKind::half_sine || kind == ExcitationKind::full_sine ||
            kind == ExcitationKind::tapered || kind == ExcitationKind::sweep;
 }
-
-/// The range of an axis, or of what is given in its place.
-struct Extent {
-    double low = 0, high = 0;
-};
 
 Extent extent(const Axis& axis)
 {
@@ -159,33 +133,6 @@ Finding check_pga(const Subject& s)
                        "ground motions and shaking tables reach about 4 m/s.{}",
                        pga, hz, pga / omega, pga / omega / omega,
                        meant(pga, from_accelerations, strongest_record_m_s2, "m/s2"));
-}
-
-/// Beds into which blocks sink by a considerable part of their size are too soft for stone.
-Finding check_sinkage(const Subject& s)
-{
-    constexpr double much = 2e-3, absurd = 2e-2;
-    const Layout layout = lay_out(s.study.structure);
-    const std::vector<double> sinkage = static_sinkage_m(s.study);
-    double worst = 0;
-    std::size_t bed = 0;
-    for (std::size_t i = 0; i < sinkage.size(); ++i) {
-        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(layout.beds[i].upper)];
-        const double part = sinkage[i] / std::min(upper.width_m, upper.height_m);
-        if (part > worst) {
-            worst = part;
-            bed = i;
-        }
-    }
-    if (worst <= much)
-        return std::nullopt;
-    const double K_N = layout.beds[bed].bed.normal_stiffness_n_m2.value_or(s.study.contact.normal_stiffness_n_m2);
-    return implausible(worst > absurd,
-                       "Under its own weight {} overlaps its support by {:.3g} mm, {:.2g} % of its size: "
-                       "normal_stiffness_n_m2 = {:.3g} is {} times softer than the value for 0.01 %. Does it "
-                       "include the depth (a bed of stone has 1e9 to 1e10 N/m3, times the depth {:.3g} m)?",
-                       layout.blocks[static_cast<std::size_t>(layout.beds[bed].upper)].name, 1000 * sinkage[bed],
-                       100 * worst, K_N, static_cast<long>(std::lround(worst / 1e-4)), s.study.structure.depth_m);
 }
 
 Finding check_first_frequency(const Subject& s)
@@ -315,205 +262,6 @@ Finding check_shaking_frequency(const Subject& s)
                        hz.high > high ? hz.high : hz.low, low, high);
 }
 
-Finding check_density(const Subject& s)
-{
-    // pumice to basalt; 100: no solid that is built with; 25000: heavier than any metal
-    constexpr double lightest = 1000, heaviest = 4000, no_solid = 100, no_metal = 25000;
-    const double depth = s.study.structure.depth_m;
-    Finding found;
-    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
-        const double density = block.mass_kg / (block.width_m * block.height_m * depth);
-        const bool refused = density < no_solid || density > no_metal;
-        if (block.fixed || (density >= lightest && density <= heaviest) || (found && (found->refused || !refused)))
-            continue;
-        const double thousand = density * 1000, of_weight = thousand / standard_gravity;
-        const std::string meant = thousand >= lightest && thousand <= heaviest
-                                      ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} g/cm3)?", thousand, density)
-                                  : of_weight >= lightest && of_weight <= heaviest
-                                      ? fmt::format(" Did you mean {:.4g} kg/m3 ({:.4g} kN/m3)?", of_weight, density)
-                                      : " Are mass, width, height and depth_m in kg and m?";
-        found = implausible(
-            refused, "{} has {:.4g} kg/m3 ({:.4g} kg in {:.4g} x {:.4g} x {:.4g} m); stone has {:.0f} to {:.0f}.{}",
-            block.name, density, block.mass_kg, block.width_m, block.height_m, depth, lightest, heaviest, meant);
-    }
-    return found;
-}
-
-Finding check_friction(const Subject& s)
-{
-    constexpr double low = 0.1, high = 1.2, absurd = 3; // of dry and wet stone 0.36 to 0.84 are measured
-    Extent mu{s.study.contact.friction, s.study.contact.friction};
-    const auto meet = [&mu](double value) { mu = {std::min(mu.low, value), std::max(mu.high, value)}; };
-    for (const PlacedBed& bed : lay_out(s.study.structure).beds)
-        meet(bed.bed.friction.value_or(mu.high));
-    for (const Perturbation& p : s.study.perturbations)
-        if (p.quantity == Quantity::friction &&
-            (p.distribution == DistributionKind::uniform || p.distribution == DistributionKind::log_uniform)) {
-            meet(p.from);
-            meet(p.to);
-        }
-    if (mu.low >= low && mu.high <= high)
-        return std::nullopt;
-    const double worst = mu.high > high ? mu.high : mu.low;
-    return implausible(worst > absurd, "The friction is {:.4g}; that of stone on stone is 0.4 to 0.8.{}", worst,
-                       worst > high && worst / 100 >= low ? fmt::format(" Did you mean {:.4g}?", worst / 100)
-                                                          : std::string());
-}
-
-Finding check_damping(const Subject& s)
-{
-    constexpr double most = 0.7;
-    const ContactSpec& c = s.study.contact;
-    double width = 0, mass = std::numeric_limits<double>::infinity();
-    for (const PlacedBlock& block : lay_out(s.study.structure).blocks)
-        if (!block.fixed && block.mass_kg < mass) {
-            mass = block.mass_kg;
-            width = block.width_m;
-        }
-    const double normal = c.normal_damping_n_s_m
-                              ? *c.normal_damping_n_s_m / (2 * std::sqrt(c.normal_stiffness_n_m2 * width * mass))
-                              : c.normal_damping_ratio;
-    const double tangential = c.tangential_damping_n_s_m
-                                  ? *c.tangential_damping_n_s_m / (2 * std::sqrt(c.tangential_stiffness_n_m * mass))
-                                  : c.tangential_damping_ratio;
-    const double ratio = std::max(normal, tangential);
-    if (ratio <= most)
-        return std::nullopt;
-    return implausible(false,
-                       "The damping ratio of the contacts is {:.3g} ({} direction); impacts of stone have 0.05 to 0.5.",
-                       ratio, normal == ratio ? "normal" : "tangential");
-}
-
-Finding check_stiffness(const Subject& s)
-{
-    constexpr double softest = 1e7, stiffest = 1e13;
-    const double depth = s.study.structure.depth_m;
-    double worst = s.study.contact.normal_stiffness_n_m2 / depth;
-    for (const PlacedBed& bed : lay_out(s.study.structure).beds)
-        if (const double own = bed.bed.normal_stiffness_n_m2.value_or(s.study.contact.normal_stiffness_n_m2) / depth;
-            own < softest || own > stiffest)
-            worst = own;
-    if (worst >= softest && worst <= stiffest)
-        return std::nullopt;
-    return implausible(false,
-                       "normal_stiffness_n_m2 over depth_m is {:.3g} N/m3; beds of stone have 1e9 to "
-                       "1e10. The stiffness is that of the whole depth of {:.3g} m.",
-                       worst, depth);
-}
-
-/// A column that is a sliver, or a drum that is a sheet: a length in another unit.
-Finding check_proportions(const PlacedBlock& drum)
-{
-    constexpr double most = 100; // ten times as slender as ancient columns are
-    constexpr double smallest = 0.005, largest = 5;
-    const bool slender = drum.top() > most * drum.width_m, flat = drum.width_m > most * drum.height_m;
-    if (!slender && !flat)
-        return std::nullopt;
-    const std::string units = meant(slender ? drum.height_m : drum.width_m, from_lengths, largest, "m", smallest);
-    const bool height =
-        slender != units.empty(); // too large in the unit; without such a unit the other one is too small
-    return implausible(true,
-                       "{} is {:.4g} m wide and {:.4g} m high, and its top {:.4g} m above the base: "
-                       "no column of stone has such proportions. {} = {:.4g} is in metres.{}",
-                       drum.name, drum.width_m, drum.height_m, drum.top(),
-                       height ? "drum_height_m (or height_m)" : "drum_width_m (or width_m)",
-                       height ? drum.height_m : drum.width_m, units);
-}
-
-Finding check_size(const Subject& s)
-{
-    // the highest ancient columns have 20 m, the obelisks of Axum and Rome 24 to 33; drums are up to 3.6 m wide,
-    // architraves up to 20 m long
-    constexpr double smallest = 0.005, tallest = 35, flattest = 20, widest_drum = 5, longest = 20;
-    const double depth = s.study.structure.depth_m;
-    const std::vector<PlacedBlock> blocks = lay_out(s.study.structure).blocks;
-    for (const PlacedBlock& block : blocks)
-        if (block.role == BlockRole::drum && !block.fixed)
-            if (Finding found = check_proportions(block))
-                return found;
-    double top = 0;
-    for (const PlacedBlock& block : blocks) {
-        const double least = std::min({block.width_m, block.height_m, depth});
-        if (least < smallest)
-            return implausible(false,
-                               "{} is {:.4g} x {:.4g} m, {:.4g} m deep: a size below {} m is implausible "
-                               "for a stone block. Lengths are in metres.",
-                               block.name, block.width_m, block.height_m, depth, smallest);
-        if (const double ratio = depth / block.width_m; ratio > flattest || 1 / ratio > flattest)
-            return implausible(false, "{} is {:.4g} m wide and {:.4g} m deep. Is depth_m in metres?", block.name,
-                               block.width_m, depth);
-        top = std::max(top, block.top());
-        if (const double most = block.role == BlockRole::drum ? widest_drum : longest; block.width_m > most)
-            return implausible(false,
-                               "{} is {:.4g} m wide; ancient {} have up to {} m. Lengths are in metres: "
-                               "{:.4g} mm would be {:.4g} m, {:.4g} cm would be {:.4g} m.",
-                               block.name, block.width_m,
-                               block.role == BlockRole::drum ? "columns and obelisks" : "architraves", most,
-                               block.width_m, block.width_m / 1000, block.width_m, block.width_m / 100);
-    }
-    if (top <= tallest)
-        return std::nullopt;
-    return implausible(false,
-                       "The structure is {:.4g} m high; the highest ancient columns have 20 m, obelisks "
-                       "33 m. Lengths are in metres.",
-                       top);
-}
-
-/// Relative spread of a perturbation; 0 where it has none.
-double spread_of(const Perturbation& p, double least_width, double least_height)
-{
-    const auto furthest = [&p] {
-        return p.distribution == DistributionKind::normal ? p.sd : std::max(std::abs(p.from), std::abs(p.to)) / 2;
-    };
-    switch (p.quantity) {
-    case Quantity::drum_width:
-    case Quantity::drum_height:
-        if (p.distribution == DistributionKind::normal && p.sd > 0)
-            return p.sd / (p.quantity == Quantity::drum_width ? least_width : least_height);
-        break;
-    case Quantity::drum_offset:
-        if (p.cov == 0)
-            return furthest() / least_width;
-        break;
-    case Quantity::tilt:
-        return 2 * furthest(); // 0.1 rad counts as much as a fifth of a size
-    default:
-        break;
-    }
-    return 0;
-}
-
-Finding check_spread(const Subject& s)
-{
-    constexpr double size_part = 0.2, cov = 0.5, sigma_ln = 1.5;
-    double width = std::numeric_limits<double>::infinity(), height = width;
-    for (const PlacedBlock& block : lay_out(s.study.structure).blocks) {
-        width = std::min(width, block.width_m);
-        height = std::min(height, block.height_m);
-    }
-    for (const Perturbation& p : s.study.perturbations) {
-        const double part = spread_of(p, width, height);
-        if (part > size_part)
-            return implausible(false, "{}",
-                               p.quantity == Quantity::tilt
-                                   ? fmt::format("perturbation.tilt has a spread of {:.3g} rad, which is implausible "
-                                                 "for the level of a base. Angles are in radians.",
-                                                 part / 2)
-                                   : fmt::format("perturbation.{} has a spread of {:.3g} of a block's size; masonry "
-                                                 "tolerances are about 0.01. Lengths are in metres.",
-                                                 to_string(p.quantity), part));
-        if (p.distribution == DistributionKind::normal && p.cov > cov)
-            return implausible(false, "perturbation.{} has a coefficient of variation of {:.3g}: 10 % is 0.1.",
-                               to_string(p.quantity), p.cov);
-        if (p.distribution == DistributionKind::lognormal && p.sigma_ln > sigma_ln)
-            return implausible(false,
-                               "perturbation.{} has sigma_ln = {:.3g}: one in three realizations deviates "
-                               "by more than a factor of {:.3g}.",
-                               to_string(p.quantity), p.sigma_ln, std::exp(p.sigma_ln));
-    }
-    return std::nullopt;
-}
-
 Finding check_file_size(const Subject& s)
 {
     constexpr double large = 4e9, absurd = 1e11;
@@ -529,9 +277,10 @@ struct Check {
     const char* name;
     Finding (*find)(const Subject&);
     bool of_compliant = false; ///< not of rigid contacts
+    bool of_plane = false;     ///< by statics that are known in the plane alone
 };
 constexpr std::array checks = {Check{"pga", check_pga},
-                               Check{"weak_shaking", check_weak_shaking},
+                               Check{"weak_shaking", check_weak_shaking, false, true},
                                Check{"scale", check_scale},
                                Check{"equal_motions", check_equal_motions},
                                Check{"direction", check_direction},
@@ -539,7 +288,7 @@ constexpr std::array checks = {Check{"pga", check_pga},
                                Check{"shaking_frequency", check_shaking_frequency},
                                Check{"size", check_size}, // before what a wrong length makes of the rest
                                Check{"sinkage", check_sinkage, true},
-                               Check{"first_frequency", check_first_frequency, true},
+                               Check{"first_frequency", check_first_frequency, true, true},
                                Check{"stiffness", check_stiffness, true},
                                Check{"density", check_density},
                                Check{"friction", check_friction},
@@ -561,7 +310,8 @@ std::vector<Implausibility> implausibilities(const Study& study, const StudyFact
 {
     std::vector<Implausibility> all;
     for (const Check& check : checks) {
-        if (study.allows(check.name) || (check.of_compliant && study.contact.form == ContactForm::rigid))
+        if (study.allows(check.name) || (check.of_compliant && study.contact.form == ContactForm::rigid) ||
+            (check.of_plane && study.structure.spatial()))
             continue;
         if (Finding found = check.find({study, facts})) {
             found->check = check.name;
