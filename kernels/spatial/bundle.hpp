@@ -70,11 +70,11 @@ struct OfJoint {
         upper_anchor = lower_anchor + 3, ///< the same from the upper body's (3) [m]
         lower_half_1 = upper_anchor + 3, ///< half size of the lower face; of a disc its radius [m]
         lower_half_2,                    ///< [m]
-        lower_centre_1,                  ///< centre of the lower face from the anchor; of a disc 0 [m]
+        lower_centre_1,                  ///< centre of the lower face from the anchor [m]
         lower_centre_2,                  ///< [m]
         upper_half_1,                    ///< half size of the upper face; of what is round its radius [m]
         upper_half_2,                    ///< [m]
-        upper_centre_1,                  ///< centre of the upper face from the anchor; of a disc 0 [m]
+        upper_centre_1,                  ///< centre of the upper face from the anchor; of disc on disc 0 [m]
         upper_centre_2,                  ///< [m]
         force,                           ///< on the upper body in the last step, frame of the base (3) [N]; step
         upper_moment = force + 3,        ///< the same about the upper body's centre of mass (3) [N m]; step

@@ -135,9 +135,13 @@ private:
     STYLOBATE_INLINE BedLoad<Real> law(int j, const BedPose<Real>& pose) const
     {
         const Real stiffness = get(OfJoint::stiffness, j);
-        if (topology_.joint[j].kind == BedKind::disc)
-            return disc_bed(pose,
+        if (topology_.joint[j].kind == BedKind::disc) {
+            BedPose<Real> centres = pose; // seen from the centre of the lower face
+            centres.place.x = pose.place.x - get(OfJoint::lower_centre_1, j);
+            centres.place.y = pose.place.y - get(OfJoint::lower_centre_2, j);
+            return disc_bed(centres,
                             DiscBed<Real>{stiffness, get(OfJoint::upper_half_1, j), get(OfJoint::lower_half_1, j)});
+        }
         const Rectangle<Real> lower = face(j, OfJoint::lower_half_1), upper = face(j, OfJoint::upper_half_1);
         if (topology_.joint[j].kind == BedKind::rectangle)
             return polygon_bed(pose, PolygonBed<Real, 4>{stiffness, polygon_of(upper), lower});

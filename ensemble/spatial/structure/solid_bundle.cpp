@@ -89,18 +89,26 @@ void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, c
         for (std::size_t k = 0; k < values.size(); ++k)
             b.at(static_cast<J::Field>(first + static_cast<int>(k)), j, lane) = values[k];
     };
+    std::array<double, 3> point = joint.point_m;
+    std::array<double, 2> lower_middle = joint.lower_middle_m, upper_middle = joint.upper_middle_m;
+    if (joint.lower_face.round && joint.upper_face.round) { // the law of discs: from the centre of the upper one
+        point[2] += upper_middle[0];
+        point[0] += upper_middle[1];
+        lower_middle = {lower_middle[0] - upper_middle[0], lower_middle[1] - upper_middle[1]};
+        upper_middle = {};
+    }
     const auto anchor = [&](const Solid& body) {
         std::array<double, 3> to{};
         for (std::size_t k = 0; k < 3; ++k)
-            to[k] = joint.point_m[k] - body.centre_m[k];
+            to[k] = point[k] - body.centre_m[k];
         return to;
     };
     store(J::lower_anchor, anchor(lower));
     store(J::upper_anchor, anchor(upper));
     store(J::lower_half_1, face_fields(reversed ? joint.upper_face : joint.lower_face,
-                                       reversed ? joint.upper_middle_m : joint.lower_middle_m, joint.normal, reversed));
+                                       reversed ? upper_middle : lower_middle, joint.normal, reversed));
     store(J::upper_half_1, face_fields(reversed ? joint.lower_face : joint.upper_face,
-                                       reversed ? joint.lower_middle_m : joint.upper_middle_m, joint.normal, reversed));
+                                       reversed ? lower_middle : upper_middle, joint.normal, reversed));
 }
 
 } // namespace
