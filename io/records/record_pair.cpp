@@ -283,10 +283,11 @@ void check_samples(const Record& first, const Record& second, const OtherCompone
     if (std::fabs(second.dt_s - first.dt_s) > 1e-6 * first.dt_s)
         refuse(fmt::format("has a sample every {:g} s, and the first component every {:g} s", second.dt_s, first.dt_s),
                "Give components of one recording, or resample one of them.");
-    if (second.acceleration_m_s2.size() < first.acceleration_m_s2.size())
+    const bool horizontal = other.direction == Direction::horizontal; // a vertical one ends by itself
+    if (horizontal && second.acceleration_m_s2.size() < first.acceleration_m_s2.size())
         refuse(fmt::format("has {} samples, fewer than the {} of the first component", second.acceleration_m_s2.size(),
                            first.acceleration_m_s2.size()),
-               "Give the complete file, or cut the first component.");
+               "Give the complete file, or this component as the first one.");
 }
 
 /// Turns a component that is positive 90 degrees counter-clockwise from the first one.

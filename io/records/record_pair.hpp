@@ -39,8 +39,8 @@ struct OtherComponent {
 /// state that it is positive in the opposite sense, its samples are turned, and the note states it.
 ///
 /// @throws InputError, naming the file and the key, if there is none or more than one, if it has another direction, the
-///         same axis or the samples of the first one, an axis that is not orthogonal to it, or another rate, if it is
-///         shorter; and as `read_record`
+///         same axis or the samples of the first one, an axis that is not orthogonal to it, or another rate, if a
+///         horizontal one is shorter; and as `read_record`
 Record other_component(const Record& first, const OtherComponent& other, PgaRange pga = PgaRange::usual);
 
 } // namespace stylobate

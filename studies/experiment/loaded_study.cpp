@@ -154,7 +154,7 @@ void add_tables(const Study& study, Motions& motions)
         if (other.acceleration_m_s2.size() < first.acceleration_m_s2.size())
             throw InputError(file, 0,
                              fmt::format("{}: it has {} samples, fewer than the {} of the first component.\n  Give the "
-                                         "complete file, or cut the first component.",
+                                         "complete file, or this one as the first component.",
                                          key, other.acceleration_m_s2.size(), first.acceleration_m_s2.size()));
         return other;
     };
