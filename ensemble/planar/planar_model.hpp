@@ -99,6 +99,12 @@ public:
     /// The trajectory of a realization before its first sample. @param names of its blocks without the ground
     static Trajectory trajectory_of(const Realization& realization, std::vector<std::string> names);
 
+    /// Where its base is at a time, of the channel base_x_m [m].
+    static std::array<double, 1> base_place(const Place& place, double time_s)
+    {
+        return {place.motions[0].displacement_m(time_s)};
+    }
+
     // ---- the state, for what steps or moves lanes in other ways ----
 
     const Topology& topology() const { return topology_; }

@@ -5,11 +5,13 @@
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/hand_over.hpp"
 #include "ensemble/planar/planar_model.hpp"
+#include "ensemble/spatial/spatial_model.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <unordered_map>
 
@@ -21,24 +23,46 @@ constexpr std::uint64_t most_slots = 1 << 24;
 /// Realizations that a device leaves to the processor are stepped there one by one, not in registers; slower by about:
 constexpr int slower_alone = 4;
 
-/// The sets in which the planar model's realizations are run. Another model has its own.
+/// The sets in which the planar model's realizations are run.
 struct PlanarSets {
-    using Builder = PlanarBuilder;
     using Lanes = LaneSet;
     using Slots = SlotSet;           ///< of a device
     using HandedOver = CompliantSet; ///< what takes over what the lanes or slots cannot step to its end
     static bool hands_over(const Realization& pattern) { return pattern.form == ContactForm::rigid; }
 };
 
+/// Those of the spatial model, whose lanes step every realization to its end. It has no device.
+struct SpatialSets {
+    using Lanes = SpatialLaneSet;
+    struct HandedOver {
+        HandedOver(const Study&, const Motion*, const KernelTable&, const Realization&) {}
+        void take(const SpatialModel::HandOver&) {}
+        bool empty() const { return true; }
+        bool full() const { return false; }
+        int lanes() const { return 0; }
+        int active() const { return 0; }
+        template <class Deliver>
+        void advance(const Deliver&)
+        {
+        }
+    };
+    static bool hands_over(const Realization&) { return false; }
+};
+
+template <class Sets>
+concept HasDevices = requires
+{
+    typename Sets::Slots;
+};
+
 /// What the workers share. @tparam Sets of the model
 template <class Sets>
 class Run {
 public:
-    using Realization = typename Sets::Builder::Realization;
     using Lanes = typename Sets::Lanes;
     using HandedOver = typename Sets::HandedOver;
 
-    Run(const Experiment& experiment, const RunOptions& options, const RunPlanOf<Realization>& plan, Observer& observer)
+    Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
           kernels_(kernels(options.isa)), threads_(options.threads), few_(options.few * options.threads), plan_(plan),
           crew_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
@@ -63,7 +87,7 @@ public:
 
     /// One worker for a device: many slots. Its thread waits for the device; what a realization takes at its beginning
     /// is done on several.
-    void work(Device& device, int slots, int share)
+    void work(Device& device, int slots, int share) requires HasDevices<Sets>
     {
         // no more slots than this device's share of what is to do
         const auto most =
@@ -190,12 +214,12 @@ private:
     }
 
     const Study& study_;
-    const SamplerOf<typename Sets::Builder>& sampler_;
+    const Sampler& sampler_;
     const Motion* record_;
     const KernelTable& kernels_;
     const int threads_;
     const int few_; ///< realizations that the processor ends sooner than a device
-    const RunPlanOf<Realization>& plan_;
+    const RunPlan& plan_;
     /// The plan's, or the places that are to be done, in their order.
     const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
         const std::lock_guard lock(crew_.mutex());
@@ -215,24 +239,27 @@ private:
 };
 
 template <class Sets>
-Progress execute(const Experiment& experiment, const RunOptions& options,
-                 const RunPlanOf<typename Sets::Builder::Realization>& plan, Observer& observer)
+Progress execute(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
 {
     Run<Sets> run(experiment, options, plan, observer);
     if (options.devices.empty() || run.few()) {
         run.crew().run(options.threads, [&run] { run.work(); });
         return run.finish();
     }
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    std::vector<std::thread> workers;
-    for (const std::shared_ptr<Device>& device : options.devices)
-        workers.emplace_back([&run, &options, &device] {
-            run.crew().guarded([&] { run.work(*device, options.slots, static_cast<int>(options.devices.size())); });
-        });
-    for (std::thread& worker : workers)
-        worker.join();
-    return run.finish();
+    if constexpr (HasDevices<Sets>) {
+        const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(options.threads));
+        std::vector<std::thread> workers;
+        for (const std::shared_ptr<Device>& device : options.devices)
+            workers.emplace_back([&run, &options, &device] {
+                run.crew().guarded([&] { run.work(*device, options.slots, static_cast<int>(options.devices.size())); });
+            });
+        for (std::thread& worker : workers)
+            worker.join();
+        return run.finish();
+    } else {
+        throw std::invalid_argument("structures in space are not stepped on a device");
+    }
 }
 
 } // namespace
@@ -249,7 +276,8 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 
 Progress run_ensemble(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
 {
-    return execute<PlanarSets>(experiment, options, plan, observer);
+    return experiment.study().structure.spatial() ? execute<SpatialSets>(experiment, options, plan, observer)
+                                                  : execute<PlanarSets>(experiment, options, plan, observer);
 }
 
 } // namespace stylobate

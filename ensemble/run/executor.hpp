@@ -37,9 +37,7 @@ struct RunOptions {
 };
 
 /// What is left to do, and where results go.
-/// @tparam Realized a model's realization
-template <class Realized>
-struct RunPlanOf {
+struct RunPlan {
     std::uint64_t total = 0;                     ///< realizations 0 .. total - 1, or as many as `indices`
     std::span<const std::uint64_t> indices = {}; ///< those to run; empty: 0 .. total - 1
     Shard shard = {};                            ///< the part of them that is run here
@@ -54,9 +52,9 @@ struct RunPlanOf {
     std::function<std::optional<std::uint64_t>()> next_place{};
     int processes = 1; ///< that share the places
     /// A realization by its index; called from several threads at once. Empty: the sampler's.
-    std::function<Realized(std::uint64_t index)> realize;
+    std::function<Realization(std::uint64_t index)> realize;
     /// Takes the results. Called from one thread at a time, in any order of the indices.
-    std::function<void(const Realized&, const Outcome&)> sink;
+    std::function<void(const Realization&, const Outcome&)> sink;
 
     std::uint64_t index(std::uint64_t number) const { return indices.empty() ? number : indices[number]; }
     /// The first place from `next` on that is not done; `next` is then behind it. Nothing: there is none before `end`.
@@ -78,8 +76,6 @@ struct RunPlanOf {
                 done.add(place, s == State::collapsed, s == State::invalid);
     }
 };
-
-using RunPlan = RunPlanOf<Realization>;
 
 /// Sets the share in the whole study from a fair sample of it: Jeffreys' interval. Of no valid realization it says
 /// nothing.

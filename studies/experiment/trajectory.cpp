@@ -2,7 +2,9 @@
 
 #include "ensemble/engine/drive.hpp"
 #include "ensemble/planar/hand_over.hpp"
+#include "ensemble/planar/planar_model.hpp"
 #include "ensemble/replicas/replicas.hpp"
+#include "ensemble/spatial/spatial_model.hpp"
 #include "studies/experiment/loaded_study.hpp"
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace stylobate {
@@ -17,10 +20,11 @@ namespace stylobate {
 namespace {
 
 /// Samples between two snapshots, one step apart.
+template <class Model>
 class Recorder {
 public:
-    Recorder(Trajectory& trajectory, const BaseMotion& motion, double rate_hz, double step_s)
-        : trajectory_(trajectory), motion_(motion), rate_hz_(rate_hz), step_s_(step_s)
+    Recorder(Trajectory& trajectory, const typename Model::Place& place, double rate_hz)
+        : trajectory_(trajectory), place_(place), rate_hz_(rate_hz), step_s_(place.realization.step_s)
     {
     }
 
@@ -36,13 +40,17 @@ public:
         return n;
     }
 
+    template <class Snapshot>
     void sample(std::uint64_t n, const Snapshot& before, const Snapshot& after)
     {
         while (due(n)) {
             const double time = next_time();
             const double share = time / step_s_ - static_cast<double>(n);
-            std::size_t pose = 0;
+            std::size_t pose = 0, base = 0;
+            const auto base_place = Model::base_place(place_, time);
             for (std::size_t c = 0; c < trajectory_.channels.size(); ++c) {
+                if (trajectory_.channels[c].of == ListOf::times)
+                    trajectory_.lists[c].push_back(base_place[base++]);
                 if (trajectory_.channels[c].of != ListOf::poses)
                     continue;
                 const std::vector<double>&a = before.pose(pose), &b = after.pose(pose);
@@ -50,18 +58,18 @@ public:
                     trajectory_.lists[c].push_back(a[i] + share * (b[i] - a[i]));
                 ++pose;
             }
-            trajectory_["base_x_m"].push_back(motion_.displacement_m(time));
             trajectory_.time_s.push_back(time);
         }
     }
 
 private:
     Trajectory& trajectory_;
-    const BaseMotion& motion_;
+    const typename Model::Place& place_;
     const double rate_hz_, step_s_;
 };
 
 /// Realizations in the lanes of a bundle, each with its trajectory if it is recorded.
+template <class Model>
 class TracedLanes {
 public:
     TracedLanes(const Experiment& experiment, const Study& stepped, Isa isa, const Realization& pattern,
@@ -80,7 +88,7 @@ public:
     {
         Trajectory trajectory;
         if (record)
-            trajectory = PlanarModel::trajectory_of(realization, block_names(experiment_.study()));
+            trajectory = Model::trajectory_of(realization, block_names(experiment_.study()));
         lanes_.load(lane, std::move(realization));
         begin_trace(lane, std::move(trajectory), record);
     }
@@ -114,18 +122,10 @@ public:
     {
         Place& place = places_[static_cast<std::size_t>(lane)];
         TracedRealization followed{lanes_.realization(lane), {}, std::move(place.trajectory)};
-        if (const std::optional<HandOver>& handed = lanes_.handed(lane)) {
-            TracedLanes taker(experiment_, stepped_, isa_, compliant_form(handed->realization), 1);
-            take_over(taker.lanes_, 0, *handed);
-            taker.begin_trace(0, std::move(followed.trajectory), place.recorder.has_value());
-            std::optional<TracedRealization> rest = taker.to_end(go_on);
-            if (!rest)
-                return std::nullopt;
-            followed.outcome = std::move(rest->outcome);
-            followed.trajectory = std::move(rest->trajectory);
-        } else {
+        if (lanes_.outcome(lane))
             followed.outcome = *lanes_.outcome(lane);
-        }
+        else if (!follow_handed(lane, followed, go_on))
+            return std::nullopt;
         place.recorder.reset();
         lanes_.clear(lane);
         return followed;
@@ -144,12 +144,30 @@ public:
     }
 
 private:
+    /// Follows what is handed over to its end. @return false if it was stopped
+    bool follow_handed(int lane, TracedRealization& followed, const std::function<bool()>& go_on)
+    {
+        if constexpr (std::is_same_v<Model, PlanarModel>) {
+            const HandOver& handed = *lanes_.handed(lane);
+            TracedLanes taker(experiment_, stepped_, isa_, compliant_form(handed.realization), 1);
+            take_over(taker.lanes_, 0, handed);
+            taker.begin_trace(0, std::move(followed.trajectory),
+                              places_[static_cast<std::size_t>(lane)].recorder.has_value());
+            std::optional<TracedRealization> rest = taker.to_end(go_on);
+            if (!rest)
+                return false;
+            followed.outcome = std::move(rest->outcome);
+            followed.trajectory = std::move(rest->trajectory);
+        }
+        return true;
+    }
+
     struct Place {
         Trajectory trajectory;
-        std::optional<Recorder> recorder; ///< of the trajectory, if it is recorded
-        std::uint64_t steps = 0;          ///< of the realization, before this chunk
-        bool due = false;                 ///< the next step has a sample
-        Snapshot before;                  ///< and begins here
+        std::optional<Recorder<Model>> recorder; ///< of the trajectory, if it is recorded
+        std::uint64_t steps = 0;                 ///< of the realization, before this chunk
+        bool due = false;                        ///< the next step has a sample
+        decltype(std::declval<Model>().snapshot(0, std::declval<typename Model::Place>())) before; ///< and begins here
     };
 
     /// Follows what has just been loaded.
@@ -160,8 +178,7 @@ private:
         place.trajectory = std::move(trajectory);
         place.recorder.reset();
         if (record)
-            place.recorder.emplace(place.trajectory, lanes_.motion(lane), experiment_.study().output.trajectory_rate_hz,
-                                   lanes_.realization(lane).step_s);
+            place.recorder.emplace(place.trajectory, lanes_.place(lane), experiment_.study().output.trajectory_rate_hz);
     }
 
     /// How many steps may be done at once after the first `k` of the chunk: up to the step that has a sample, or that
@@ -183,17 +200,16 @@ private:
     const Experiment& experiment_;
     const Study& stepped_;
     const Isa isa_;
-    LaneSet lanes_;
+    LaneSetOf<Model> lanes_;
     std::vector<Place> places_;
 };
 
-} // namespace
-
-TracedRealization trace(const Experiment& experiment, std::uint64_t index, Isa isa, const std::function<bool()>& go_on)
+template <class Model>
+TracedRealization trace_in(const Experiment& experiment, const Realization& r, Isa isa,
+                           const std::function<bool()>& go_on)
 {
-    const Realization r = experiment.sampler().realization(index);
-    const Study stepped = stepped_as(experiment.study(), index);
-    TracedLanes lanes(experiment, stepped, isa, r, 1);
+    const Study stepped = stepped_as(experiment.study(), r.index);
+    TracedLanes<Model> lanes(experiment, stepped, isa, r, 1);
     lanes.load(0, r, true);
     std::optional<TracedRealization> followed = lanes.to_end([&] { return !go_on || go_on(); });
     if (!followed)
@@ -201,10 +217,9 @@ TracedRealization trace(const Experiment& experiment, std::uint64_t index, Isa i
     return std::move(*followed);
 }
 
-bool trace_all(const Experiment& experiment, const RunOptions& options, const TracePlan& plan)
+template <class Model>
+bool trace_all_in(const Experiment& experiment, const RunOptions& options, const TracePlan& plan)
 {
-    if (plan.indices.empty())
-        return true;
     const Sampler& sampler = experiment.sampler();
     const std::uint64_t count = plan.indices.size();
     const Realization pattern = sampler.realization(plan.indices[0]);
@@ -214,8 +229,8 @@ bool trace_all(const Experiment& experiment, const RunOptions& options, const Tr
     std::map<std::size_t, TracedRealization> ended;
     std::size_t delivered = 0;
     crew.run(options.threads, [&] {
-        TracedLanes lanes(experiment, experiment.study(), options.isa, pattern,
-                          count / static_cast<std::uint64_t>(options.threads));
+        TracedLanes<Model> lanes(experiment, experiment.study(), options.isa, pattern,
+                                 count / static_cast<std::uint64_t>(options.threads));
         std::vector<std::size_t> number(static_cast<std::size_t>(lanes.lanes()));
         const auto go_on = [&] {
             const std::unique_lock lock(crew.mutex(), std::try_to_lock);
@@ -248,6 +263,23 @@ bool trace_all(const Experiment& experiment, const RunOptions& options, const Tr
     for (auto& [at, followed] : ended) // those that wait for one that was stopped
         plan.sink(std::move(followed));
     return delivered + ended.size() == count;
+}
+
+} // namespace
+
+TracedRealization trace(const Experiment& experiment, std::uint64_t index, Isa isa, const std::function<bool()>& go_on)
+{
+    const Realization r = experiment.sampler().realization(index);
+    return r.spatial() ? trace_in<SpatialModel>(experiment, r, isa, go_on)
+                       : trace_in<PlanarModel>(experiment, r, isa, go_on);
+}
+
+bool trace_all(const Experiment& experiment, const RunOptions& options, const TracePlan& plan)
+{
+    if (plan.indices.empty())
+        return true;
+    return experiment.study().structure.spatial() ? trace_all_in<SpatialModel>(experiment, options, plan)
+                                                  : trace_all_in<PlanarModel>(experiment, options, plan);
 }
 
 ResultRow result_row(const Study& study, const RealizationHeader& realization, const Outcome& outcome)

@@ -18,6 +18,10 @@ using W = spatial::OfRealization; // the whole
 /// Deeper than this part of the lower of the two bodies, faces are not in contact: no load presses them so far.
 constexpr double deepest_part = 0.1;
 
+/// A disc on a rectangle is a polygon of 16 corners of so many times its radius, which has its area and its second
+/// moment to 0.1 and 0.2 %: the corners lie 1.3 % beyond the rim, the middles of the sides 0.6 % inside.
+constexpr double corner_radius = 1.013;
+
 Axis axis_of(Normal normal)
 {
     return normal == Normal::x ? Axis::x : normal == Normal::y ? Axis::y : Axis::z;
@@ -62,13 +66,14 @@ void store_body(const Solid& solid, double dt2, Axis correction, const spatial::
 
 /// The half sizes and the middle of a face along the first two axes of the joint, as (half 1, half 2, middle 1,
 /// middle 2).
-/// @param reversed the second axis points in the opposite direction
-std::array<double, 4> face_fields(const Face& face, const std::array<double, 2>& middle_m, Normal normal, bool reversed)
+/// @param reversed the second axis points in the opposite direction   @param times of the sizes
+std::array<double, 4> face_fields(const Face& face, const std::array<double, 2>& middle_m, Normal normal, bool reversed,
+                                  double times)
 {
     // the normal is the third axis of the joint, so that those of a bed are z and x; the other faces have their order
     const double first = normal == Normal::y ? face.half_z_m : face.half_x_m;
     const double second = normal == Normal::y ? face.half_x_m : face.half_z_m;
-    return {first, second, middle_m[0], reversed ? -middle_m[1] : middle_m[1]};
+    return {times * first, times * second, middle_m[0], reversed ? -middle_m[1] : middle_m[1]};
 }
 
 void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, const spatial::Bundle& b, int j,
@@ -105,10 +110,12 @@ void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, c
     };
     store(J::lower_anchor, anchor(lower));
     store(J::upper_anchor, anchor(upper));
-    store(J::lower_half_1, face_fields(reversed ? joint.upper_face : joint.lower_face,
-                                       reversed ? upper_middle : lower_middle, joint.normal, reversed));
-    store(J::upper_half_1, face_fields(reversed ? joint.lower_face : joint.upper_face,
-                                       reversed ? lower_middle : upper_middle, joint.normal, reversed));
+    const Face &below = reversed ? joint.upper_face : joint.lower_face,
+               &above = reversed ? joint.lower_face : joint.upper_face;
+    const auto &below_m = reversed ? upper_middle : lower_middle, &above_m = reversed ? lower_middle : upper_middle;
+    store(J::lower_half_1, face_fields(below, below_m, joint.normal, reversed, 1));
+    store(J::upper_half_1,
+          face_fields(above, above_m, joint.normal, reversed, above.round && !below.round ? corner_radius : 1));
 }
 
 } // namespace
