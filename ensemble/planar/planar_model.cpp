@@ -388,7 +388,7 @@ void PlanarModel::measure(int lane, const Place& place, State state, Outcome& o)
     if (o.at_rest == 0) // a snapshot of what still moves is no residual
         visit_fields(std::type_identity<Outcome>(), [&](const char*, auto field, const FieldFacts& facts) {
             if constexpr (std::is_same_v<decltype(field), double Outcome::*>)
-                if (facts.none == std::string_view(it_still_moved))
+                if (facts.none == it_still_moved)
                     o.*field = std::numeric_limits<double>::quiet_NaN();
         });
     // a realization that was set aside has no outcome

@@ -198,7 +198,7 @@ void tell_result(const std::string& file, Told& told)
         .member("kind", header.kind)
         .member("seed", header.seed)
         .member("code_version", header.code_version)
-        .member("build", header.build)
+        .member("build", header.build.value_or(""))
         .member("study_crc32", fmt::format("{:08x}", study_crc32_of(header)))
         .member("realizations", header.total)
         .member("done", done)
@@ -209,12 +209,12 @@ void tell_result(const std::string& file, Told& told)
                                                                    "trajectory",
                                                                    header.first)
                                                      : "results of a study of kind " + header.kind;
-    told.text = fmt::format("{}, seed {}, by stylobate {}{}\n{} of {} realizations, {}\n", what, header.seed,
-                            header.code_version, header.build.empty() ? "" : fmt::format(" ({})", header.build), done,
-                            header.total,
-                            reader.complete()      ? "complete"
-                            : header.shard.whole() ? "unfinished"
-                                                   : "shard " + header.shard.text());
+    told.text =
+        fmt::format("{}, seed {}, by stylobate {}{}\n{} of {} realizations, {}\n", what, header.seed,
+                    header.code_version, header.build ? fmt::format(" ({})", *header.build) : "", done, header.total,
+                    reader.complete()      ? "complete"
+                    : header.shard.whole() ? "unfinished"
+                                           : "shard " + header.shard.text());
     told.unfinished = !reader.complete();
     if (told.unfinished)
         told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",

@@ -42,7 +42,7 @@ std::string default_words(const TomlKey& key)
 {
     if (key.needed())
         return "**needed**";
-    return key.absent_is_value ? "`" + key.absent + "`" : cell(key.absent);
+    return key.absent_is_value ? "`" + *key.absent + "`" : cell(*key.absent);
 }
 
 class Page {
@@ -62,7 +62,7 @@ public:
         if (const std::string use = use_words(table); !use.empty())
             about += fmt::format(" Used where {}.", use);
         if (!table.needed() && table.type != KeyType::tables)
-            about += fmt::format(" If the table is absent: {}.", table.absent);
+            about += fmt::format(" If the table is absent: {}.", *table.absent);
         paragraph(about);
         keys(table, path);
         for (const TomlKey* key : table.keys)
@@ -145,8 +145,8 @@ private:
 
 std::string type_words(const TomlKey& key)
 {
-    const std::string unit = key.unit();
-    const std::string in_unit = unit.empty() ? "" : ", " + unit;
+    const auto unit = key.unit();
+    const std::string in_unit = unit ? ", " + *unit : "";
     const std::string or_word = key.words.empty() ? "" : "; or " + listed(key.words);
     switch (key.type) {
     case KeyType::number:

@@ -206,10 +206,10 @@ private:
         if (const std::string use = use_words(key); !use.empty())
             text += " Used where " + use + ".";
         if (!key.needed() && !key.absent_is_value)
-            text += " Default: " + key.absent + ".";
+            text += " Default: " + *key.absent + ".";
         schema.member("description", text);
         if (key.absent_is_value) // numbers, words, booleans and lists of numbers are the same in JSON
-            schema.member_as_is("default", key.absent);
+            schema.member_as_is("default", *key.absent);
     }
 
     /// What a table's own kind or method excludes: `excitation.kind` in [excitation].

@@ -49,8 +49,8 @@ std::string key_of(const Measured& measured, const std::filesystem::path& file)
     std::set<std::string> files;
     if (const auto* table = std::get_if<OutcomeTable>(&measured))
         for (const MeasuredOutcome& row : table->rows)
-            if (!row.motion_file.empty() && files.insert(row.motion_file).second)
-                key += " " + fingerprint(file.parent_path() / row.motion_file);
+            if (row.motion_file && files.insert(*row.motion_file).second)
+                key += " " + fingerprint(file.parent_path() / *row.motion_file);
     return key;
 }
 
