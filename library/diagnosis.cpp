@@ -38,7 +38,7 @@ std::optional<Gain> Diagnosis::gain() const
 
 std::string Diagnosis::extended_study() const
 {
-    return data_->diagnosis.extended_study;
+    return data_->diagnosis.extended_study.value_or("");
 }
 
 std::string Diagnosis::text() const

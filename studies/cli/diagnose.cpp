@@ -119,8 +119,8 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
         return exit_interrupted;
     }
     diagnosis->command = command_of(options, request, study, output);
-    if (!diagnosis->extended_study.empty()) {
-        write_whole(extended, diagnosis->extended_study);
+    if (diagnosis->extended_study) {
+        write_whole(extended, *diagnosis->extended_study);
         diagnosis->extended_study_file = extended;
     }
     write_diagnosis(*diagnosis, output);

@@ -15,7 +15,8 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
     DiagnosisOptions how;
     how.seed = request.seed;
     how.plan = EnsemblePlan::with(request.nulls);
-    how.cache = request.cache;
+    if (!request.cache.empty())
+        how.cache = request.cache;
     Campaign campaign;
     Study study;
     together(machine.ranks, [&] {
