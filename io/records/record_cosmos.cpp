@@ -154,7 +154,7 @@ Block read_block(const RecordText& text, std::size_t i)
 
 /// The unit by its code in the integer header, with which the spelling and the code above the values must agree.
 std::string unit_of(const RecordText& text, std::size_t i, const Header& header, const Block& block,
-                    const std::string& given)
+                    const std::optional<std::string>& given)
 {
     const double code = header.integers[2];
     if (header.integers[1] != 1)
@@ -175,7 +175,7 @@ std::string unit_of(const RecordText& text, std::size_t i, const Header& header,
                     fmt::format("the unit of acceleration has code {} (\"{}\"); known are 2 (g), 4 (cm/s2) and 10 "
                                 "(gal).",
                                 code, block.unit));
-    if (const std::string spelled = canonical_unit(block.unit); spelled != unit)
+    if (canonical_unit(block.unit) != unit)
         text.refuse(i, fmt::format("the unit is \"{}\" here, and has code {} ({}) in line {}. One of them is wrong.",
                                    block.unit, code, unit, header.integer_line + 2));
     return unit_of_file(text, i, unit, given);
@@ -217,7 +217,7 @@ std::string component_of(const RecordText& text, const Header& header)
 }
 
 Record acceleration_of(const RecordText& text, std::size_t i, const Header& header, const Block& block,
-                       const std::string& given, std::vector<double> values)
+                       const std::optional<std::string>& given, std::vector<double> values)
 {
     Record record;
     record.unit = unit_of(text, i, header, block, given);
@@ -250,7 +250,7 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
     return record;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     std::vector<Record> records;
     std::string others;

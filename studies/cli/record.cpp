@@ -81,7 +81,7 @@ Json describe(const Described& d)
         .member("orientation", r.orientation)
         .member("direction", to_string(r.direction))
         .member("title", r.title)
-        .member("note", r.note)
+        .member("note", r.note.value_or(""))
         .member("unit", r.unit)
         .member("samples", r.acceleration_m_s2.size())
         .member("dt_s", r.dt_s)
@@ -130,8 +130,8 @@ void print(const Described& d)
         fmt::print("  title        {}\n", r.title);
     fmt::print("  samples      {} at {} s, {:.2f} s in all, in {}\n", r.acceleration_m_s2.size(), r.dt_s,
                r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1), r.unit);
-    if (!r.note.empty())
-        fmt::print("  note         {}\n", r.note);
+    if (r.note)
+        fmt::print("  note         {}\n", *r.note);
     fmt::print("  PGA          {:.4f} m/s2 ({:.4f} g)\n", im.pga_m_s2, im.pga_m_s2 / 9.80665);
     if (const std::optional<double> difference = header_difference(r, im)) {
         fmt::print("  its header   {:.4f} m/s2", *r.header_pga_m_s2);
