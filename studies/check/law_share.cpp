@@ -127,7 +127,7 @@ std::string law_share_text(const LawShare& share, const NumericsCheck* numerics,
                 text += "           " + law.note + "\n";
         }
     } else {
-        text = "contact law: not measured. " + share.why_none + "\n";
+        text = "contact law: not measured. " + *share.why_none + "\n";
     }
     for (const std::string& law : share.left_out)
         text += "  left out: " + law + "\n";
@@ -145,7 +145,7 @@ Json law_share_json(const LawShare& share)
     if (share.whole_run > 0)
         json.member("cost_of_the_whole_study", share.whole_run);
     if (!share.measured())
-        return json.member("why_not", share.why_none);
+        return json.member("why_not", *share.why_none);
     Json laws = Json::list();
     for (const LawResult& law : share.laws)
         laws.item(Json::object()

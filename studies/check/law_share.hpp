@@ -23,15 +23,15 @@ struct LawResult {
 };
 
 struct LawShare {
-    std::string why_none{};              ///< a sentence; empty: it was measured
-    std::vector<std::string> left_out{}; ///< sentences: laws that do not apply
-    std::uint64_t realizations = 0;      ///< that are run under each law
-    double estimated_s = 0;              ///< of all laws together, before they are run
-    double whole_run = 0;                ///< processor time of the whole study under all laws, relative to the study
+    std::optional<std::string> why_none{}; ///< a sentence; nullopt: it was measured
+    std::vector<std::string> left_out{};   ///< sentences: laws that do not apply
+    std::uint64_t realizations = 0;        ///< that are run under each law
+    double estimated_s = 0;                ///< of all laws together, before they are run
+    double whole_run = 0;                  ///< processor time of the whole study under all laws, relative to the study
     std::uint64_t base_valid = 0, base_collapsed = 0; ///< of these realizations, under the law of the study
     std::vector<LawResult> laws{};
 
-    bool measured() const { return why_none.empty(); }
+    bool measured() const { return !why_none; }
     double base_probability() const { return static_cast<double>(base_collapsed) / static_cast<double>(base_valid); }
     /// "as given" and the laws, and the probability of each.
     std::vector<std::string> names() const;

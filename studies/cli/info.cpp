@@ -334,7 +334,7 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
 
 void tell_record(const std::string& file, const RecognisedFile& known, Told& told)
 {
-    told.json.member("holds", "record").member("format", known.detail);
+    told.json.member("holds", "record").member("format", *known.detail);
     told.text = describe(known) + "\n";
     std::vector<Record> records;
     std::vector<std::string> refusals;
@@ -432,10 +432,11 @@ void print_file(const CommonOptions& options, const std::string& file, bool all)
 
 } // namespace
 
-int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi)
+int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,
+                 const std::optional<std::string>& mpi)
 {
-    if (!file.empty()) {
-        print_file(options, file, all);
+    if (file) {
+        print_file(options, *file, all);
         return exit_done;
     }
     const std::vector<Isa> usable = usable_isas();
@@ -452,8 +453,8 @@ int info_command(const CommonOptions& options, const std::string& file, bool all
                                .member("threads", options.thread_count())
                                .member("gpu", !gpus.names.empty())
                                .member("gpus", Json::list(gpus.names))
-                               .member("mpi", !mpi.empty())
-                               .member("mpi_library", mpi)
+                               .member("mpi", mpi.has_value())
+                               .member("mpi_library", mpi.value_or(""))
                                .text());
         return exit_done;
     }
@@ -467,7 +468,7 @@ int info_command(const CommonOptions& options, const std::string& file, bool all
         fmt::print("GPU: {}\n", name);
     if (gpus.names.empty())
         fmt::print("GPU: none ({})\n", gpus.reason);
-    fmt::print("MPI: {}\n", mpi.empty() ? "none (this program was built without it)" : mpi);
+    fmt::print("MPI: {}\n", mpi.value_or("none (this program was built without it)"));
     return exit_done;
 }
 

@@ -36,10 +36,8 @@ struct BlockSize {
 };
 
 /// @throws InputError if the text is no WIDTHxHEIGHT
-std::optional<BlockSize> block_size(const std::string& text)
+BlockSize block_size(const std::string& text)
 {
-    if (text.empty())
-        return {};
     BlockSize size;
     const std::size_t cross = text.find_first_of("xX");
     const auto length = [](std::string_view part, double& value) {
@@ -162,10 +160,11 @@ void print(const Described& d)
 
 } // namespace
 
-int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
-                   const std::string& component, const std::string& block)
+int record_command(const CommonOptions& options, const std::vector<std::string>& files,
+                   const std::optional<std::string>& unit, const std::optional<std::string>& component,
+                   const std::optional<std::string>& block)
 {
-    const std::optional<BlockSize> size = block_size(block);
+    const std::optional<BlockSize> size = block ? std::optional(block_size(*block)) : std::nullopt;
     const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
     Json list = Json::list();
     int status = exit_done;
@@ -174,7 +173,8 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
         try {
             check_kind(file, "record");
             const std::vector<Record> records =
-                component.empty() ? read_records(file, unit) : std::vector<Record>{read_record(file, component, unit)};
+                component ? std::vector<Record>{read_record(file, *component, unit.value_or(""))}
+                          : read_records(file, unit.value_or(""));
             // all of a file is computed before any of it is printed
             std::vector<Described> all;
             for (const Record& record : records) {

@@ -203,8 +203,8 @@ private:
             text += ".";
         else
             text += " (" + type_words(key) + ").";
-        if (const std::string use = use_words(key); !use.empty())
-            text += " Used where " + use + ".";
+        if (const std::optional<std::string> use = use_words(key))
+            text += " Used where " + *use + ".";
         if (!key.needed() && !key.absent_is_value)
             text += " Default: " + *key.absent + ".";
         schema.member("description", text);

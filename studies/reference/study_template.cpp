@@ -43,8 +43,8 @@ private:
         bool given = table.needed();
         for (const TomlKey* key : table.keys)
             if (use_.of(*key)) {
-                const std::string value = value_of(*key, table.name + "." + key->name);
-                given = given || !value.empty();
+                const std::optional<std::string> value = value_of(*key, table.name + "." + key->name);
+                given = given || value;
                 keys += line_of(*key, value);
             }
         std::string about = table.meaning;
@@ -53,8 +53,8 @@ private:
         return line((given ? "[" : "# [") + table.name + "]", about) + keys;
     }
 
-    /// What the study gives; empty: it leaves the key to its default.
-    std::string value_of(const TomlKey& key, const std::string& path) const
+    /// What the study gives; nullopt: it leaves the key to its default.
+    std::optional<std::string> value_of(const TomlKey& key, const std::string& path) const
     {
         if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
             return toml_quoted(kind->second);
@@ -63,10 +63,10 @@ private:
             return toml_quoted(word_for(damping_at_names, DampingAt::ends));
         if (key.example)
             return *key.example;
-        return key.needed() && !key.keys.empty() ? inline_table(key) : std::string();
+        return key.needed() && !key.keys.empty() ? std::optional(inline_table(key)) : std::nullopt;
     }
 
-    std::string line_of(const TomlKey& key, const std::string& value) const
+    std::string line_of(const TomlKey& key, const std::optional<std::string>& value) const
     {
         std::string about = key.meaning;
         if (key.type == KeyType::word)
@@ -75,8 +75,8 @@ private:
             about += " [" + *unit + "]";
         if (!key.needed() && !key.absent_is_value && key.keys.empty())
             about += "; default: " + *key.absent;
-        if (!value.empty())
-            return line(key.name + " = " + value, about);
+        if (value)
+            return line(key.name + " = " + *value, about);
         if (key.absent_is_value)
             return line("# " + key.name + " = " + *key.absent, about);
         if (key.type == KeyType::named)

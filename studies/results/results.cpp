@@ -46,8 +46,8 @@ std::string Results::title() const
 
 const Experiment& Results::experiment() const
 {
-    if (const std::string why = kind_->why_no_replay(); !why.empty())
-        throw InputError(fmt::format("{}: {}", file_, why));
+    if (const std::optional<std::string> why = kind_->why_no_replay())
+        throw InputError(fmt::format("{}: {}", file_, *why));
     if (!loaded_)
         loaded_.emplace(LoadedStudy::from_results(study_, header(), file_, settings_));
     return loaded_->experiment();

@@ -15,8 +15,7 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
     DiagnosisOptions how;
     how.seed = request.seed;
     how.plan = EnsemblePlan::with(request.nulls);
-    if (!request.cache.empty())
-        how.cache = request.cache;
+    how.cache = request.cache;
     Campaign campaign;
     Study study;
     together(machine.ranks, [&] {

@@ -71,8 +71,8 @@ MadePage page_of_results(const PageRequest& request, const Machine& machine, Wor
     MadePage page;
     const KeptAnimations animations =
         keep_animations(results, machine.isa(), animation_options(request, machine), observer);
-    if (!animations.warning.empty())
-        page.warnings.push_back(animations.warning);
+    if (animations.warning)
+        page.warnings.push_back(*animations.warning);
     if (!observer.stop_requested())
         page.html = result_page(results, machine.isa(), request.title, animations,
                                 law_band_beside(request.file, results.study(), results.header()), page.warnings)
@@ -95,16 +95,16 @@ std::optional<MadePage> make_page(const PageRequest& request, const Machine& mac
     const FileKind kind = recognise(file).kind;
     if (kind == FileKind::diagnosis) {
         check_no_realizations(request, "diagnosis");
-        page.html = diagnosis_page(read_diagnosis(file), file, request.title).text();
+        page.html = diagnosis_page(read_diagnosis(file), file, request.title.value_or("")).text();
     } else if (kind == FileKind::comparison) {
         check_no_realizations(request, "comparison");
-        page.html = comparison_page(read_comparison(file), file, request.title, page.warnings).text();
+        page.html = comparison_page(read_comparison(file), file, request.title.value_or(""), page.warnings).text();
     } else if (kind == FileKind::calibration) {
         check_no_realizations(request, "calibration");
-        page.html = calibration_page(read_calibration(file), file, request.title).text();
+        page.html = calibration_page(read_calibration(file), file, request.title.value_or("")).text();
     } else if (kind == FileKind::risk) {
         check_no_realizations(request, "risk estimate");
-        page.html = risk_page(read_any_risk(file), file, request.title).text();
+        page.html = risk_page(read_any_risk(file), file, request.title.value_or("")).text();
     } else {
         page = page_of_results(request, machine, observer);
     }

@@ -33,8 +33,8 @@ RiskOptions checked(const RiskRequest& request)
         throw InputError(fmt::format("--most-outside {}: is no share in [0, 1].", request.most_outside));
     options.level = request.level;
     options.most_outside = request.most_outside;
-    if (!request.state.empty())
-        options.state = request.state;
+    if (request.state)
+        options.state = *request.state;
     return options;
 }
 
@@ -48,7 +48,7 @@ RiskChange change_of(const RiskRequest& request, const RiskOptions& asked)
     check_no_settings(request.settings, request.file);
     const Comparison comparison = read_comparison(request.file);
     check_has_risk(comparison, request.file);
-    const HazardModel hazard = read_hazard(request.hazard, comparison.measure, request.site);
+    const HazardModel hazard = read_hazard(request.hazard, comparison.measure, request.site.value_or(""));
     if (request.output)
         AtomicFile::check(*request.output);
     RiskChange change = risk_change_of(comparison, request.file, hazard, asked);
@@ -74,7 +74,8 @@ std::optional<Risk> risk_of_study(const RiskRequest& request, const RiskOptions&
     const RunOptions run = machine.run_options();
     const Results results(request.file, request.settings);
     check_fragility(results);
-    const HazardModel hazard = read_hazard(request.hazard, measure_of(*results.study().design().motions), request.site);
+    const HazardModel hazard =
+        read_hazard(request.hazard, measure_of(*results.study().design().motions), request.site.value_or(""));
     if (request.sequences > 0)
         check_sequences(results);
     if (request.output)

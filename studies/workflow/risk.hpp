@@ -23,10 +23,10 @@ using AnyRisk = std::variant<Risk, RiskChange>;
 struct RiskRequest {
     std::string file;                    ///< results of a fragility study, or a comparison
     std::vector<std::string> hazard{};   ///< files, or a power law
-    std::string site{};                  ///< of several in the hazard; empty: there is one
+    std::optional<std::string> site{};   ///< of several in the hazard; nullopt: there is one
     std::vector<std::string> settings{}; ///< only the present path of the study's record
-    std::string state{};                 ///< one limit state; empty: all
-    std::vector<double> years{};         ///< empty: 50 and 100
+    std::optional<std::string> state{};  ///< one limit state; nullopt: all
+    std::vector<double> years{};         ///< none: 50 and 100
     double level = 0.9;                  ///< of intervals
     double most_outside = 0.25;          ///< largest share of a frequency from outside of the ranges of runs and hazard
     std::uint64_t sequences = 0;         ///< simulated histories with the damage carried along
