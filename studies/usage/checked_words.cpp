@@ -45,13 +45,9 @@ const CLI::App& verb_of(const CLI::App& app, const std::string& word)
     const auto meant =
         name.size() == 2 ? std::nullopt : nearest_word(name.starts_with("--") ? name : "-" + name, known);
     const std::optional<std::string> of = &verb == &app ? std::nullopt : std::optional(verb.get_name());
-    throw InputError(fmt::format(
-        "{} is not an option{}.
-            {} stylobate {} --help lists the options.", name,
-            of
-            ? " of " + *of
-            : "",
-        meant ? "Did you mean " + *meant + "? " : "", of ? *of + " " : ""));
+    throw InputError(fmt::format("{} is not an option{}.\n  {}stylobate {}--help lists the options.", name,
+                                 of ? " of " + *of : "", meant ? "Did you mean " + *meant + "? " : "",
+                                 of ? *of + " " : ""));
 }
 
 /// Of the values of an option: empty, or why one is no such number. CLI11 takes the nearest number of 64 bits for a

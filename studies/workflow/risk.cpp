@@ -33,8 +33,7 @@ RiskOptions checked(const RiskRequest& request)
         throw InputError(fmt::format("--most-outside {}: is no share in [0, 1].", request.most_outside));
     options.level = request.level;
     options.most_outside = request.most_outside;
-    if (request.state)
-        options.state = *request.state;
+    options.state = request.state;
     return options;
 }
 
