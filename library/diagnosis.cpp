@@ -36,9 +36,9 @@ std::optional<Gain> Diagnosis::gain() const
     return Gain{gain->error_before, gain->error_after, gain->low, gain->high, gain->unit};
 }
 
-std::string Diagnosis::extended_study() const
+std::optional<std::string> Diagnosis::extended_study() const
 {
-    return data_->diagnosis.extended_study.value_or("");
+    return data_->diagnosis.extended_study;
 }
 
 std::string Diagnosis::text() const
