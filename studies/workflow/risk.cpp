@@ -47,7 +47,7 @@ RiskChange change_of(const RiskRequest& request, const RiskOptions& asked)
     check_no_settings(request.settings, request.file);
     const Comparison comparison = read_comparison(request.file);
     check_has_risk(comparison, request.file);
-    const HazardModel hazard = read_hazard(request.hazard, comparison.measure, request.site.value_or(""));
+    const HazardModel hazard = read_hazard(request.hazard, comparison.measure, request.site);
     if (request.output)
         AtomicFile::check(*request.output);
     RiskChange change = risk_change_of(comparison, request.file, hazard, asked);
@@ -73,8 +73,7 @@ std::optional<Risk> risk_of_study(const RiskRequest& request, const RiskOptions&
     const RunOptions run = machine.run_options();
     const Results results(request.file, request.settings);
     check_fragility(results);
-    const HazardModel hazard =
-        read_hazard(request.hazard, measure_of(*results.study().design().motions), request.site.value_or(""));
+    const HazardModel hazard = read_hazard(request.hazard, measure_of(*results.study().design().motions), request.site);
     if (request.sequences > 0)
         check_sequences(results);
     if (request.output)
