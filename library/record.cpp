@@ -13,9 +13,7 @@ Record::Record(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 Record Record::read(const std::filesystem::path& file, const std::optional<std::string>& component,
                     const std::optional<std::string>& unit)
 {
-    return translated([&] {
-        return Inside::make<Record>({inner::read_record(file, component.value_or(""), unit.value_or("")), true});
-    });
+    return translated([&] { return Inside::make<Record>({inner::read_record(file, component, unit), true}); });
 }
 
 Record Record::from_samples(std::vector<double> acceleration_m_s2, double dt_s, const std::string& name)

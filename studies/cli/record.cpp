@@ -173,8 +173,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
         try {
             check_kind(file, "record");
             const std::vector<Record> records =
-                component ? std::vector<Record>{read_record(file, *component, unit.value_or(""))}
-                          : read_records(file, unit.value_or(""));
+                component ? std::vector<Record>{read_record(file, *component, unit)} : read_records(file, unit);
             // all of a file is computed before any of it is printed
             std::vector<Described> all;
             for (const Record& record : records) {

@@ -97,7 +97,7 @@ CalibrationEnd calibrate_measured(const CalibrationRequest& request, const Machi
     search.outcomes = request.outcomes;
     search.held_out = request.held_out;
     if (run.leads() && request.kept) {
-        search.kept = *request.kept;
+        search.kept = request.kept;
         search.kept_key = key_of(measured, request.measured);
     }
     observer.begin();
