@@ -67,14 +67,13 @@ template <class Made>
 Made made_of(inner::Comparison comparison)
 {
     const auto held = std::make_shared<const inner::Comparison>(std::move(comparison));
-    return Inside::make<Made>(
-        {inner::comparison_text(*held), inner::comparison_json(*held).text(), table_of(inner::comparison_rows(*held)),
-         tables_of(inner::tables_of(*held)), [held](const auto& file) { inner::write_comparison(*held, file); },
-         [held](const auto& picture, const std::optional<std::string>& limit) {
-             inner::check_drawing(picture);
-             inner::comparison_picture(*held, inner::limit_of(held->variants.front(), limit.value_or("")).name, "",
-                                       picture);
-         }});
+    return Inside::make<Made>({inner::comparison_text(*held), inner::comparison_json(*held).text(),
+                               table_of(inner::comparison_rows(*held)), tables_of(inner::tables_of(*held)),
+                               [held](const auto& file) { inner::write_comparison(*held, file); },
+                               [held](const auto& picture, const std::optional<std::string>& limit) {
+                                   inner::check_drawing(picture);
+                                   inner::comparison_picture(*held, limit, std::nullopt, picture);
+                               }});
 }
 
 template <class Made>
@@ -86,7 +85,7 @@ Made made_of(inner::AnyRisk risk)
                                [held](const auto& file) { inner::write_risk(*held, file); },
                                [held](const auto& picture, const std::optional<std::string>& limit) {
                                    inner::check_drawing(picture);
-                                   inner::plot_risk(*held, limit.value_or(""), "", picture);
+                                   inner::plot_risk(*held, limit, std::nullopt, picture);
                                }});
 }
 

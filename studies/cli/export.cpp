@@ -286,7 +286,7 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
     }
     const std::string name = wanted.limit ? "_" + *wanted.limit + "." : ".";
     const fs::path to = place_of(options, file, wanted, name + format);
-    plot_risk(read_any_risk(file), wanted.limit.value_or(""), wanted.title.value_or(""), to);
+    plot_risk(read_any_risk(file), wanted.limit, wanted.title, to);
     return to;
 }
 
@@ -312,9 +312,9 @@ fs::path export_comparison(const CommonOptions& options, const std::string& file
     check_comparison_options(options, file, wanted);
     const Comparison comparison = read_comparison(file);
     if (is_picture_format(format)) {
-        const std::string limit = limit_of(comparison.variants.front(), wanted.limit.value_or("")).name;
+        const std::string limit = limit_of(comparison.variants.front(), wanted.limit).name;
         const fs::path to = place_of(options, file, wanted, fmt::format("_{}.{}", limit, format));
-        comparison_picture(comparison, limit, wanted.title.value_or(""), to);
+        comparison_picture(comparison, limit, wanted.title, to);
         return to;
     }
     if (format != "csv")

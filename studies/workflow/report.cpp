@@ -95,16 +95,16 @@ std::optional<MadePage> make_page(const PageRequest& request, const Machine& mac
     const FileKind kind = recognise(file).kind;
     if (kind == FileKind::diagnosis) {
         check_no_realizations(request, "diagnosis");
-        page.html = diagnosis_page(read_diagnosis(file), file, request.title.value_or("")).text();
+        page.html = diagnosis_page(read_diagnosis(file), file, request.title).text();
     } else if (kind == FileKind::comparison) {
         check_no_realizations(request, "comparison");
-        page.html = comparison_page(read_comparison(file), file, request.title.value_or(""), page.warnings).text();
+        page.html = comparison_page(read_comparison(file), file, request.title, page.warnings).text();
     } else if (kind == FileKind::calibration) {
         check_no_realizations(request, "calibration");
-        page.html = calibration_page(read_calibration(file), file, request.title.value_or("")).text();
+        page.html = calibration_page(read_calibration(file), file, request.title).text();
     } else if (kind == FileKind::risk) {
         check_no_realizations(request, "risk estimate");
-        page.html = risk_page(read_any_risk(file), file, request.title.value_or("")).text();
+        page.html = risk_page(read_any_risk(file), file, request.title).text();
     } else {
         page = page_of_results(request, machine, observer);
     }

@@ -49,9 +49,9 @@ std::vector<Table> tables_of(const AnyRisk& risk);
 std::vector<std::pair<std::string, std::string>> risk_csv(const AnyRisk& risk);
 std::string risk_text(const AnyRisk& risk);
 Json risk_json(const AnyRisk& risk);
-HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::string& title);
-/// @param title empty: the usual one
-void plot_risk(const AnyRisk& risk, const std::string& state, const std::string& title,
+HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title);
+/// @param state nullopt: the principal one   @param title nullopt: the usual one
+void plot_risk(const AnyRisk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,
                const std::filesystem::path& picture);
 /// A row for each limit state, of a comparison for each of each variant: annual frequencies and probabilities over
 /// the years, with their intervals.

@@ -40,11 +40,10 @@ std::string size_cell(const Candidate& c)
 
 class DiagnosisPage {
 public:
-    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
+    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
         : d_(diagnosis), file_(file),
-          page_(!title.empty()
-                    ? title
-                    : "Diagnosis: " + (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen),
+          page_(title.value_or("Diagnosis: " +
+                               (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen)),
                 fmt::format("{}, {} of {} used. Made by stylobate {}.", diagnosis.measured_file, diagnosis.runs_used,
                             counted(diagnosis.runs, "run"), diagnosis.code_version))
     {
@@ -396,7 +395,7 @@ private:
 
 } // namespace
 
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
 {
     return DiagnosisPage(diagnosis, std::filesystem::path(file).filename().string(), title).page();
 }

@@ -62,7 +62,8 @@ Json diagnosis_json(const Diagnosis& diagnosis);
 
 /// The verdict first, then what it rests on.
 /// @param file for names
-/// @param title of the page; empty: by the specimen
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title = "");
+/// @param title of the page; nullopt: by the specimen
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file,
+                        const std::optional<std::string>& title = std::nullopt);
 
 } // namespace stylobate
