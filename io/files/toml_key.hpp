@@ -288,8 +288,8 @@ struct WordKey : TomlKey {
 struct TextKey : TomlKey {
     using Value = std::string;
     TextKey(std::string key, std::string means, KeyFacts facts = {});
-    template <class S>
-    TextKey(std::string key, std::string S::*member, std::string means, KeyFacts facts = {})
+    template <class S, class M>
+    TextKey(std::string key, M S::*member, std::string means, KeyFacts facts = {})
         : TextKey(std::move(key), std::move(means), std::move(facts))
     {
         begin(*this, member, true);

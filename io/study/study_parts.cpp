@@ -105,9 +105,11 @@ void read_tail(const KeyReader& keys, ExcitationSpec& e)
 
 } // namespace
 
-std::string acceleration_unit(const std::string& word)
+std::optional<std::string> acceleration_unit(std::optional<std::string> word)
 {
-    return word == "gal" ? "cm/s2" : word; // one name for one unit, so that equal studies have equal texts
+    if (word == "gal")
+        word = "cm/s2"; // one name for one unit, so that equal studies have equal texts
+    return word;
 }
 
 ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study)

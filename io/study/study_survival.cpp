@@ -100,10 +100,7 @@ void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* ke
 HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside)
 {
     HazardSpec hazard;
-    const auto text = [&](const TextKey& key) {
-        return keys.has(key.name) ? std::optional(keys.read(key)) : std::nullopt;
-    };
-    const std::optional<std::string> named = text(keys_of::file), site = text(keys_of::site);
+    const std::optional<std::string> named = keys.maybe(keys_of::file), site = keys.maybe(keys_of::site);
     const bool power = keys.has(keys_of::k0), points = keys.has(keys_of::intensities), file = named.has_value();
     if (power + points + file != 1)
         keys.refuse_all(fmt::format("survival.hazard has {} hazard curves, not one: give k0_per_year and k, or "

@@ -254,7 +254,7 @@ Json check_json(const CheckReport& r)
 
 void draw_study(const Study& study, const std::string& file, const std::filesystem::path& picture)
 {
-    plot_structure(study, study.title.empty() ? std::filesystem::path(file).stem().string() : study.title, picture);
+    plot_structure(study, study.title.value_or(std::filesystem::path(file).stem().string()), picture);
 }
 
 } // namespace stylobate

@@ -41,7 +41,7 @@ const std::vector<ResultRow>& Results::trials() const
 
 std::string Results::title() const
 {
-    return study_.title.empty() ? std::filesystem::path(file_).stem().string() : study_.title;
+    return study_.title.value_or(std::filesystem::path(file_).stem().string());
 }
 
 const Experiment& Results::experiment() const

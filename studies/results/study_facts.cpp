@@ -128,7 +128,7 @@ std::string excitation_text(const Study& study, const ResultRow* one)
                            : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
     }
     if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
-        text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
+        text += " " + e.file + (e.component ? ", component " + *e.component : "");
     if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
         text += fmt::format(", {:.3g} cycles", e.cycles);
     if (one) {
