@@ -123,8 +123,8 @@ std::string law_share_text(const LawShare& share, const NumericsCheck* numerics,
                                         static_cast<double>(law.pairs.realizations));
             else
                 text += fmt::format("  {:<8} {:<50} no valid realization\n", law.name, law.words);
-            if (!law.note.empty())
-                text += "           " + law.note + "\n";
+            if (law.note)
+                text += "           " + *law.note + "\n";
         }
     } else {
         text = "contact law: not measured. " + *share.why_none + "\n";
@@ -151,7 +151,7 @@ Json law_share_json(const LawShare& share)
         laws.item(Json::object()
                       .member("name", law.name)
                       .member("words", law.words)
-                      .member("note", law.note)
+                      .member("note", law.note.value_or(""))
                       .member("realizations", law.pairs.realizations)
                       .member("collapsed", law.pairs.first)
                       .member("collapse_probability", law.probability())

@@ -16,7 +16,8 @@ namespace stylobate {
 
 /// One law beside that of the study.
 struct LawResult {
-    std::string name, words, note;
+    std::string name, words;
+    std::optional<std::string> note;
     PairedCollapses pairs; ///< first: under this law; second: under that of the study
     double seconds = 0;
     double probability() const { return static_cast<double>(pairs.first) / static_cast<double>(pairs.realizations); }

@@ -63,7 +63,7 @@ std::string format_of(const ExportOptions& wanted)
 }
 
 /// The pictures that all results have.
-constexpr PictureKind strip{"strip", ""}, order{"order", ""};
+constexpr PictureKind strip{"strip", "any study"}, order{"order", "any study"};
 
 /// The picture of that name.
 /// @throws InputError with what these results have, and which results have it

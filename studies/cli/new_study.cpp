@@ -35,7 +35,7 @@ int new_command(const CommonOptions& options, const NewStudyOptions& wanted,
         choice.excitation = value_of(excitation_kind_names, *wanted.excitation);
     const std::string text = study_template(choice);
     const std::string output = wanted_file.value_or(wanted.kind + ".toml");
-    check_output("", output, options.force);
+    check_output(std::nullopt, output, options.force);
     write_whole(output, text);
     fmt::print("{}\n", output);
     if (!options.quiet)

@@ -29,7 +29,7 @@ struct LawBand;
 /// A picture of a kind, and its options on the command line.
 struct PictureKind {
     std::string_view name; ///< "surface": the word of the command line
-    std::string_view of;   ///< results that have it: "a fragility study"; empty: all
+    std::string_view of;   ///< results that have it: "a fragility study"
     bool limit = false;    ///< of one limit state
     bool slices = false;   ///< of some frequencies
 };
