@@ -259,7 +259,7 @@ private:
 
 } // namespace
 
-RawHazard nrml_hazard(const std::string& file, const std::string& text, const std::string& site)
+RawHazard nrml_hazard(const std::string& file, const std::string& text, const std::optional<std::string>& site)
 {
     return NrmlHazard(file, text).read(site);
 }

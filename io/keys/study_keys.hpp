@@ -8,6 +8,7 @@
 #include "io/keys/words.hpp"
 
 #include <limits>
+#include <optional>
 
 namespace stylobate {
 

@@ -6,6 +6,7 @@
 #include "io/records/record.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
