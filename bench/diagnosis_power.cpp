@@ -17,6 +17,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,7 @@ void add(const EnsembleDiagnosis& found, Power& power)
 int main(int argc, char** argv)
 {
     std::vector<std::string> files;
-    std::string cache;
+    std::optional<std::filesystem::path> cache;
     std::uint64_t seed = 1, nulls = EnsemblePlan{}.nulls;
     int threads = 2;
     CLI::App app("How often labelled campaigns are named rightly, by mechanism and size, as a table.");
@@ -79,8 +80,9 @@ int main(int argc, char** argv)
         const DirectResult direct = direct_tests(measured, scales);
         EnsemblePlan plan = EnsemblePlan::with(nulls);
         plan.seed = seed;
-        const std::filesystem::path rows =
-            cache.empty() ? "" : std::filesystem::path(cache) / (std::filesystem::path(file).stem().string() + ".txt");
+        std::optional<std::filesystem::path> rows;
+        if (cache)
+            rows = *cache / (std::filesystem::path(file).stem().string() + ".txt");
         add(ensemble_diagnosis(
                 corrected(measured, direct), default_study(measured), scales, {}, direct.base_m, plan, rows,
                 {best_isa(), threads}, [](std::uint64_t, std::uint64_t) {}, observer),

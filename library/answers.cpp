@@ -21,7 +21,7 @@ struct Answer::Data {
     Table rows;
     std::vector<Table> tables;
     std::function<void(const std::filesystem::path& file)> write;
-    std::function<void(const std::filesystem::path& picture, const std::string& limit_state)> draw;
+    std::function<void(const std::filesystem::path& picture, const std::optional<std::string>& limit_state)> draw;
 };
 
 namespace {
@@ -67,13 +67,13 @@ template <class Made>
 Made made_of(inner::Comparison comparison)
 {
     const auto held = std::make_shared<const inner::Comparison>(std::move(comparison));
-    return Inside::make<Made>(
-        {inner::comparison_text(*held), inner::comparison_json(*held).text(), table_of(inner::comparison_rows(*held)),
-         tables_of(inner::tables_of(*held)), [held](const auto& file) { inner::write_comparison(*held, file); },
-         [held](const auto& picture, const std::string& limit) {
-             inner::check_drawing(picture);
-             inner::comparison_picture(*held, inner::limit_of(held->variants.front(), limit).name, "", picture);
-         }});
+    return Inside::make<Made>({inner::comparison_text(*held), inner::comparison_json(*held).text(),
+                               table_of(inner::comparison_rows(*held)), tables_of(inner::tables_of(*held)),
+                               [held](const auto& file) { inner::write_comparison(*held, file); },
+                               [held](const auto& picture, const std::optional<std::string>& limit) {
+                                   inner::check_drawing(picture);
+                                   inner::comparison_picture(*held, limit, std::nullopt, picture);
+                               }});
 }
 
 template <class Made>
@@ -83,9 +83,9 @@ Made made_of(inner::AnyRisk risk)
     return Inside::make<Made>({inner::risk_text(*held), inner::risk_json(*held).text(),
                                table_of(inner::risk_rows(*held)), tables_of(inner::tables_of(*held)),
                                [held](const auto& file) { inner::write_risk(*held, file); },
-                               [held](const auto& picture, const std::string& limit) {
+                               [held](const auto& picture, const std::optional<std::string>& limit) {
                                    inner::check_drawing(picture);
-                                   inner::plot_risk(*held, limit, "", picture);
+                                   inner::plot_risk(*held, limit, std::nullopt, picture);
                                }});
 }
 
@@ -150,7 +150,7 @@ void Answer::write(const std::filesystem::path& file) const
     translated([&] { data_->write(file); });
 }
 
-void Answer::draw(const std::filesystem::path& picture, const std::string& limit_state) const
+void Answer::draw(const std::filesystem::path& picture, const std::optional<std::string>& limit_state) const
 {
     translated([&] { data_->draw(picture, limit_state); });
 }
@@ -212,13 +212,12 @@ Past past(const std::vector<std::filesystem::path>& files)
         const auto held = std::make_shared<const inner::CombinedPast>(inner::past_of_files(texts_of(files)));
         std::vector<Table> tables = tables_of(inner::tables_of(*held));
         Table rows = tables.front();
-        return Inside::make<Past>(
-            {inner::combined_text(*held),
-             inner::combined_json(*held).text(),
-             std::move(rows),
-             std::move(tables),
-             {},
-             [held](const auto& picture, const std::string&) { inner::draw_past(*held, picture); }});
+        return Inside::make<Past>({inner::combined_text(*held),
+                                   inner::combined_json(*held).text(),
+                                   std::move(rows),
+                                   std::move(tables),
+                                   {},
+                                   [held](const auto& picture, const auto&) { inner::draw_past(*held, picture); }});
     });
 }
 

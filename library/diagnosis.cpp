@@ -36,7 +36,7 @@ std::optional<Gain> Diagnosis::gain() const
     return Gain{gain->error_before, gain->error_after, gain->low, gain->high, gain->unit};
 }
 
-std::string Diagnosis::extended_study() const
+std::optional<std::string> Diagnosis::extended_study() const
 {
     return data_->diagnosis.extended_study;
 }

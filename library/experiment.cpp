@@ -40,8 +40,8 @@ inner::Study under_record(const inner::Study& study, const inner::Record& record
 /// "column.toml", or what stands for it.
 std::string name_of(const Study& study)
 {
-    const std::filesystem::path& file = Inside::of(study).file;
-    return file.empty() ? "study" : file.string();
+    const std::optional<std::filesystem::path>& file = Inside::of(study).file;
+    return file ? file->string() : "study";
 }
 
 Record sampled(const std::function<double(double)>& acceleration_m_s2, double dt_s, double duration_s)

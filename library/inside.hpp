@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +26,9 @@ namespace inner = ::stylobate;
 
 struct Study::Data {
     inner::Study study;
-    std::filesystem::path file;        ///< that it was read from; empty: from a text
-    std::string source;                ///< that text
-    std::vector<std::string> settings; ///< of it all
+    std::optional<std::filesystem::path> file; ///< that it was read from; nullopt: from a text
+    std::string source;                        ///< that text
+    std::vector<std::string> settings;         ///< of it all
 };
 
 struct Record::Data {

@@ -10,7 +10,8 @@ namespace stylobate::api {
 
 Record::Record(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
-Record Record::read(const std::filesystem::path& file, const std::string& component, const std::string& unit)
+Record Record::read(const std::filesystem::path& file, const std::optional<std::string>& component,
+                    const std::optional<std::string>& unit)
 {
     return translated([&] { return Inside::make<Record>({inner::read_record(file, component, unit), true}); });
 }

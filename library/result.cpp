@@ -89,11 +89,11 @@ std::uint64_t Result::invalid() const
     return data_->invalid;
 }
 
-std::string Result::too_many_invalid() const
+std::optional<std::string> Result::too_many_invalid() const
 {
     if (!data_->complete)
         return {};
-    return inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name).value_or("");
+    return inner::too_many_invalid(data_->study, data_->invalid, data_->done, data_->name);
 }
 
 std::vector<std::string> Result::warnings() const

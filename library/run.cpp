@@ -39,7 +39,7 @@ struct KeptRows {
 /// Keeps the rows in memory, or gives them away where the study keeps none.
 class MemoryStore : public inner::RunStore {
 public:
-    /// @param away empty: they are kept
+    /// @param away receives each row, which is not kept then; a null function keeps all rows
     MemoryStore(KeptRows& kept, std::function<void(const inner::ResultRow&)> away) : kept_(kept), away_(std::move(away))
     {
     }
@@ -75,7 +75,7 @@ inner::Table table_of(const std::vector<inner::Table>& tables, const std::string
 Result Inside::run(const Experiment& experiment, const RunOptions& options)
 {
     const inner::LoadedStudy& loaded = of(experiment).loaded;
-    inner::StudyRun study(loaded, loaded.result_header(), "study", "");
+    inner::StudyRun study(loaded, loaded.result_header(), "study", std::nullopt);
     const inner::ResultHeader& header = study.header();
     Result::Data data(header, study.study(), "the result");
     study.check_drawn();

@@ -24,7 +24,7 @@ void Study::set(const std::string& setting)
     // from the beginning: a key that takes the place of another's default must not meet that default
     std::vector<std::string> settings = data_->settings;
     settings.push_back(setting);
-    *this = data_->file.empty() ? from_text(data_->source, settings) : from_file(data_->file, settings);
+    *this = data_->file ? from_file(*data_->file, settings) : from_text(data_->source, settings);
 }
 
 std::string Study::text() const

@@ -132,12 +132,12 @@ void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& 
     translated([&] { inner::write_whole(file, svg); });
 }
 
-void write_strip(const Trajectory& t, const std::filesystem::path& png, const std::string& title)
+void write_strip(const Trajectory& t, const std::filesystem::path& png, const std::optional<std::string>& title)
 {
     const inner::Trajectory drawn = drawn_from(t);
     translated([&] {
-        inner::plot_strip(drawn, t.outcome.fall_time_s,
-                          title.empty() ? fmt::format("realization {}", t.outcome.index) : title, png);
+        inner::plot_strip(drawn, t.outcome.fall_time_s, title.value_or(fmt::format("realization {}", t.outcome.index)),
+                          png);
     });
 }
 

@@ -48,22 +48,22 @@ enum class BaseSource {
 };
 
 struct MeasuredRun {
-    std::string name;             ///< of its group or row: "004"
-    int motion_id = 0;            ///< runs with the same one repeat one commanded motion, the specimen put back by hand
-    int repeat = 0;               ///< which of the repeats
-    std::string kind;             ///< of motion: "harmonic", "sweep", "quake", ...; empty: not given
-    double rate_hz = 0;           ///< nominal, of the cameras
-    std::optional<int> run_order; ///< when it was run among the others
-    std::optional<bool> collapsed; ///< nothing: not given
-    double collapse_time_s = -1;   ///< -1: none, or not known
-    std::vector<double> time_s;    ///< (nt) the cameras' clock
+    std::string name;  ///< of its group or row: "004"
+    int motion_id = 0; ///< runs with the same one repeat one commanded motion, the specimen put back by hand
+    int repeat = 0;    ///< which of the repeats
+    std::optional<std::string> kind; ///< of motion: "harmonic", "sweep", "quake", ...; nullopt: not given
+    double rate_hz = 0;              ///< nominal, of the cameras
+    std::optional<int> run_order;    ///< when it was run among the others
+    std::optional<bool> collapsed;   ///< nothing: not given
+    double collapse_time_s = -1;     ///< -1: none, or not known
+    std::vector<double> time_s;      ///< (nt) the cameras' clock
 
     BaseSource base_source = BaseSource::table_sensor;
-    Series base_acceleration_m_s2; ///< (nt)
-    Series base_displacement_m;    ///< (nt)
-    std::string base_clock;        ///< empty: the cameras'
-    SeenMotion table;              ///< (nt) the table, seen by the same cameras
-    SeenMotion blocks;             ///< (nt x n_block)
+    Series base_acceleration_m_s2;         ///< (nt)
+    Series base_displacement_m;            ///< (nt)
+    std::optional<std::string> base_clock; ///< name of its clock; nullopt: the cameras'
+    SeenMotion table;                      ///< (nt) the table, seen by the same cameras
+    SeenMotion blocks;                     ///< (nt x n_block)
 
     /// Whether the motion of the base is known.
     bool has_base() const { return !base_acceleration_m_s2.empty() || !base_displacement_m.empty(); }
@@ -109,14 +109,14 @@ struct Campaign {
 
 /// What shook a specimen, and whether it fell: an outcome without a history.
 struct MeasuredOutcome {
-    long line = 0;                        ///< of the file, for messages
-    std::string motion_file;              ///< the base motion's record; empty: not given
-    std::optional<double> amplitude_m;    ///< of a harmonic displacement
-    std::optional<double> frequency_hz;   ///< of it
-    std::optional<double> pga_m_s2;       ///< peak acceleration of the base
-    std::optional<double> pgv_over_pga_s; ///< peak velocity over peak acceleration
-    int motion_id = 0;                    ///< rows with the same one had one motion
-    int repeat = 0;                       ///< which of them, from 0
+    long line = 0;                          ///< of the file, for messages
+    std::optional<std::string> motion_file; ///< the base motion's record; nullopt: not given
+    std::optional<double> amplitude_m;      ///< of a harmonic displacement
+    std::optional<double> frequency_hz;     ///< of it
+    std::optional<double> pga_m_s2;         ///< peak acceleration of the base
+    std::optional<double> pgv_over_pga_s;   ///< peak velocity over peak acceleration
+    int motion_id = 0;                      ///< rows with the same one had one motion
+    int repeat = 0;                         ///< which of them, from 0
     bool fell = false;
 
     /// What a motion is known by: rows in which it is equal repeat one motion.

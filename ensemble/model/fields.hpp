@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -21,12 +22,12 @@
 namespace stylobate {
 
 struct FieldFacts {
-    const char* says = "";   ///< its meaning, in the words of files and of the documentation
-    const char* unit = "";   ///< where the end of its name is not its unit
-    const char* none = "";   ///< what stands for "none", and its meaning
-    const char* more = "";   ///< the rest of its meaning, for the documentation alone
-    std::uint64_t since = 0; ///< the first version of the file that has it
-    bool is_signed = false;  ///< whether a number may be negative
+    const char* says = "";                     ///< its meaning, in the words of files and of the documentation
+    std::optional<std::string_view> unit = {}; ///< where the end of its name is not its unit
+    std::optional<std::string_view> none = {}; ///< what stands for "none", and its meaning; nullopt: nothing does
+    std::optional<std::string_view> more = {}; ///< the rest of its meaning, for the documentation alone
+    std::uint64_t since = 0;                   ///< the first version of the file that has it
+    bool is_signed = false;                    ///< whether a number may be negative
 };
 
 /// The field of a member, or of a member of that.
@@ -39,7 +40,7 @@ constexpr auto within(Path... path)
     };
 }
 
-/// The unit at the end of a name, as files and tables have it: "m/s2" of "pga_m_s2". Empty: none.
+/// The unit at the end of a name, as files and tables have it: "m/s2" of "pga_m_s2"; "" of a name that ends in none.
 constexpr std::string_view unit_of(std::string_view name)
 {
     // longest endings first

@@ -70,8 +70,8 @@ enum class IntensityMeasure { pga, pgv, pgd, arias, cav, sa };
 /// A ground motion of a set, as files hold it.
 struct RecordSpec {
     std::string file;
-    std::string component; ///< empty: the only one there is
-    std::string unit;      ///< empty: the file gives it
+    std::optional<std::string> component; ///< nullopt: the file has one
+    std::optional<std::string> unit;      ///< nullopt: the file gives it
     friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 

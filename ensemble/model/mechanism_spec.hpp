@@ -148,7 +148,7 @@ struct BaseMechanisms {
 struct MechanismParameter {
     const char* name;
     const char* suffix; ///< of its key in a study file: its unit
-    const char* unit;   ///< as people write it; empty: none
+    const char* unit;   ///< as people write it; "" of a ratio
     double low, high;   ///< what it may be
     bool open;          ///< `low` itself is outside
     ParameterRole role;

@@ -43,7 +43,7 @@ struct Motion {
     std::optional<BandPass> band_pass;     ///< the filter that was part of it
     BaselineReport baseline;               ///< of a record, corrected or not
     std::string source;                    ///< file and component, for messages and results
-    std::optional<bool> is_vertical = {};  ///< by the names in its file; empty: its direction is not stated
+    std::optional<bool> is_vertical = {};  ///< by the names in its file; nullopt: its direction is not stated
 
     bool empty() const { return acceleration_m_s2.empty(); }
     double duration_s() const { return empty() ? 0 : dt_s * static_cast<double>(acceleration_m_s2.size() - 1); }

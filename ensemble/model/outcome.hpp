@@ -70,7 +70,7 @@ void visit_lists(std::type_identity<Outcome>, F&& f)
 
 constexpr bool is_event_time(const FieldFacts& facts)
 {
-    return facts.none == std::string_view(it_did_not_happen);
+    return facts.none == it_did_not_happen;
 }
 
 /// A time as files and tables have it: NaN, if it is of what did not happen.

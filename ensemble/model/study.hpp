@@ -88,9 +88,9 @@ enum class OfPair {
 
 /// A component of a recorded motion beside the first one.
 struct ComponentSpec {
-    std::string file;      ///< empty: that of the first component, or the one beside it that is named like it
-    std::string component; ///< empty: the only one, or by its direction
-    std::string unit;      ///< empty: the file gives it
+    std::optional<std::string> file; ///< nullopt: that of the first one, or the one beside it that is named like it
+    std::optional<std::string> component; ///< nullopt: the only one, or by its direction
+    std::optional<std::string> unit;      ///< nullopt: the file gives it
     friend bool operator==(const ComponentSpec&, const ComponentSpec&) = default;
 };
 
@@ -135,12 +135,13 @@ struct ExcitationSpec {
     double decay_s = 3; ///< in which the envelope falls to 1/e
 
     // record; table: file, run and time_scale
-    std::string file;      ///< as given in the study; relative to the study file's folder, else to the working folder
-    std::string run;       ///< of a measured campaign
-    std::string component; ///< which one, where a file has several: its name or its column (counted from 1)
-    std::string unit;      ///< "m/s2", "cm/s2", "mm/s2", "g" or empty (the file gives it)
-    double time_scale = 1; ///< stretches the record's time; in a surface the frequency axis does this
-    bool baseline = true;  ///< correct the record's baseline
+    std::string file; ///< as given in the study; relative to the study file's folder, else to the working folder
+    std::optional<std::string> run; ///< of a measured campaign; nullopt: the file is a table
+    /// Which one of several in a file, by its name or its column (counted from 1); nullopt: the file has one.
+    std::optional<std::string> component;
+    std::optional<std::string> unit;   ///< "m/s2", "cm/s2", "mm/s2", "g"; nullopt: the file gives it
+    double time_scale = 1;             ///< stretches the record's time; in a surface the frequency axis does this
+    bool baseline = true;              ///< correct the record's baseline
     std::optional<BandPass> band_pass; ///< filter it too
 
     // In space: the motion above is the first component, along `direction_deg`; the second one is horizontal and
@@ -225,10 +226,7 @@ struct MechanismPerturbation : Spread {
 
 /// The vertical motion of the base, where it is a record of its own: corrected as one, in the time and size of the
 /// horizontal record or table where there is one, else as it stands.
-struct VerticalSpec {
-    std::string file;
-    std::string component;
-    std::string unit;
+struct VerticalSpec : ComponentSpec {
     bool baseline = true;
 };
 
@@ -304,7 +302,7 @@ enum class KeptRealizations {
 
 struct Study {
     StudyKind kind = StudyKind::single;
-    std::string title; ///< of its pictures and pages; empty: they bear the name of the results' file
+    std::optional<std::string> title; ///< of its pictures and pages; nullopt: they bear the name of the results' file
     std::uint64_t seed = 1;
     /// Per cell of a surface; under a motion in a stripe; of a single study, in all; not used by other kinds.
     std::uint64_t realizations = 1;

@@ -230,13 +230,13 @@ Finding check_direction(const Subject& s)
                            "Vertical component{} would shake the base horizontally: {}. Take the "
                            "horizontal components of the record.",
                            s.facts.vertical_motions.size() == 1 ? "" : "s", some_of(s.facts.vertical_motions));
-    if (s.facts.vertical_motion.empty())
+    if (!s.facts.vertical_motion)
         return std::nullopt;
     return implausible(false,
                        "The vertical motion {} is a horizontal component by the names in its file: the "
                        "study has no vertical record. Give a vertical component by "
                        "mechanisms.vertical_motion.component or .file.",
-                       s.facts.vertical_motion);
+                       *s.facts.vertical_motion);
 }
 
 Finding check_left_out(const Subject& s)

@@ -6,6 +6,7 @@
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct StudyFacts {
     std::vector<Scaled> scaled = {};                          ///< motions from files
     std::vector<std::vector<std::string>> equal_motions = {}; ///< names of motions from files with the same samples
     std::vector<std::string> vertical_motions = {};           ///< vertical components that shake the base horizontally
-    std::string vertical_motion = {}; ///< the vertical motion, where it is a horizontal component
+    std::optional<std::string> vertical_motion = {}; ///< the vertical motion, where it is a horizontal component
 };
 
 /// What one check has found.

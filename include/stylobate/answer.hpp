@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,7 +16,7 @@ namespace stylobate::api {
 /// One column of a table.
 struct Column {
     std::string name; ///< with its unit where it has one of length, time and so on: "pga_m_s2"
-    std::string unit; ///< "1/year"; empty: none, or that in the name
+    std::string unit; ///< "1/year"; "" where there is none, and where the name has it
     std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>, std::vector<std::string>>
         values;
     std::vector<std::size_t> shape; ///< of the values, which lie row by row
@@ -52,9 +53,9 @@ public:
     /// @throws InputError if it cannot be written, and of a past, which has no file
     void write(const std::filesystem::path& file) const;
     /// Draws the picture of `stylobate export`: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.
-    /// @param limit_state empty: the principal one
+    /// @param limit_state nullopt: the principal one
     /// @throws InputError for another ending, for no such limit state, or if the picture cannot be drawn
-    void draw(const std::filesystem::path& picture, const std::string& limit_state = {}) const;
+    void draw(const std::filesystem::path& picture, const std::optional<std::string>& limit_state = {}) const;
 
 protected:
     struct Data;

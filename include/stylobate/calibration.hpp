@@ -63,7 +63,7 @@ struct CalibrationOptions {
     /// To begin from: contacts and mechanisms; the structure is the specimen's. None: the specimen, its nominal
     /// friction, a bed of 2e9 N/m3. A table of outcomes needs it, with the structure and the shaking.
     std::optional<Study> study = {};
-    std::vector<std::string> forms = {}; ///< contact forms, or "all"; empty: the study's
+    std::vector<std::string> forms = {}; ///< contact forms, or "all"; none: the study's
     std::vector<std::string> fit = {};   ///< "KEY" or "KEY=FROM:TO", beside the contact's keys or instead of them
     std::vector<std::string> hold = {};  ///< keys of the contact that keep the study's value
     bool outcomes = false;               ///< use outcomes (fell or stood) even where there are histories
@@ -71,8 +71,8 @@ struct CalibrationOptions {
     int threads = 0;                     ///< 0: as many as the process may use
     std::string simd = "auto";           ///< as `RunOptions::simd`
     /// Keeps the parameter sets that are done, so that a stopped calibration goes on, by this function or by the
-    /// program; it is removed when the calibration is complete. Empty: nowhere
-    std::filesystem::path cache = {};
+    /// program; it is removed when the calibration is complete. Nullopt: they are not kept.
+    std::optional<std::filesystem::path> cache = {};
     /// Called with the progress, line by line; may be empty.
     std::function<void(const std::string& line)> tell = {};
     std::function<bool()> go_on = {}; ///< polled about ten times a second; false: stop. May be empty

@@ -14,7 +14,7 @@ namespace stylobate::api {
 
 struct CompareOptions {
     std::vector<std::string> settings = {};     ///< "KEY=VALUE", of every study file
-    std::filesystem::path folder = {};          ///< of the results of study files; empty: the working folder
+    std::filesystem::path folder = {};          ///< of the results of study files; "": the working folder
     double level = 0.95;                        ///< of intervals and verdicts, 0.5 to 0.9999
     std::optional<std::uint64_t> adaptive = {}; ///< most pairs of each variant of a surface, run where the difference
                                                 ///< is undecided; none: all pairs

@@ -19,12 +19,12 @@ enum class Verdict {
     unexplained ///< no known mechanism explains the errors
 };
 
-/// A mechanism that the verdict names. What could not be estimated is empty.
+/// A mechanism that the verdict names. What could not be estimated is nullopt.
 struct Cause {
     std::string mechanism;       ///< as in study files: "joint_friction"
     std::string place;           ///< "joint 0", "block 2", "base", "all joints"
     std::string parameter;       ///< "ratio", "velocity_m_s"
-    std::string unit;            ///< of the three numbers that follow; empty: a ratio
+    std::string unit;            ///< of the three numbers that follow; "" for a ratio
     std::optional<double> size;  ///< best fit
     std::optional<double> lower; ///< 95 % interval
     std::optional<double> upper;
@@ -51,8 +51,8 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;    ///< of what is drawn in them
     int threads = 0;           ///< 0: as many as the process may use
     std::string simd = "auto"; ///< as `RunOptions::simd`
-    std::filesystem::path cache =
-        {}; ///< keeps the simulated campaigns, so that a stopped diagnosis goes on; empty: nowhere
+    /// Keeps the simulated campaigns, so that a stopped diagnosis goes on. Nullopt: they are not kept.
+    std::optional<std::filesystem::path> cache = {};
     std::function<void(const std::string& line)> tell = {}; ///< called with each stage, as a line of text; may be empty
     std::function<bool()> go_on = {};                       ///< polled from time to time; false: stop. May be empty
 };
@@ -64,9 +64,9 @@ public:
     std::string verdict_text() const;  ///< in plain words, one to three sentences
     std::vector<Cause> causes() const; ///< most probable first; empty where the verdict is `none`
     std::optional<Gain> gain() const;
-    std::string extended_study() const; ///< the baseline with the cause in it (TOML); empty: none
-    std::string text() const;           ///< the page that the command line prints
-    std::string json() const;           ///< all of it, for other programs
+    std::optional<std::string> extended_study() const; ///< the baseline with the cause in it (TOML); nullopt: none
+    std::string text() const;                          ///< the page that the command line prints
+    std::string json() const;                          ///< all of it, for other programs
 
     /// Writes the file that `stylobate report` takes, whole or not at all.
     /// @throws InputError if it cannot be written

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,12 @@ class Record {
 public:
     /// Reads a component; the format is recognised from the content (PEER AT2, COSMOS, ESM, K-NET, plain columns and
     /// others, as `stylobate record` has them).
-    /// @param component its name, its orientation or the number of its column; empty: the only one there is
-    /// @param unit of the acceleration: "g", "m/s2", "cm/s2", "mm/s2"; empty: the file must give it
+    /// @param component its name, its orientation or the number of its column; nullopt: the only one there is
+    /// @param unit of the acceleration: "g", "m/s2", "cm/s2", "mm/s2"; nullopt: the file must give it
     /// @throws InputError if the file cannot be read, is damaged or of no known format, has no such component or
     ///         several where none is named, or if its unit is not known
-    static Record read(const std::filesystem::path& file, const std::string& component = {},
-                       const std::string& unit = {});
+    static Record read(const std::filesystem::path& file, const std::optional<std::string>& component = {},
+                       const std::optional<std::string>& unit = {});
 
     /// A record from samples of the acceleration, at rest before the first one.
     /// @param acceleration_m_s2 10 samples at least

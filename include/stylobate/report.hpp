@@ -11,7 +11,7 @@
 namespace stylobate::api {
 
 struct ReportOptions {
-    std::string title = {};                     ///< empty: by the study or the file
+    std::optional<std::string> title = {};      ///< nullopt: by the study or the file
     std::optional<std::uint64_t> animate = {};  ///< N that fell and N that stood, of each cell; none: one of each
     std::optional<double> animate_mb = {};      ///< of all animations together [1e6 bytes]; none: 3
     std::optional<double> animate_seconds = {}; ///< for running realizations again; none: 120

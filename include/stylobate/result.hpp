@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,8 @@ public:
     std::uint64_t realizations() const; ///< that have been run
     std::uint64_t invalid() const;      ///< those that were set aside
     /// What the command line prints, with exit status 3, where a complete run has more invalid realizations than
-    /// `run.max_invalid_fraction` allows; else empty.
-    std::string too_many_invalid() const;
+    /// `run.max_invalid_fraction` allows; else nullopt.
+    std::optional<std::string> too_many_invalid() const;
     std::vector<std::string> warnings() const;
 
     /// How often a limit state was reached, over all cells or motions.
@@ -78,7 +79,7 @@ public:
     /// By index. Empty for a study that keeps no rows (`output.realizations = "none"`).
     const std::vector<Outcome>& outcomes() const;
     std::vector<std::string> input_names() const; ///< "friction[0]"
-    std::vector<std::string> input_units() const; ///< "N/m2"; empty: none
+    std::vector<std::string> input_units() const; ///< "N/m2"; "" for a ratio
     std::vector<std::string> block_names() const; ///< in layout order
 
     /// The surface of a limit state, of a result that is complete or not.

@@ -13,10 +13,10 @@
 namespace stylobate::api {
 
 struct RiskOptions {
-    std::string site = {};                  ///< of several in the hazard: "LON,LAT" or its number from 0
-    std::string limit_state = {};           ///< one of the study; empty: all
-    std::vector<double> years = {50, 100};  ///< for the probabilities
-    double level = 0.9;                     ///< of the intervals
+    std::optional<std::string> site = {};        ///< of several in the hazard: "LON,LAT" or its number from 0
+    std::optional<std::string> limit_state = {}; ///< one of the study; nullopt: all
+    std::vector<double> years = {50, 100};       ///< for the probabilities
+    double level = 0.9;                          ///< of the intervals
     double most_outside = 0.25;             ///< largest share of a frequency from outside of the intensities of study
                                             ///< or hazard
     std::uint64_t sequences = 0;            ///< histories of the last of the years, with the damage carried along

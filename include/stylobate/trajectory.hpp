@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ void write_svg(const Trajectory& trajectory, double time_s, const std::filesyste
 
 /// Draws a strip of snapshots with the displacements below (PNG, by gnuplot), as `stylobate export --picture strip`.
 /// @throws InputError if gnuplot is missing, or the file cannot be written
-void write_strip(const Trajectory& trajectory, const std::filesystem::path& png, const std::string& title = {});
+void write_strip(const Trajectory& trajectory, const std::filesystem::path& png,
+                 const std::optional<std::string>& title = {});
 
 } // namespace stylobate::api

@@ -153,13 +153,13 @@ AtomicFolder::AtomicFolder(fs::path folder) : folder_(std::move(folder))
 AtomicFolder::~AtomicFolder()
 {
     std::error_code ignored;
-    if (!temporary_.empty())
-        fs::remove_all(temporary_, ignored);
+    if (temporary_)
+        fs::remove_all(*temporary_, ignored);
 }
 
 void AtomicFolder::write(const std::string& name, std::string_view content)
 {
-    std::ofstream file(temporary_ / name, std::ios::binary);
+    std::ofstream file(*temporary_ / name, std::ios::binary);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
     if (!file)
@@ -170,15 +170,15 @@ void AtomicFolder::commit()
 {
     // mkdtemp makes the folder private; a new one has the permissions that the umask leaves
     std::error_code error;
-    const fs::path like = temporary_ / ".permissions";
+    const fs::path like = *temporary_ / ".permissions";
     fs::create_directory(like, error);
     const fs::perms permissions = fs::status(like, error).permissions();
     fs::remove(like, error);
-    fs::permissions(temporary_, permissions, error);
-    fs::rename(temporary_, folder_, error); // takes the place of an empty folder
+    fs::permissions(*temporary_, permissions, error);
+    fs::rename(*temporary_, folder_, error); // takes the place of an empty folder
     if (error)
         fail(error.message());
-    temporary_.clear();
+    temporary_.reset();
 }
 
 void AtomicFolder::fail(const std::string& reason) const

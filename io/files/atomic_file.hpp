@@ -2,6 +2,7 @@
 /// A file that appears whole or not at all.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -66,7 +67,7 @@ private:
     [[noreturn]] void fail(const std::string& reason) const;
 
     std::filesystem::path folder_;
-    std::filesystem::path temporary_; ///< empty: committed
+    std::optional<std::filesystem::path> temporary_; ///< where it is filled; nullopt once it is committed
 };
 
 // A folder for by-products.

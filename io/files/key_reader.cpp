@@ -185,8 +185,8 @@ double KeyReader::check(std::string_view key, const TomlValue& value, const Rang
         refuse(key, fmt::format("is {}, not a number", value.type_name()),
                fmt::format("Give a number in {}. {}", range.text(), range.hint));
     if (!range.contains(value.number)) {
-        const std::string meant = range.meant(value.number);
-        refuse(key, "is outside " + range.text_for(value.number), range.hint + (meant.empty() ? "" : " " + meant));
+        const auto meant = range.meant(value.number);
+        refuse(key, "is outside " + range.text_for(value.number), range.hint + (meant ? " " + *meant : ""));
     }
     return value.number + 0.0; // -0 becomes 0, so that equal studies have equal texts
 }

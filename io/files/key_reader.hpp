@@ -123,7 +123,11 @@ public:
 
     /// A string that is not empty. From the command line a number is taken as the text that was typed.
     std::string text(std::string_view key) const;
-    std::string text_or_empty(std::string_view key) const { return has(key) ? text(key) : std::string(); }
+    /// The same; nullopt where the key is absent.
+    std::optional<std::string> text_if_given(std::string_view key) const
+    {
+        return has(key) ? std::optional(text(key)) : std::nullopt;
+    }
 
     /// One of the words of a list of `Name`s.
     template <class List>

@@ -66,14 +66,14 @@ bool Range::contains(double value) const
     return std::isfinite(value) && (open ? value > low : value >= low) && value <= high && !is_next_to_zero(value);
 }
 
-std::string Range::meant(double value) const
+std::optional<std::string> Range::meant(double value) const
 {
     std::string all;
     for (const UnitSlip& slip : slips)
         if (contains(value * slip.factor))
             all += fmt::format("{} {} ({} {})", all.empty() ? "Did you mean" : " or", readable(value * slip.factor),
                                fmt::format("{:.6g}", value), slip.unit);
-    return all.empty() ? all : all + "?";
+    return all.empty() ? std::nullopt : std::optional(all + "?");
 }
 
 std::string Range::text() const
@@ -127,7 +127,7 @@ TomlKey::TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts f
 
 void TomlKey::set_default(std::string toml)
 {
-    if (!absent.empty())
+    if (absent)
         return; // a word that stands for it
     absent = std::move(toml);
     absent_is_value = true;
@@ -159,19 +159,19 @@ KeyUse KeyUse::without(std::initializer_list<const TomlKey*> keys) const
     return use;
 }
 
-std::string TomlKey::unit() const
+std::optional<std::string> TomlKey::unit() const
 {
     if (type != KeyType::number && type != KeyType::numbers && type != KeyType::interval && type != KeyType::table)
-        return {};
+        return std::nullopt;
     return unit_in_name(name);
 }
 
-std::string unit_in_name(std::string_view name)
+std::optional<std::string> unit_in_name(std::string_view name)
 {
     for (const auto& [ending, unit] : unit_endings)
         if (name.ends_with(ending))
             return unit;
-    return {};
+    return std::nullopt;
 }
 
 NumberKey::NumberKey(std::string key, const Range& allowed, std::string means, KeyFacts facts)

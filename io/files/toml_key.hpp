@@ -35,8 +35,9 @@ struct Range {
     bool contains(double value) const;
     /// "(0, 10]"
     std::string text() const;
-    /// "Did you mean 0.155 (155 mm) or 1.55 (155 cm)?" of a value outside; empty: in none of those units it is inside.
-    std::string meant(double value) const;
+    /// "Did you mean 0.155 (155 mm) or 1.55 (155 cm)?" of a value outside; nullopt if it is inside in
+    /// none of those units.
+    std::optional<std::string> meant(double value) const;
     /// The text for a message about a value outside: of a range that begins just above 0 it states the least
     /// value.
     std::string text_for(double value) const;
@@ -115,10 +116,10 @@ KeyField field_of(M S::*member); // in key_reader.hpp
 struct KeyFacts {
     bool needed = false; ///< must be given where it is used, whatever its member is without it
     /// What applies where the key is absent, if that is no plain value: "K_N times the width of the widest drum".
-    std::string absent = {};
+    std::optional<std::string> absent = {};
     std::vector<Condition> used = {}; ///< all must hold; none: always used
-    /// A value to begin with, as TOML, for a file that is written for the user; empty: the default.
-    std::string example = {};
+    /// A value to begin with, as TOML, for a file that is written for the user; nullopt: the default.
+    std::optional<std::string> example = {};
     std::vector<std::string> words = {};                     ///< of a number: words that may stand in its place
     std::vector<std::string> excludes = {};                  ///< keys of its table in whose place it stands
     std::vector<std::string> models = {"planar", "spatial"}; ///< models that use it; by default every one there is
@@ -131,22 +132,22 @@ struct TomlKey {
     std::string meaning; ///< a phrase for people, without a full stop
     Range range = {};    ///< of numbers, also in lists
     std::vector<std::string> words = {};
-    std::string absent = {};          ///< the default as TOML, or in words; empty: the key must be given
-    bool absent_is_value = false;     ///< `absent` is TOML
-    std::vector<Condition> used = {}; ///< see `KeyFacts`
-    std::string example = {};
-    std::vector<std::string> excludes = {}; ///< see `KeyFacts`
-    std::vector<std::string> models = {};   ///< see `KeyFacts`
-    std::vector<const TomlKey*> keys = {};  ///< of a table
+    std::optional<std::string> absent = {};  ///< the default as TOML, or in words; nullopt: the key must be given
+    bool absent_is_value = false;            ///< `absent` is TOML
+    std::vector<Condition> used = {};        ///< see `KeyFacts`
+    std::optional<std::string> example = {}; ///< see `KeyFacts`
+    std::vector<std::string> excludes = {};  ///< see `KeyFacts`
+    std::vector<std::string> models = {};    ///< see `KeyFacts`
+    std::vector<const TomlKey*> keys = {};   ///< of a table
     KeyField field = {};
 
     /// Must be given wherever it is used.
-    bool needed() const { return absent.empty(); }
+    bool needed() const { return !absent; }
     /// Whether a condition on `key` allows `value`; true where there is no such condition. The models that use it are a
     /// condition on `model_key`.
     bool used_where(std::string_view key, std::string_view value) const;
-    /// "m/s2", from the end of the name: the unit is part of the key; empty: none.
-    std::string unit() const;
+    /// "m/s2", from the end of the name: the unit is part of the key; nullopt if it has none.
+    std::optional<std::string> unit() const;
 
 protected:
     TomlKey(std::string key, KeyType of_type, std::string means, KeyFacts facts);
@@ -190,8 +191,8 @@ struct KeyUse {
     KeyUse without(std::initializer_list<const TomlKey*> keys) const;
 };
 
-/// The unit that the name of a quantity ends with: "m/s2" of "pga_m_s2"; empty: none.
-std::string unit_in_name(std::string_view name);
+/// The unit that the name of a quantity ends with: "m/s2" of "pga_m_s2"; nullopt if there is none.
+std::optional<std::string> unit_in_name(std::string_view name);
 
 /// The value of a key as TOML.
 std::string toml_text(double value);
@@ -292,8 +293,8 @@ struct WordKey : TomlKey {
 struct TextKey : TomlKey {
     using Value = std::string;
     TextKey(std::string key, std::string means, KeyFacts facts = {});
-    template <class S>
-    TextKey(std::string key, std::string S::*member, std::string means, KeyFacts facts = {})
+    template <class S, class M>
+    TextKey(std::string key, M S::*member, std::string means, KeyFacts facts = {})
         : TextKey(std::move(key), std::move(means), std::move(facts))
     {
         begin(*this, member, true);

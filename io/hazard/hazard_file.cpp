@@ -21,12 +21,12 @@ namespace {
 constexpr std::uint64_t most_bytes = 1 << 28;
 
 /// A curve of a file, or a power law.
-RawHazard read_one(const std::string& given, const std::string& site)
+RawHazard read_one(const std::string& given, const std::optional<std::string>& site)
 {
     std::error_code ignored;
     if (given.find('=') != std::string::npos && !std::filesystem::exists(given, ignored)) {
-        if (!site.empty())
-            throw InputError(fmt::format("--site {}: a power law is of one site; omit it.", site));
+        if (site)
+            throw InputError(fmt::format("--site {}: a power law is of one site; omit it.", *site));
         return power_law_hazard(given);
     }
     const std::string text = csv_content(given, most_bytes);
@@ -35,8 +35,8 @@ RawHazard read_one(const std::string& given, const std::string& site)
         return nrml_hazard(given, text, site);
     if (is_openquake_hazard(text))
         return openquake_hazard(given, text, site);
-    if (!site.empty())
-        throw InputError(fmt::format("--site {}: {} is a table of one site; omit it.", site, given));
+    if (site)
+        throw InputError(fmt::format("--site {}: {} is a table of one site; omit it.", *site, given));
     return csv_hazard(given, text);
 }
 
@@ -55,7 +55,7 @@ void join(RawHazard& all, RawHazard more)
     if (to.measure != from.measure)
         refuse(fmt::format("is of {}, not of {} as", from.measure, to.measure));
     if (to.site != from.site)
-        refuse(fmt::format("is of the site {}, not of {} as", from.site, to.site));
+        refuse(fmt::format("is of the site {}, not of {} as", from.site.value_or(""), to.site.value_or("")));
     if (!std::equal(to.intensity.begin(), to.intensity.end(), from.intensity.begin(), from.intensity.end(),
                     [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(a); }))
         refuse("has other intensities than");
@@ -71,15 +71,17 @@ void join(RawHazard& all, RawHazard more)
 
 } // namespace
 
-HazardModel read_hazard(const std::vector<std::string>& given, const std::string& measure, const std::string& site)
+HazardModel read_hazard(const std::vector<std::string>& given, const std::string& measure,
+                        const std::optional<std::string>& site)
 {
     if (given.empty())
         throw InputError("--hazard is missing.\n  Give a file with a hazard curve, or k0=1e-4,k=2.5,measure=pga_g.");
-    RawHazard raw = read_one(given.front(), site);
+    const auto named = site && !site->empty() ? site : std::nullopt;
+    RawHazard raw = read_one(given.front(), named);
     if (given.size() > 1)
         check_decrease(raw);
     for (std::size_t i = 1; i < given.size(); ++i) {
-        RawHazard more = read_one(given[i], site);
+        RawHazard more = read_one(given[i], named);
         check_decrease(more);
         join(raw, std::move(more));
     }
@@ -124,17 +126,17 @@ RawHazard power_law_hazard(const std::string& given)
     const double k0 = number("k0", 1e-100, 1e6), k = number("k", 0.01, 30);
     if (!values.contains("measure"))
         refuse("measure is missing.");
-    HazardMeasure measure = measure_of_column(values["measure"]);
-    if (measure.name.empty())
+    std::optional<HazardMeasure> measure = measure_of_column(values["measure"]);
+    if (!measure)
         measure = measure_without_unit(values["measure"]);
-    if (measure.name.empty())
+    if (!measure)
         refuse(fmt::format("measure = '{}' is none of {}.", values["measure"], known_hazard_measures()));
     RawHazard raw;
     HazardModel& hazard = raw.hazard;
     hazard.source = given;
-    hazard.measure = measure.name;
+    hazard.measure = measure->name;
     hazard.unbounded = true;
-    hazard.intensity = {measure.per_unit, 10 * measure.per_unit};
+    hazard.intensity = {measure->per_unit, 10 * measure->per_unit};
     hazard.frequency = {k0, k0 * std::pow(10, -k)};
     if (values.contains("sigma_ln"))
         for (const double probability : {0.05, 0.95}) {
@@ -178,13 +180,13 @@ RawHazard csv_hazard(const std::string& file, std::string_view text)
     RawHazard raw;
     HazardModel& hazard = raw.hazard;
     hazard.source = file;
-    HazardMeasure measure;
+    std::optional<HazardMeasure> measure;
     std::string column; // of the intensity
     std::vector<Column> columns;
     for_each_csv_line(text, [&](const CsvLine& line) {
-        if (measure.name.empty()) {
+        if (!measure) {
             measure = measure_of_column(line.fields[0]);
-            if (measure.name.empty())
+            if (!measure)
                 throw InputError(file, line.number,
                                  fmt::format("the first column '{}' is no intensity measure with its unit.\n  Known: "
                                              "{}; then annual_frequency.",
@@ -209,7 +211,7 @@ RawHazard csv_hazard(const std::string& file, std::string_view text)
                                  fmt::format("{} is empty.\n  Leave out the whole line, or the column.", name));
             return value;
         };
-        hazard.intensity.push_back(number(0, "intensity") * measure.per_unit);
+        hazard.intensity.push_back(number(0, "intensity") * measure->per_unit);
         raw.names.push_back(fmt::format("{} = {}", column, line.fields[0]));
         raw.lines.push_back(line.number);
         for (std::size_t f = 0, fractile = 0; f < columns.size(); ++f) {
@@ -217,7 +219,7 @@ RawHazard csv_hazard(const std::string& file, std::string_view text)
             (columns[f].fractile > 0 ? hazard.fractiles[fractile++].frequency : hazard.frequency).push_back(value);
         }
     });
-    if (measure.name.empty())
+    if (!measure)
         throw InputError(file, 0,
                          "is empty.\n  Give a header such as pga_g,annual_frequency and a line for each "
                          "intensity.");
@@ -225,7 +227,7 @@ RawHazard csv_hazard(const std::string& file, std::string_view text)
         throw InputError(file, 0, "has no line below its header.\n  Give a line for each intensity.");
     if (hazard.frequency.size() > hazard.intensity.size())
         throw InputError(file, 0, "has the column annual_frequency twice.");
-    hazard.measure = measure.name;
+    hazard.measure = measure->name;
     return raw;
 }
 

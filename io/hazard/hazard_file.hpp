@@ -15,6 +15,7 @@
 
 #include "ensemble/estimators/risk/hazard_curve.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,11 @@ namespace stylobate {
 
 /// @param given   one of the above, or several files of OpenQuake: the mean (or the fractile 0.5) and fractiles
 /// @param measure of the fragility, with its SI unit: "pga_m_s2"
-/// @param site    of several in a file: "LON,LAT", or a number from 0; empty: there is but one
+/// @param site    of several in a file: "LON,LAT", or a number from 0; nullopt, or an empty text, where there is but
+/// one
 /// @throws InputError with file, line, value and what to do: a hazard of another measure (both are named), an unknown
 ///         unit, intensities that do not ascend, frequencies that do not decrease, several sites without a choice
 HazardModel read_hazard(const std::vector<std::string>& given, const std::string& measure,
-                        const std::string& site = {});
+                        const std::optional<std::string>& site = {});
 
 } // namespace stylobate

@@ -13,8 +13,8 @@ namespace stylobate {
 
 namespace {
 
-/// The value of KEY=VALUE or KEY='VALUE' in OpenQuake's comment; empty: it is not there.
-std::string of_comment(std::string_view comment, std::string_view key)
+/// The value of KEY=VALUE or KEY='VALUE' in OpenQuake's comment; nullopt if it is not there.
+std::optional<std::string> of_comment(std::string_view comment, std::string_view key)
 {
     for (std::size_t at = comment.find(key); at != std::string_view::npos; at = comment.find(key, at + 1)) {
         std::string_view rest = comment.substr(at + key.size());
@@ -28,7 +28,7 @@ std::string of_comment(std::string_view comment, std::string_view key)
         }
         return std::string(rest.substr(0, rest.find_first_of(",\" \r")));
     }
-    return {};
+    return std::nullopt;
 }
 
 std::string_view first_line(std::string_view text)
@@ -46,23 +46,23 @@ bool is_openquake_hazard(std::string_view text)
     return (line.starts_with('#') || line.starts_with("\"#")) && line.find("imt") != std::string_view::npos;
 }
 
-RawHazard openquake_hazard(const std::string& file, std::string_view text, const std::string& site)
+RawHazard openquake_hazard(const std::string& file, std::string_view text, const std::optional<std::string>& site)
 {
     const std::string_view comment = first_line(text);
-    const std::string imt = of_comment(comment, "imt"), kind = of_comment(comment, "kind");
-    const auto years = hazard_number(of_comment(comment, "investigation_time"));
+    const std::string imt = of_comment(comment, "imt").value_or(""), kind = of_comment(comment, "kind").value_or("");
+    const auto years = hazard_number(of_comment(comment, "investigation_time").value_or(""));
     if (!years || !(*years > 0))
         throw InputError(file, 1,
                          "the comment has no investigation_time above 0, which the probabilities are of.\n  "
                          "Take the file as OpenQuake exports it.");
-    const HazardMeasure measure = measure_of_openquake(imt);
-    if (measure.name.empty())
+    const auto measure = measure_of_openquake(imt);
+    if (!measure)
         throw InputError(file, 1, fmt::format("imt = '{}' is none of PGA, SA(period), PGV, PGD, IA, CAV.", imt));
 
     RawHazard raw;
     HazardModel& hazard = raw.hazard;
     hazard.source = file;
-    hazard.measure = measure.name;
+    hazard.measure = measure->name;
     std::size_t lon = ~std::size_t{0}, lat = lon;
     std::vector<std::size_t> fields;
     std::vector<HazardSite> sites;
@@ -82,7 +82,7 @@ RawHazard openquake_hazard(const std::string& file, std::string_view text, const
                         throw InputError(file, line.number, fmt::format("the column '{}' has no intensity.", name));
                     fields.push_back(f);
                     raw.names.emplace_back(name);
-                    hazard.intensity.push_back(*iml * measure.per_unit);
+                    hazard.intensity.push_back(*iml * measure->per_unit);
                 }
             }
             if (fields.empty() || std::max(lon, lat) >= line.fields.size())
@@ -143,7 +143,7 @@ public:
             throw InputError(file_, line(result.offset), fmt::format("no XML: {}.", result.description()));
     }
 
-    RawHazard read(const std::string& site)
+    RawHazard read(const std::optional<std::string>& site)
     {
         const pugi::xml_node root = document_.document_element();
         const pugi::xml_node curves = local_name(root) == "nrml" ? child_named(root, "hazardCurves") : pugi::xml_node();
@@ -155,8 +155,8 @@ public:
         std::string imt = attribute(curves, "IMT");
         if (imt == "SA")
             imt = "SA(" + attribute(curves, "saPeriod") + ")";
-        const HazardMeasure measure = measure_of_openquake(imt);
-        if (measure.name.empty())
+        const auto measure = measure_of_openquake(imt);
+        if (!measure)
             refuse(curves, fmt::format("IMT = '{}' is none of PGA, SA, PGV, PGD, IA, CAV.", imt));
         const auto years = hazard_number(attribute(curves, "investigationTime"));
         if (!years || !(*years > 0))
@@ -164,12 +164,12 @@ public:
                                        attribute(curves, "investigationTime")));
         RawHazard raw;
         raw.hazard.source = file_;
-        raw.hazard.measure = measure.name;
+        raw.hazard.measure = measure->name;
         const pugi::xml_node imls = child_named(curves, "IMLs");
         if (!imls)
             refuse(curves, "has no <IMLs>.");
         for (const double iml : numbers(imls)) {
-            raw.hazard.intensity.push_back(iml * measure.per_unit);
+            raw.hazard.intensity.push_back(iml * measure->per_unit);
             raw.names.push_back(fmt::format("IML {:g}", iml));
         }
         std::vector<pugi::xml_node> nodes;
@@ -259,7 +259,7 @@ private:
 
 } // namespace
 
-RawHazard nrml_hazard(const std::string& file, const std::string& text, const std::string& site)
+RawHazard nrml_hazard(const std::string& file, const std::string& text, const std::optional<std::string>& site)
 {
     return NrmlHazard(file, text).read(site);
 }

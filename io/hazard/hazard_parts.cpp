@@ -127,7 +127,8 @@ std::string HazardSite::name() const
     return fmt::format("{:g},{:g}", lon, lat);
 }
 
-std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& sites, const std::string& given)
+std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& sites,
+                        const std::optional<std::string>& given)
 {
     if (sites.empty())
         throw InputError(file, 0, "contains no hazard curve of a site.");
@@ -137,7 +138,7 @@ std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& 
             names += fmt::format("{}{} ({})", i ? ", " : "", i, sites[i].name());
         return names + (sites.size() > 5 ? ", ..." : "");
     };
-    if (given.empty()) {
+    if (!given) {
         if (sites.size() > 1)
             throw InputError(file, 0,
                              fmt::format("has hazard curves of {} sites: {}.\n  Choose one by --site (of a study: "
@@ -145,17 +146,17 @@ std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& 
                                          sites.size(), list()));
         return 0;
     }
-    const std::size_t comma = given.find(',');
-    const auto first = hazard_number(std::string_view(given).substr(0, comma));
+    const std::size_t comma = given->find(',');
+    const auto first = hazard_number(std::string_view(*given).substr(0, comma));
     if (comma == std::string::npos) {
         if (first && *first >= 0 && *first == std::floor(*first) && *first < static_cast<double>(sites.size()))
             return static_cast<std::size_t>(*first);
         throw InputError(fmt::format("--site {}: {} has {} sites, from 0 to {}: {}.\n  Give such a number, or LON,LAT.",
-                                     given, file, sites.size(), sites.size() - 1, list()));
+                                     *given, file, sites.size(), sites.size() - 1, list()));
     }
-    const auto second = hazard_number(std::string_view(given).substr(comma + 1));
+    const auto second = hazard_number(std::string_view(*given).substr(comma + 1));
     if (!first || !second)
-        throw InputError(fmt::format("--site {}: is neither LON,LAT in degrees nor a number from 0.", given));
+        throw InputError(fmt::format("--site {}: is neither LON,LAT in degrees nor a number from 0.", *given));
     constexpr double tolerance_deg = 0.001;
     const auto distance = [&](const HazardSite& s) { return std::hypot(s.lon - *first, s.lat - *second); };
     const auto nearest = std::min_element(sites.begin(), sites.end(), [&](const HazardSite& a, const HazardSite& b) {
@@ -164,7 +165,7 @@ std::size_t chosen_site(const std::string& file, const std::vector<HazardSite>& 
     if (!(distance(*nearest) <= tolerance_deg))
         throw InputError(fmt::format("--site {}: {} has no site within {} degrees; the nearest is {}.\n  Give that "
                                      "one, or compute the hazard of the site.",
-                                     given, file, tolerance_deg, nearest->name()));
+                                     *given, file, tolerance_deg, nearest->name()));
     return static_cast<std::size_t>(nearest - sites.begin());
 }
 
@@ -285,40 +286,40 @@ std::optional<double> period_of(std::string_view text)
 
 } // namespace
 
-HazardMeasure measure_of_column(std::string_view name)
+std::optional<HazardMeasure> measure_of_column(std::string_view name)
 {
     for (const Family& family : families)
         for (const Unit& unit : family.units)
             if (name == std::string(family.name) + "_" + unit.name)
-                return {measure_name(family.measure, 0), unit.si};
+                return HazardMeasure{measure_name(family.measure, 0), unit.si};
     if (name.starts_with("sa_"))
         for (const Unit& unit : accelerations)
             if (const std::string ending = std::string("s_") + unit.name; name.ends_with(ending))
                 if (const auto period = period_of(name.substr(3, name.size() - 3 - ending.size())))
-                    return {measure_name(IntensityMeasure::sa, *period), unit.si};
-    return {};
+                    return HazardMeasure{measure_name(IntensityMeasure::sa, *period), unit.si};
+    return std::nullopt;
 }
 
-HazardMeasure measure_without_unit(std::string_view name)
+std::optional<HazardMeasure> measure_without_unit(std::string_view name)
 {
     for (const Family& family : families)
         if (name == family.name)
-            return {measure_name(family.measure, 0), 1};
+            return HazardMeasure{measure_name(family.measure, 0), 1};
     if (name.starts_with("sa_") && name.ends_with("s"))
         if (const auto period = period_of(name.substr(3, name.size() - 4)))
-            return {measure_name(IntensityMeasure::sa, *period), 1};
-    return {};
+            return HazardMeasure{measure_name(IntensityMeasure::sa, *period), 1};
+    return std::nullopt;
 }
 
-HazardMeasure measure_of_openquake(const std::string& imt)
+std::optional<HazardMeasure> measure_of_openquake(const std::string& imt)
 {
     for (const Family& family : families)
         if (imt == family.openquake)
-            return {measure_name(family.measure, 0), 1 / per_si_unit(imt)};
+            return HazardMeasure{measure_name(family.measure, 0), 1 / per_si_unit(imt)};
     if (imt.starts_with("SA(") && imt.ends_with(")"))
         if (const auto period = period_of(std::string_view(imt).substr(3, imt.size() - 4)))
-            return {measure_name(IntensityMeasure::sa, *period), 1 / per_si_unit(imt)};
-    return {};
+            return HazardMeasure{measure_name(IntensityMeasure::sa, *period), 1 / per_si_unit(imt)};
+    return std::nullopt;
 }
 
 std::string known_hazard_measures()

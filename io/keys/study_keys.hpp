@@ -8,6 +8,7 @@
 #include "io/keys/words.hpp"
 
 #include <limits>
+#include <optional>
 
 namespace stylobate {
 
@@ -126,11 +127,11 @@ inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gra
 // of a colonnade
 
 inline const KeyFacts of_colonnade{.used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})}};
-inline KeyFacts colonnade_facts(const char* absent, const char* example = "")
+inline KeyFacts colonnade_facts(const char* absent, std::optional<std::string> example = {})
 {
     return {.absent = absent,
             .used = {where("structure.kind", structure_kind_names, {StructureKind::colonnade})},
-            .example = example};
+            .example = std::move(example)};
 }
 
 inline const WholeKey columns("columns", {2, most_columns, "Or give column_list = [ { x_m = ... }, ... ]."},

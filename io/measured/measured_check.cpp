@@ -106,10 +106,10 @@ private:
         if (run.rate_hz > 0 && std::abs(run.rate_hz * step - 1) > 0.02)
             warn(place, fmt::format("rate_hz is {:g} Hz and the clock has {:g} Hz: the clock is used.", run.rate_hz,
                                     1 / step));
-        if (!run.base_clock.empty() && run.base_clock != "cameras")
+        if (run.base_clock && run.base_clock != "cameras")
             note(at(run, "base"),
                  fmt::format("its clock (\"{}\") differs from that of the cameras: the two may have a time offset.",
-                             run.base_clock));
+                             *run.base_clock));
     }
 
     std::size_t columns(const SeriesName& name, const MeasuredRun& run) const

@@ -260,7 +260,7 @@ MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& c
     check_run_name(run.name, table);
     run.motion_id = whole(table, "motion_id", 0);
     run.repeat = whole(table, "repeat", 0);
-    run.kind = table.text_or_empty("kind");
+    run.kind = table.text_if_given("kind");
     run.rate_hz = table.number_or("rate_hz", any, 0);
     if (table.has("run_order"))
         run.run_order = whole(table, "run_order", 0);
@@ -270,7 +270,7 @@ MeasuredRun read_run(const KeyReader& table, const fs::path& folder, Campaign& c
     if (table.has("base_source"))
         run.base_source =
             base_source(campaign, fmt::format("run {}: base_source", run.name), table.text("base_source"));
-    run.base_clock = table.text_or_empty("base_clock");
+    run.base_clock = table.text_if_given("base_clock");
     RunTable(folder / "runs" / (run.name + ".csv"), campaign, run).read();
     for (const SeriesName& series : series_names())
         series.of(run).noise_sd = table.maybe_number(series.noise_key(), any);
@@ -297,7 +297,7 @@ Campaign read_measured_csv(const fs::path& folder)
     if (head.text("format") != format_name)
         head.refuse("format", "is not measured data", fmt::format("It should be \"{}\".", format_name));
     head.whole("format_version", 1, 1);
-    campaign.specimen.name = head.text_or_empty("specimen");
+    campaign.specimen.name = head.text_if_given("specimen").value_or("");
     campaign.specimen.gravity_m_s2 = head.number_or("gravity_m_s2", any, campaign.specimen.gravity_m_s2);
     read_specimen(top.table("specimen"), campaign);
     for (const KeyReader& run : top.tables("run")) {

@@ -162,7 +162,8 @@ public:
                                                  names_[c], field.substr(0, 40)));
                 break;
             case Column::motion_file:
-                outcome.motion_file = field;
+                if (!field.empty())
+                    outcome.motion_file = field;
                 break;
             case Column::amplitude:
                 outcome.amplitude_m = number(line, c, 10);
@@ -192,7 +193,7 @@ public:
             table_.findings.push_back({Severity::warning, place, "has no outcome and is omitted."});
             return;
         }
-        if (outcome.motion_file.empty() && !outcome.pga_m_s2 && !(outcome.amplitude_m && outcome.frequency_hz)) {
+        if (!outcome.motion_file && !outcome.pga_m_s2 && !(outcome.amplitude_m && outcome.frequency_hz)) {
             table_.findings.push_back({Severity::warning, place, "has no motion and is omitted."});
             return;
         }

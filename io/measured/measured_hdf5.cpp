@@ -164,7 +164,7 @@ private:
         };
         run.motion_id = whole("motion_id").value_or(0);
         run.repeat = whole("repeat").value_or(0);
-        run.kind = text(group, "kind").value_or("");
+        run.kind = text(group, "kind");
         run.rate_hz = number(group, "rate_hz").value_or(0);
         run.run_order = whole("run_order");
         if (const auto collapsed = number(group, "collapsed"))
@@ -213,8 +213,8 @@ private:
         if (std::string(name.path).starts_with("base/") && name.dimension != Dimension::angle) {
             if (const auto source = text(object.id(), "source"))
                 take_source(base_source(campaign_, at(name.path) + "/source", *source), run);
-            if (const auto clock = text(object.id(), "clock"); clock && run.base_clock.empty())
-                run.base_clock = *clock;
+            if (const auto clock = text(object.id(), "clock"); clock && !run.base_clock)
+                run.base_clock = clock;
         }
     }
 

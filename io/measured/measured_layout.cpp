@@ -60,8 +60,8 @@ std::optional<double> unit_in_si(std::string_view spelling, Dimension dimension)
     }
     if (spelling == "m_s2" || spelling == "cm_s2" || spelling == "mm_s2")
         return spelling.front() == 'c' ? 0.01 : spelling.starts_with("mm") ? 0.001 : 1;
-    const std::string canonical = canonical_unit(spelling);
-    return canonical.empty() ? std::nullopt : std::optional(unit_m_s2(canonical));
+    const auto canonical = canonical_unit(spelling);
+    return canonical ? std::optional(unit_m_s2(*canonical)) : std::nullopt;
 }
 
 const char* known_units(Dimension dimension)

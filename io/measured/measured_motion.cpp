@@ -435,14 +435,14 @@ Motion of_columns(const std::filesystem::path& file, PgaRange pga)
 
 } // namespace
 
-Motion read_base_table(const std::filesystem::path& file, const std::string& run, PgaRange pga)
+Motion read_base_table(const std::filesystem::path& file, const std::optional<std::string>& run, PgaRange pga)
 {
-    Motion motion = run.empty() ? of_columns(file, pga) : of_campaign(file, run);
-    if (!run.empty() && pga == PgaRange::usual)
+    Motion motion = run ? of_campaign(file, *run) : of_columns(file, pga);
+    if (run && pga == PgaRange::usual)
         check_peak(motion, file);
     if (!(motion.predominant_frequency_hz > 0))
         motion.predominant_frequency_hz = predominant_frequency(motion.acceleration_m_s2, motion.dt_s);
-    motion.source = run.empty() ? file.string() : fmt::format("{}, run {}", file.string(), run);
+    motion.source = run ? fmt::format("{}, run {}", file.string(), *run) : file.string();
     return motion;
 }
 

@@ -6,6 +6,7 @@
 #include "io/records/record.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,10 @@ Motion base_motion_of(const MeasuredRun& run);
 /// Accelerations up to 1000 m/s2 are taken from a column of them (a base that is hit), up to 50 m/s2 from the others.
 ///
 /// @param pga `any`: of any acceleration
-/// @param run of a measured campaign (an HDF5 file, a folder, its TOML file); empty: the file is one of columns
+/// @param run of a measured campaign (an HDF5 file, a folder, its TOML file); nullopt: the file is one of columns
 /// @throws InputError if it cannot be read, lacks the columns or the run, has times that are not uniform, too few
 ///         samples, does not move, or is faster than that
-Motion read_base_table(const std::filesystem::path& file, const std::string& run = {}, PgaRange pga = PgaRange::usual);
+Motion read_base_table(const std::filesystem::path& file, const std::optional<std::string>& run = {},
+                       PgaRange pga = PgaRange::usual);
 
 } // namespace stylobate

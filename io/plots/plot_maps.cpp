@@ -134,9 +134,9 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
         }
         break;
     }
-    if (!picture.key.empty())
+    if (picture.key)
         script += fmt::format("set label {} at screen 0.075, screen 0.022 left font ',17' textcolor rgb '#505050'\n",
-                              gnuplot_text(picture.key));
+                              gnuplot_text(*picture.key));
     script += "unset key\nset border 31 linewidth 0.8\nset tics out nomirror font ',16'\nset xtics offset "
               "0,0.4\nset cbtics offset -0.9,0\nset style fill solid 1.0 "
               "noborder\n" +

@@ -2,6 +2,7 @@
 /// A picture of several maps over the same frequencies and PGAs, one beside the other.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct MapPicture {
     std::vector<MapPanel> panels;
     int columns = 2;
     std::vector<double>
-        line;        ///< (nf x np), of which the lines at 0.05, 0.5 and 0.95 are drawn over every map; or empty
-    std::string key; ///< explanation of grey cells and lines, below the maps
+        line; ///< (nf x np), of which the lines at 0.05, 0.5 and 0.95 are drawn over every map; or empty
+    std::optional<std::string> key; ///< explanation of grey cells and lines, below the maps
 };
 
 /// The classes of the first panel that has any are explained below the maps.

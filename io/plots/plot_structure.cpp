@@ -188,8 +188,8 @@ std::string mass(double kg)
     return kg < 1000 ? fmt::format("{:.4g} kg", kg) : fmt::format("{:.4g} t", kg / 1000);
 }
 
-/// What of a bed is not that of [contact]; empty: nothing.
-std::string bed_words(const BedSpec& bed)
+/// What of a bed is not that of [contact]; nullopt if nothing is.
+std::optional<std::string> bed_words(const BedSpec& bed)
 {
     std::string words;
     const auto add = [&](const char* name, const std::optional<double>& value, const char* unit) {
@@ -202,7 +202,7 @@ std::string bed_words(const BedSpec& bed)
     add("restitution", bed.restitution, "");
     add("damping", bed.normal_damping_ratio, "");
     add("tangential damping", bed.tangential_damping_ratio, "");
-    return words;
+    return words.empty() ? std::nullopt : std::optional(words);
 }
 
 /// Of the beds under a block; of an epistyle that of its first seat.
@@ -223,7 +223,7 @@ bool alike(const PlacedBlock& a, const PlacedBlock& b)
 bool same_beds(const Drawing& d, std::size_t a, std::size_t b)
 {
     const BedSpec *of_a = bed_under(d, a), *of_b = bed_under(d, b);
-    return (of_a ? bed_words(*of_a) : "") == (of_b ? bed_words(*of_b) : "");
+    return (of_a ? bed_words(*of_a) : std::nullopt) == (of_b ? bed_words(*of_b) : std::nullopt);
 }
 
 Drawing make_drawing(const Study& study)
@@ -289,7 +289,7 @@ void draw_blocks(const Drawing& d, DrawingSheet& sheet)
                         epistyle ? "#27475c" : "#4a3b24");
     }
     for (const PlacedBed& bed : d.layout.beds) {
-        if (bed_words(bed.bed).empty())
+        if (!bed_words(bed.bed))
             continue;
         const PlacedBlock& upper = d.block(static_cast<std::size_t>(bed.upper));
         double from = upper.left(), to = upper.right();
@@ -406,7 +406,8 @@ std::string words_of(const Drawing& d, const std::vector<std::size_t>& run)
 void draw_list(const Drawing& d, DrawingSheet& sheet)
 {
     struct Entry {
-        std::string words, bed;
+        std::string words;
+        std::optional<std::string> bed;
         double top, bottom, from; ///< of the blocks; where the line begins
         double at;
     };
@@ -418,7 +419,8 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
         for (const std::size_t i : run)
             right = std::max(right, d.block(i).right());
         const double top = d.y(of_row ? low.top() : high.top()), bottom = d.y(low.bottom());
-        entries.push_back({words_of(d, run), bed ? bed_words(*bed) : "", top, bottom, d.x(right), (top + bottom) / 2});
+        entries.push_back(
+            {words_of(d, run), bed ? bed_words(*bed) : std::nullopt, top, bottom, d.x(right), (top + bottom) / 2});
     };
     const auto is_alike = [&](std::size_t a, std::size_t b) {
         return alike(d.block(a), d.block(b)) && same_beds(d, a, b) && short_name(d.block(b)) != "capital";
@@ -432,7 +434,7 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
     for (const auto& run : runs_of(d.epistyles, equal_pieces))
         add(run, true);
     std::reverse(entries.begin(), entries.end()); // from the top
-    const auto lines = [](const Entry& e) { return e.bed.empty() ? 1.0 : 2.0; };
+    const auto lines = [](const Entry& e) { return e.bed ? 2.0 : 1.0; };
     double all = 0;
     for (const Entry& e : entries)
         all += lines(e);
@@ -456,8 +458,8 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
         sheet.line(brace, middle, column - 8, e.at, "#909090", 0.4);
         const double fits = DrawingSheet::fitting(e.words, picture_width - column - 10, font);
         sheet.text(e.words, column, e.at, fits, TextAt::left);
-        if (!e.bed.empty())
-            sheet.text("bed: " + e.bed, column, e.at + gap, fits, TextAt::left, bed_colour);
+        if (e.bed)
+            sheet.text("bed: " + *e.bed, column, e.at + gap, fits, TextAt::left, bed_colour);
     }
 }
 
@@ -473,10 +475,10 @@ std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
     if (d.alike) // the list has the rest
         return {{name}};
     const BedSpec* bed = bed_under(d, i);
-    const std::string of_bed = bed ? bed_words(*bed) : "";
+    const auto of_bed = bed ? bed_words(*bed) : std::nullopt;
     std::vector<BlockText> texts;
-    if (!of_bed.empty())
-        texts = {{name, size, {of_bed, bed_colour}}, {size, {of_bed, bed_colour}}};
+    if (of_bed)
+        texts = {{name, size, {*of_bed, bed_colour}}, {size, {*of_bed, bed_colour}}};
     texts.push_back({name, size});
     texts.push_back({size});
     texts.push_back({{d.number(b.width_m) + " ×", black}, {d.number(b.height_m), black}});

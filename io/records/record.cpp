@@ -30,11 +30,12 @@ constexpr const char* comma_remedy =
     "Replace the commas in the numbers by points, or export the file with decimal points.";
 constexpr std::uintmax_t largest_file = 1u << 26; // 64 MiB, hours at 200 Hz: beyond it is no record
 
-std::vector<Record> parse(std::string_view content, const std::string& file, const std::string& unit)
+std::vector<Record> parse(std::string_view content, const std::string& file, const std::optional<std::string>& unit)
 {
-    const std::string given = canonical_unit(unit);
-    if (!unit.empty() && given.empty())
-        throw InputError(file, 0, fmt::format("unit = \"{}\" is not known. It may be {}.", unit, unit_choices));
+    const bool stated = unit && !unit->empty();
+    const auto given = stated ? canonical_unit(*unit) : std::nullopt;
+    if (stated && !given)
+        throw InputError(file, 0, fmt::format("unit = \"{}\" is not known. It may be {}.", *unit, unit_choices));
     const RecordText text = lines_of(file, content);
     refuse_decimal_commas(text);
     std::string formats;
@@ -96,7 +97,7 @@ std::optional<int> column_number(std::string_view name)
 }
 
 /// @throws InputError if it is not among them
-std::size_t place_of(const std::vector<Record>& records, const std::string& component)
+std::size_t place_of(const std::vector<Record>& records, const std::optional<std::string>& component)
 {
     std::string names;
     for (const Record& record : records)
@@ -104,14 +105,14 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
                              record.orientation.empty() || record.orientation == record.component
                                  ? ""
                                  : " (" + record.orientation + ")");
-    if (component.empty()) {
+    if (!component || component->empty()) {
         if (records.size() == 1)
             return 0;
         throw InputError(records.front().file, 0,
                          fmt::format("has {} components and none was selected. Give one as the component: {}.",
                                      records.size(), names));
     }
-    const std::string wanted = lower_case(trimmed(component));
+    const std::string wanted = lower_case(trimmed(*component));
     for (std::size_t i = 0; i < records.size(); ++i)
         if (lower_case(records[i].component) == wanted)
             return i;
@@ -124,8 +125,8 @@ std::size_t place_of(const std::vector<Record>& records, const std::string& comp
                 return i;
     throw InputError(
         records.front().file, 0,
-        fmt::format("component = \"{}\" is not in it. Available: {}{}.", component, names,
-                    records.front().column > 0 && !records.front().note.empty() ? ", " + records.front().note : ""));
+        fmt::format("component = \"{}\" is not in it. Available: {}{}.", *component, names,
+                    records.front().column > 0 && records.front().note ? ", " + *records.front().note : ""));
 }
 
 } // namespace
@@ -269,7 +270,7 @@ std::string plain_unit(std::string_view spelling)
     return unit;
 }
 
-std::string canonical_unit(std::string_view spelling)
+std::optional<std::string> canonical_unit(std::string_view spelling)
 {
     const std::string unit = plain_unit(spelling);
     if (unit == "g" || unit == "g's")
@@ -282,20 +283,21 @@ std::string canonical_unit(std::string_view spelling)
         for (const char* per : {"/s2", "/s/s", "/(s2)", "s-2", ".s-2", "/ss"})
             if (unit == std::string(length) + per)
                 return std::string(length) + "/s2";
-    return {};
+    return std::nullopt;
 }
 
-std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given)
+std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling,
+                         const std::optional<std::string>& given)
 {
-    const std::string unit = canonical_unit(spelling);
-    if (unit.empty())
+    const auto unit = canonical_unit(spelling);
+    if (!unit)
         text.refuse(
             i, fmt::format("the unit \"{}\" is not one of acceleration: g, g/10, m/s2, cm/s2, gal, mm/s2.", spelling));
-    if (!given.empty() && given != unit)
+    if (given && given != unit)
         text.refuse(i,
                     fmt::format("the unit in the file is {}, but the unit given is {}. Omit the unit, or correct it.",
-                                unit, given));
-    return unit;
+                                *unit, *given));
+    return *unit;
 }
 
 bool is_end_mark(std::string_view line)
@@ -473,8 +475,8 @@ PgaRange pga_range(const Study& study)
     return study.allows("pga") ? PgaRange::any : PgaRange::usual;
 }
 
-std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
-                                 PgaRange pga)
+std::vector<Record> read_records(std::string_view content, const std::string& file,
+                                 const std::optional<std::string>& unit, PgaRange pga)
 {
     std::vector<Record> records = parse(content, file, unit);
     if (pga == PgaRange::usual)
@@ -483,13 +485,14 @@ std::vector<Record> read_records(std::string_view content, const std::string& fi
     return records;
 }
 
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit, PgaRange pga)
+std::vector<Record> read_records(const std::filesystem::path& file, const std::optional<std::string>& unit,
+                                 PgaRange pga)
 {
     return read_records(content_of(file, "a ground-motion record"), file.string(), unit, pga);
 }
 
-Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
-                   PgaRange pga)
+Record read_record(const std::filesystem::path& file, const std::optional<std::string>& component,
+                   const std::optional<std::string>& unit, PgaRange pga)
 {
     std::vector<Record> records = parse(content_of(file, "a ground-motion record"), file.string(), unit);
     Record record = std::move(records[place_of(records, component)]);

@@ -27,15 +27,15 @@ struct Record {
     std::string component; ///< its name in the file, or "column 2"
     std::string title;     ///< event and station, as given in the file
     std::string unit;      ///< the file's unit: "g", "g/10", "m/s2", "cm/s2", "mm/s2"
-    std::string station;   ///< as given in the file: a name, a code or a number; empty if absent
-    std::string orientation; ///< as given in the file: "N10W", "360", "UP", "HNE"; empty if absent
+    std::string station;   ///< the text of the file, which may have no character: a name, a code or a number
+    std::string orientation; ///< the text of the file, which may have no character: "N10W", "360", "UP", "HNE"
     /// By the words that agencies use in the header, the name of the column, the title or the name of the file
     /// (io/records/record_names.cpp). A vertical component is no horizontal base motion.
     Direction direction = Direction::unknown;
     /// The largest |acceleration| that the file's own header states; none if it states none.
     std::optional<double> header_pga_m_s2;
-    std::size_t column = 0; ///< of a table, counted from 1; 0 in other formats
-    std::string note;       ///< what the reader had to do to the samples, for people; empty if nothing
+    std::size_t column = 0;          ///< of a table, counted from 1; 0 in other formats
+    std::optional<std::string> note; ///< what the reader had to do to the samples, for people; nullopt: nothing
     double dt_s = 0;
     std::vector<double> acceleration_m_s2;
 };
@@ -52,25 +52,25 @@ PgaRange pga_range(const Study& study);
 /// Reads every component of a file; the format is recognised from its content, never from its name. What each format
 /// is stands on top of its io/records/record_NAME.cpp.
 ///
-/// @param unit of the acceleration: "g" (9.80665 m/s2), "g/10", "m/s2", "cm/s2" (or "gal"), "mm/s2"; empty = the file
-///        must say it
+/// @param unit of the acceleration: "g" (9.80665 m/s2), "g/10", "m/s2", "cm/s2" (or "gal"), "mm/s2"; nullopt, or an
+///        empty text, where the file must say it
 /// @throws InputError if it cannot be read, is truncated, contradicts its own header, is of no known format,
 ///         says no unit and none is given, or says another unit than the one given, or if a PGA is outside
 ///         [smallest_pga_m_s2, largest_pga_m_s2]
-std::vector<Record> read_records(const std::filesystem::path& file, const std::string& unit,
+std::vector<Record> read_records(const std::filesystem::path& file, const std::optional<std::string>& unit,
                                  PgaRange pga = PgaRange::usual);
 
 /// Reads every component of a text in memory.
 /// @param file name of the text, for messages and `Record::file`
-std::vector<Record> read_records(std::string_view content, const std::string& file, const std::string& unit,
-                                 PgaRange pga = PgaRange::usual);
+std::vector<Record> read_records(std::string_view content, const std::string& file,
+                                 const std::optional<std::string>& unit, PgaRange pga = PgaRange::usual);
 
 /// The one component that is asked for: by name ("chan 1", "column 2"), by an orientation that only one has ("360"), or
-/// by column number ("2"); empty = the only one there is. Upper and lower case are one.
+/// by column number ("2"); nullopt, or an empty text, for the only one there is. Upper and lower case are one.
 /// @throws InputError as above (the PGA of this component only), and if there is no such component or none was named
 ///         among several
-Record read_record(const std::filesystem::path& file, const std::string& component, const std::string& unit,
-                   PgaRange pga = PgaRange::usual);
+Record read_record(const std::filesystem::path& file, const std::optional<std::string>& component,
+                   const std::optional<std::string>& unit, PgaRange pga = PgaRange::usual);
 
 /// "horizontal", "vertical" or "unknown".
 const char* to_string(Direction direction);

@@ -126,8 +126,8 @@ Size read_size(const RecordText& text, std::size_t i, bool and_no_unit)
     return size;
 }
 
-/// The unit as the header spells it ("g", "cm/s/s"), in lower case; empty if it says none.
-std::string stated_unit(std::string_view line)
+/// The unit as the header spells it ("g", "cm/s/s"), in lower case; nullopt if it says none.
+std::optional<std::string> stated_unit(std::string_view line)
 {
     const std::string lower = lower_case(line);
     for (const char* phrase : {"units of", "units are", "units:", "units ="}) {
@@ -139,9 +139,9 @@ std::string stated_unit(std::string_view line)
         std::string_view word = rest.substr(first, rest.find_first_of(" \t,;)", first) - first);
         while (word.ends_with('.'))
             word.remove_suffix(1);
-        return std::string(word);
+        return word.empty() ? std::nullopt : std::optional<std::string>(word);
     }
-    return {};
+    return std::nullopt;
 }
 
 /// Refuses the series that is no acceleration, whatever its unit line says or lacks.
@@ -160,14 +160,14 @@ void refuse_other_series(const RecordText& text, std::size_t header_lines)
     }
 }
 
-std::string read_unit(const RecordText& text, std::size_t header_lines, const std::string& given)
+std::string read_unit(const RecordText& text, std::size_t header_lines, const std::optional<std::string>& given)
 {
     for (std::size_t i = 0; i < header_lines; ++i)
-        if (const std::string spelling = stated_unit(text.lines[i]); !spelling.empty())
-            return unit_of_file(text, i, spelling, given);
-    if (given.empty())
+        if (const auto spelling = stated_unit(text.lines[i]))
+            return unit_of_file(text, i, *spelling, given);
+    if (!given)
         text.refuse(fmt::format("does not contain the unit of its acceleration. {}", unit_remedy));
-    return given;
+    return *given;
 }
 
 /// Station and component are the last two parts of the title, as in
@@ -189,15 +189,15 @@ void name_from_title(Record& record)
         record.station = trimmed(rest.substr(second + 1));
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     const std::size_t header = size_line(text);
     if (header >= std::min(text.lines.size(), longest_header))
         text.refuse("looks like a PEER .AT2 file, but has no line like \"NPTS=  5372, DT=   .0100 SEC\" above its "
                     "values.");
     const auto first = text.lines.begin();
-    const bool no_unit = given.empty() && std::all_of(first, first + static_cast<std::ptrdiff_t>(header),
-                                                      [](std::string_view line) { return stated_unit(line).empty(); });
+    const bool no_unit = !given && std::all_of(first, first + static_cast<std::ptrdiff_t>(header),
+                                               [](std::string_view line) { return !stated_unit(line); });
     const Size size = read_size(text, header, no_unit);
     Record record;
     refuse_other_series(text, header);

@@ -232,7 +232,7 @@ double time_unit_s(const RecordText& text, const ColumnTable& table)
     if (no_time(meaning.of_unit) || (meaning.plain && no_time(meaning.of_words)))
         text.refuse(*table.heading_line, fmt::format("the first column is \"{}\". It must be the time, in seconds.",
                                                      table.headings.front()));
-    const std::string unit = plain_unit(meaning.unit);
+    const std::string unit = plain_unit(meaning.unit.value_or(""));
     return unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : unit == "min" ? 60 : 1;
 }
 
@@ -260,7 +260,7 @@ ColumnTable read_rows(const RecordText& text, std::size_t first_row)
 /// What a column holds, and its unit.
 struct Use {
     ColumnMeaning::Quantity quantity = ColumnMeaning::Quantity::acceleration;
-    std::string unit; ///< as its name spells it; empty if it has none
+    std::optional<std::string> unit; ///< as its name spells it; nullopt if it has none
 };
 
 /// What the names make of the columns, the time not included.
@@ -314,17 +314,17 @@ std::vector<Use> uses_of(const RecordText& text, const ColumnTable& table)
 /// A unit that the lines above the rows state, outside the names of columns.
 struct StatedUnit {
     std::size_t line = 0;
-    std::string unit; ///< as it is spelled; empty if there is none
+    std::string unit; ///< as it is spelled
 };
 
-StatedUnit stated_unit(const RecordText& text, const ColumnTable& table)
+std::optional<StatedUnit> stated_unit(const RecordText& text, const ColumnTable& table)
 {
     for (std::size_t i = 0; i < table.line.front(); ++i) {
         const bool names = table.heading_line == i && !table.headings.empty() && table.columns.size() > 1;
-        if (const std::string unit = names ? "" : unit_in_line(text.lines[i]); !unit.empty())
-            return {i, unit};
+        if (const auto unit = names ? std::nullopt : unit_in_line(text.lines[i]))
+            return StatedUnit{i, *unit};
     }
-    return {};
+    return std::nullopt;
 }
 
 /// Refuses names that do not fit the columns, where they name other quantities than accelerations.
@@ -358,14 +358,14 @@ void refuse_missing(const RecordText& text, const ColumnTable& table, bool no_un
         text.refuse(table.line.front(), time);
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     using Quantity = ColumnMeaning::Quantity;
     const ColumnTable table = read_columns(text);
     const std::size_t columns = table.columns.size();
     refuse_names_that_do_not_fit(text, table);
     const std::vector<Use> uses = uses_of(text, table);
-    const StatedUnit stated = stated_unit(text, table);
+    const std::optional<StatedUnit> stated = stated_unit(text, table);
     const std::size_t first = columns == 1 ? 0 : 1;
     std::string left_out;
     bool no_unit = false, any = false;
@@ -375,7 +375,7 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
             left_out += fmt::format("{}\"{}\" ({})", left_out.empty() ? "" : ", ", table.headings[c],
                                     to_string(uses[c].quantity));
         else
-            no_unit = no_unit || (given.empty() && uses[c].unit.empty() && stated.unit.empty());
+            no_unit = no_unit || (!given && !uses[c].unit && !stated);
     }
     if (!any)
         text.refuse(*table.heading_line, fmt::format("no column is an acceleration: {}. Give the file with the "
@@ -390,9 +390,9 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         record.component = table.names[c];
         record.column = c + 1;
         record.title = table.title;
-        record.unit = !uses[c].unit.empty()  ? unit_of_file(text, *table.heading_line, uses[c].unit, given)
-                      : !stated.unit.empty() ? unit_of_file(text, stated.line, stated.unit, given)
-                                             : given;
+        record.unit = uses[c].unit ? unit_of_file(text, *table.heading_line, *uses[c].unit, given)
+                      : stated     ? unit_of_file(text, stated->line, stated->unit, given)
+                                   : *given;
         if (!left_out.empty())
             record.note = fmt::format("without the columns {}", left_out);
         record.dt_s = columns == 1 ? *table.stated_dt_s : table.dt_s;

@@ -72,8 +72,8 @@ std::vector<double> header_numbers(const RecordText& text, std::size_t& line, st
 struct Header {
     std::size_t top = 0, integer_line = 0, real_line = 0;
     std::vector<double> integers, reals;
-    double unknown = -999; ///< what stands for a value that is not known
-    std::string code;      ///< "BNZ" of the comment "|<SCNL>BMR.BNZ.AK.--"; empty if there is none
+    double unknown = -999;           ///< what stands for a value that is not known
+    std::optional<std::string> code; ///< "BNZ" of the comment "|<SCNL>BMR.BNZ.AK.--"; nullopt if there is none
 };
 
 /// @param[in,out] line the channel's first line; afterwards the one above its first values
@@ -103,8 +103,9 @@ Header read_header(const RecordText& text, std::size_t& line)
     for (++line; trimmed(line_at(text, line)).starts_with('|'); ++line)
         if (const std::string scnl = word_after(text.lines[line], "<scnl>"); !scnl.empty()) {
             const std::size_t dot = std::min(scnl.find('.'), scnl.size());
-            header.code = scnl.substr(std::min(dot + 1, scnl.size()));
-            header.code.resize(std::min(header.code.find('.'), header.code.size()));
+            std::string code = scnl.substr(std::min(dot + 1, scnl.size()));
+            code.resize(std::min(code.find('.'), code.size()));
+            header.code = code.empty() ? std::nullopt : std::optional(code);
         }
     if (static_cast<double>(line - first) != stated)
         text.refuse(first - 1, fmt::format("{} comment lines are announced and {} follow.", stated, line - first));
@@ -115,10 +116,10 @@ Header read_header(const RecordText& text, std::size_t& line)
 struct Block {
     std::size_t count = 0;
     bool acceleration = false;
-    std::string quantity; ///< as it is spelled
-    double seconds = 0;   ///< a whole number, cut or rounded
-    std::string unit;     ///< as it is spelled
-    std::string code;     ///< "04" of "cm/sec2(04)"; empty if it has none
+    std::string quantity;            ///< as it is spelled
+    double seconds = 0;              ///< a whole number, cut or rounded
+    std::string unit;                ///< as it is spelled
+    std::optional<std::string> code; ///< "04" of "cm/sec2(04)"; nullopt if it has none
     FortranFormat format;
 };
 
@@ -154,7 +155,7 @@ Block read_block(const RecordText& text, std::size_t i)
 
 /// The unit by its code in the integer header, with which the spelling and the code above the values must agree.
 std::string unit_of(const RecordText& text, std::size_t i, const Header& header, const Block& block,
-                    const std::string& given)
+                    const std::optional<std::string>& given)
 {
     const double code = header.integers[2];
     if (header.integers[1] != 1)
@@ -163,8 +164,8 @@ std::string unit_of(const RecordText& text, std::size_t i, const Header& header,
             fmt::format(
                 "integer 2 gives the quantity code {}, but line {} gives an acceleration (1). One of them is wrong.",
                 header.integers[1], i + 1));
-    if (!block.code.empty() && number(text, i, block.code) != code)
-        text.refuse(i, fmt::format("the unit's code is {} here and {} in line {}. One of them is wrong.", block.code,
+    if (block.code && number(text, i, *block.code) != code)
+        text.refuse(i, fmt::format("the unit's code is {} here and {} in line {}. One of them is wrong.", *block.code,
                                    code, header.integer_line + 2));
     const char* unit = code == 2 ? "g" : code == 4 || code == 10 ? "cm/s2" : nullptr;
     if (code == 50)
@@ -175,7 +176,7 @@ std::string unit_of(const RecordText& text, std::size_t i, const Header& header,
                     fmt::format("the unit of acceleration has code {} (\"{}\"); known are 2 (g), 4 (cm/s2) and 10 "
                                 "(gal).",
                                 code, block.unit));
-    if (const std::string spelled = canonical_unit(block.unit); spelled != unit)
+    if (canonical_unit(block.unit) != unit)
         text.refuse(i, fmt::format("the unit is \"{}\" here, and has code {} ({}) in line {}. One of them is wrong.",
                                    block.unit, code, unit, header.integer_line + 2));
     return unit_of_file(text, i, unit, given);
@@ -200,7 +201,7 @@ std::string orientation_of(const Header& header)
                                    {601, "Tangential"}})
         if (azimuth == direction.code)
             return direction.name;
-    return header.code;
+    return header.code.value_or("");
 }
 
 /// "chan 1" of "Sta Chan   1: 90 deg (Rcrdr Chan  1)"; the channel's code where it has no number.
@@ -213,11 +214,11 @@ std::string component_of(const RecordText& text, const Header& header)
     channel.resize(std::min(channel.find(':'), channel.size()));
     if (is_number(channel))
         return "chan " + channel;
-    return header.code.empty() ? "acceleration" : header.code;
+    return header.code.value_or("acceleration");
 }
 
 Record acceleration_of(const RecordText& text, std::size_t i, const Header& header, const Block& block,
-                       const std::string& given, std::vector<double> values)
+                       const std::optional<std::string>& given, std::vector<double> values)
 {
     Record record;
     record.unit = unit_of(text, i, header, block, given);
@@ -250,7 +251,7 @@ Record acceleration_of(const RecordText& text, std::size_t i, const Header& head
     return record;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     std::vector<Record> records;
     std::string others;

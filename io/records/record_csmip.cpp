@@ -137,16 +137,17 @@ std::optional<double> header_peak(const RecordText& text, std::size_t top, std::
         const std::string_view reals = text.lines[data - real_header_lines];
         peak = trimmed(reals.substr(std::min(peak_in_real_header * 10, reals.size()), 10));
     }
-    const std::string canonical = canonical_unit(unit);
-    if (canonical.empty() || !is_number(peak))
+    const auto canonical = canonical_unit(unit);
+    if (!canonical || !is_number(peak))
         return {};
-    return stated_peak_m_s2(number(text, line < data ? line : data - real_header_lines, peak), canonical);
+    return stated_peak_m_s2(number(text, line < data ? line : data - real_header_lines, peak), *canonical);
 }
 
 /// Below the text of a channel of pairs: 100 integers, 50 reals, the pairs.
 /// @param units the line that says so
 /// @param[in,out] line the channel's first line; afterwards the one below its values
-void read_pairs(const RecordText& text, std::size_t units, std::size_t& line, const std::string& given, Record& record)
+void read_pairs(const RecordText& text, std::size_t units, std::size_t& line, const std::optional<std::string>& given,
+                Record& record)
 {
     constexpr std::size_t integer_lines = 7;
     const std::size_t points = header_line(text, line, units - line, "no. of points");
@@ -186,9 +187,8 @@ void read_pairs(const RecordText& text, std::size_t units, std::size_t& line, co
         text.refuse(points,
                     fmt::format("the stated record length is {} s, but the last time is {} s.", length, last_s));
     if (const std::string peak = word_after(text.lines[units], "max"); is_number(peak))
-        if (const std::string unit = canonical_unit(word_after(text.lines[units], lower_case(peak) + " "));
-            !unit.empty())
-            record.header_pga_m_s2 = stated_peak_m_s2(number(text, units, peak), unit);
+        if (const auto unit = canonical_unit(word_after(text.lines[units], lower_case(peak) + " ")))
+            record.header_pga_m_s2 = stated_peak_m_s2(number(text, units, peak), *unit);
     line = first_value + lines;
 }
 
@@ -209,7 +209,8 @@ void read_names(const RecordText& text, std::size_t top, std::size_t end, Record
 
 /// The values of a channel that stand in evenly spaced blocks, acceleration first.
 /// @param[in,out] line the channel's first line; afterwards the one below its values
-void read_blocks(const RecordText& text, std::size_t data, std::size_t& line, const std::string& given, Record& record)
+void read_blocks(const RecordText& text, std::size_t data, std::size_t& line, const std::optional<std::string>& given,
+                 Record& record)
 {
     const Block block = read_block(text, data);
     const std::size_t stated = find_line(text, line, data, "no. of points");
@@ -232,7 +233,7 @@ void read_blocks(const RecordText& text, std::size_t data, std::size_t& line, co
 
 /// One channel.
 /// @param[in,out] line its first line; afterwards the one below its end
-Record read_channel(const RecordText& text, std::size_t& line, const std::string& given)
+Record read_channel(const RecordText& text, std::size_t& line, const std::optional<std::string>& given)
 {
     const std::size_t top = line;
     if (!is_channel_top(text.lines[top]))
@@ -257,7 +258,7 @@ Record read_channel(const RecordText& text, std::size_t& line, const std::string
     return record;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     return one_after_another(text, given, read_channel);
 }

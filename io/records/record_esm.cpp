@@ -73,7 +73,7 @@ bool recognise(const RecordText& text)
     return trimmed(text.lines.front()).starts_with("EVENT_NAME:");
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     const std::size_t header = header_lines(text);
     const std::size_t type = needed(text, header, "DATA_TYPE");

@@ -208,9 +208,9 @@ std::vector<double> read_numbers(const RecordText& text, std::size_t first_line,
     return values;
 }
 
-std::vector<Record> one_after_another(const RecordText& text, const std::string& given,
+std::vector<Record> one_after_another(const RecordText& text, const std::optional<std::string>& given,
                                       Record (*read)(const RecordText& text, std::size_t& line,
-                                                     const std::string& given))
+                                                     const std::optional<std::string>& given))
 {
     std::vector<Record> records;
     for (std::size_t line = 0; line < text.lines.size();) {
@@ -234,8 +234,8 @@ double fill_from_pairs(const RecordText& text, std::size_t first_value, int per_
     }
     record.dt_s = static_cast<double>(step_ms) * time_unit_s;
     if (longest_ms > step_ms)
-        record.note +=
-            (record.note.empty() ? "" : "; ") +
+        record.note =
+            (record.note ? *record.note + "; " : "") +
             fmt::format("{} uneven samples, up to {} ms apart, on an even grid of {} ms that has all of their "
                         "times; straight lines between, the PGA is that of the samples",
                         count, longest_ms, step_ms);

@@ -37,7 +37,7 @@ bool recognise(const RecordText& text)
 }
 
 /// The unit that the header spells; that of the format's definition where it spells none.
-std::string unit_of(const RecordText& text, std::size_t top, const std::string& given)
+std::string unit_of(const RecordText& text, std::size_t top, const std::optional<std::string>& given)
 {
     constexpr std::string_view defined = "mm/s2";
     const std::size_t peak = top + peak_line;
@@ -64,7 +64,7 @@ std::string_view integer_at(const RecordText& text, std::size_t top, std::size_t
 }
 
 /// @param[in,out] line the component's first line; afterwards the one below its end
-Record read_component(const RecordText& text, std::size_t& line, const std::string& given)
+Record read_component(const RecordText& text, std::size_t& line, const std::optional<std::string>& given)
 {
     const std::size_t top = line;
     if (!is_component_top(text.lines[top]))
@@ -106,7 +106,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     return record;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     std::vector<Record> records = one_after_another(text, given, read_component);
     // two horizontal ones may be given one direction by mistake: no name stands for both

@@ -93,7 +93,7 @@ bool is_unit(const Entry& entry)
 {
     if (has_one_of(entry.name, {"time", "velocity", "displacement"}))
         return false;
-    const bool known = !canonical_unit(parts_of(entry.value, true).front()).empty();
+    const bool known = canonical_unit(parts_of(entry.value, true).front()).has_value();
     return entry.name == "unit" || entry.name == "units" ||
            (known && has_one_of(entry.name, {"unit", "unidad", "einheit"}));
 }
@@ -163,27 +163,26 @@ void refuse_other_series(const RecordText& text, const Header& header)
             refuse_other_quantity(text, i);
 }
 
-/// What a header states of the unit.
+/// The unit of the values.
 struct Unit {
-    std::string name; ///< canonical; empty if it states none
+    std::string name; ///< canonical
     bool of_peak_only = false;
 };
 
-Unit unit_of(const RecordText& text, const Header& header, const std::string& given)
+Unit unit_of(const RecordText& text, const Header& header, const std::optional<std::string>& given)
 {
     if (header.unit) {
         const std::string spelled(parts_of(header.unit->value, true).front());
         return {unit_of_file(text, header.unit->line, spelled, given), false};
     }
     for (std::size_t i = 0; i < header.end; ++i)
-        if (const std::string unit = unit_in_line(text.lines[i]);
-            !unit.empty() && (!header.peak || header.peak->line != i))
-            return {unit_of_file(text, i, unit, given), false};
-    if (header.peak && !canonical_unit(header.peak->inside).empty())
-        return {unit_of_file(text, header.peak->line, header.peak->inside, given), given.empty()};
-    if (given.empty())
+        if (const auto unit = unit_in_line(text.lines[i]); unit && (!header.peak || header.peak->line != i))
+            return {unit_of_file(text, i, *unit, given), false};
+    if (header.peak && canonical_unit(header.peak->inside))
+        return {unit_of_file(text, header.peak->line, header.peak->inside, given), !given};
+    if (!given)
         text.refuse(fmt::format("does not contain the unit of its acceleration. {}", unit_remedy));
-    return {given, false};
+    return {*given, false};
 }
 
 /// The peak of a component: the one that stands behind its name, "(N-S) 60.0", or the only one.
@@ -257,7 +256,7 @@ bool begins_with_time(const std::vector<std::vector<double>>& series, const std:
     return names.empty() && std::fabs(first.back() - first.front() - span) < dt_s;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     const Header header = header_of(text);
     refuse_other_series(text, header);
@@ -306,9 +305,9 @@ std::vector<Record> parse(const RecordText& text, const std::string& given)
         double largest = 0; // in m/s2
         for (const double a : record.acceleration_m_s2)
             largest = std::max(largest, std::fabs(a) * unit_m_s2(record.unit));
-        const std::string peak_unit = header.peak ? canonical_unit(header.peak->inside) : "";
-        if (const auto peak = peak_of(header, names.empty() ? "" : names[c]); peak && !peak_unit.empty())
-            record.header_pga_m_s2 = stated_peak_m_s2(*peak, peak_unit);
+        const auto peak_unit = header.peak ? canonical_unit(header.peak->inside) : std::nullopt;
+        if (const auto peak = peak_of(header, names.empty() ? "" : names[c]); peak && peak_unit)
+            record.header_pga_m_s2 = stated_peak_m_s2(*peak, *peak_unit);
         constexpr double alike = 3;
         if (unit.of_peak_only && record.header_pga_m_s2 &&
             !(largest < alike * *record.header_pga_m_s2 && largest > *record.header_pga_m_s2 / alike))

@@ -86,7 +86,7 @@ std::pair<std::string, std::string> direction_of(const std::string& value)
     return {fmt::format("{}{}", pairs[channel % 3], channel / 3 + 1), axes[channel % 3]};
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     Record record;
     const std::size_t scale = needed(text, "scale factor");

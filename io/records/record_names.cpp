@@ -26,7 +26,7 @@ bool begins_with(std::string_view word, std::initializer_list<std::string_view> 
 /// The quantity of a unit; `unnamed` of what is none.
 Quantity quantity_of_unit(std::string_view spelling)
 {
-    if (!canonical_unit(spelling).empty())
+    if (canonical_unit(spelling))
         return Quantity::acceleration;
     const std::string unit = plain_unit(spelling);
     if (is_one_of(unit, {"m/s", "cm/s", "mm/s", "km/h", "in/s", "ft/s", "ms-1", "cms-1", "mms-1", "m.s-1", "cm.s-1",
@@ -103,7 +103,7 @@ Quantity quantity_of_words(std::string_view name, bool& plain)
 
 /// A unit in a name, and the name without it.
 struct UnitInName {
-    std::string unit; ///< as it is spelled; empty if there is none
+    std::optional<std::string> unit; ///< as it is spelled; nullopt if there is none
     std::string rest;
 };
 
@@ -137,12 +137,12 @@ UnitInName unit_in(std::string_view name)
     // behind a blank, a comma or "in", where the rest names the quantity: "Acceleration, g"
     const std::size_t gap = name.find_last_of(" ,");
     if (gap == std::string_view::npos)
-        return {{}, std::string(name)};
+        return {std::nullopt, std::string(name)};
     const std::string_view last = name.substr(gap + 1), rest = name.substr(0, gap);
     bool plain = false;
     if (quantity_of_unit(last) != Quantity::unnamed && quantity_of_words(rest, plain) != Quantity::unnamed)
         return {std::string(last), std::string(rest)};
-    return {{}, std::string(name)};
+    return {std::nullopt, std::string(name)};
 }
 
 } // namespace
@@ -171,12 +171,12 @@ ColumnMeaning meaning_of_column(std::string_view name)
     const UnitInName found = unit_in(name);
     ColumnMeaning meaning;
     meaning.unit = found.unit;
-    meaning.of_unit = found.unit.empty() ? Quantity::unnamed : quantity_of_unit(found.unit);
+    meaning.of_unit = found.unit ? quantity_of_unit(*found.unit) : Quantity::unnamed;
     meaning.of_words = quantity_of_words(found.rest, meaning.plain);
     return meaning;
 }
 
-std::string unit_in_line(std::string_view line)
+std::optional<std::string> unit_in_line(std::string_view line)
 {
     const std::string lower = lower_case(line);
     for (const char* phrase : {"units of", "units are", "unit is", "units in", "units:", "units =", "unit:", "unit =",
@@ -187,7 +187,7 @@ std::string unit_in_line(std::string_view line)
         std::string_view word = trimmed(std::string_view(lower).substr(at + std::string_view(phrase).size()));
         const std::size_t first = std::min(word.find_first_not_of("([ \""), word.size());
         word = word.substr(first, word.find_first_of(" \t,;)]\"", first) - first);
-        if (!canonical_unit(word).empty())
+        if (canonical_unit(word))
             return std::string(word);
     }
     const UnitInName found = unit_in(line);
@@ -195,7 +195,7 @@ std::string unit_in_line(std::string_view line)
     bool plain = false; // a spectral acceleration is another quantity
     const bool named = std::any_of(words.begin(), words.end(), names_acceleration) &&
                        quantity_of_words(found.rest, plain) != Quantity::other;
-    return named && !canonical_unit(found.unit).empty() ? found.unit : "";
+    return named && found.unit && canonical_unit(*found.unit) ? found.unit : std::nullopt;
 }
 
 // Whether a component is horizontal or vertical, from the names that agencies give.

@@ -47,22 +47,23 @@ bool recognise(const RecordText& text)
     return size_of(text).has_value();
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     const Size size = *size_of(text);
     Record record;
     record.component = "acceleration";
     record.dt_s = size.dt_s;
-    record.unit = given;
+    std::optional<std::string> unit = given;
     for (std::size_t i = 0; i < size.line; ++i) {
         if (record.title.empty())
             record.title = squeezed(text.lines[i]);
         refuse_other_quantity(text, i);
-        if (const std::string unit = unit_in_line(text.lines[i]); !unit.empty())
-            record.unit = unit_of_file(text, i, unit, given);
+        if (const auto stated = unit_in_line(text.lines[i]))
+            unit = unit_of_file(text, i, *stated, given);
     }
-    if (record.unit.empty())
+    if (!unit)
         text.refuse(fmt::format("does not contain the unit of its acceleration. {}", unit_remedy));
+    record.unit = *unit;
     std::size_t below = 0;
     record.acceleration_m_s2 = read_numbers(text, size.line + 1, size.count, &below);
     refuse_more(text, below);

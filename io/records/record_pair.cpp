@@ -223,15 +223,15 @@ Record only_one(const Record& first, const OtherComponent& other, std::vector<Re
 }
 
 /// Of a file, by its direction where there are several.
-Record of_file(const Record& first, const OtherComponent& other, const std::string& unit)
+Record of_file(const Record& first, const OtherComponent& other, const std::optional<std::string>& unit)
 {
-    std::vector<Record> records = read_records(other.spec.file, unit, PgaRange::any);
+    std::vector<Record> records = read_records(*other.spec.file, unit, PgaRange::any);
     return records.size() == 1 ? std::move(records.front())
-                               : only_one(first, other, std::move(records), false, "in " + other.spec.file);
+                               : only_one(first, other, std::move(records), false, "in " + *other.spec.file);
 }
 
 /// By its direction, in the file of the first one or in the files named like it.
-Record by_direction(const Record& first, const OtherComponent& other, const std::string& unit)
+Record by_direction(const Record& first, const OtherComponent& other, const std::optional<std::string>& unit)
 {
     std::vector<Record> records = read_records(first.file, unit, PgaRange::any);
     if (records.size() > 1) {
@@ -299,8 +299,8 @@ void turn(const Record& first, Record& second)
         return;
     for (double& a : second.acceleration_m_s2)
         a = 0 - a;
-    second.note += (second.note.empty() ? "" : "; ") +
-                   std::string("sign turned: positive 90 degrees clockwise from the first component");
+    second.note = (second.note ? *second.note + "; " : "") +
+                  "sign turned: positive 90 degrees clockwise from the first component";
 }
 
 } // namespace
@@ -327,10 +327,11 @@ std::optional<double> azimuth_of_name(std::string_view name)
 Record other_component(const Record& first, const OtherComponent& other, PgaRange pga)
 {
     const ComponentSpec& spec = other.spec;
-    const std::string unit = spec.unit.empty() ? other.unit : spec.unit;
-    std::string file = spec.file.empty() ? first.file : spec.file, component = spec.component;
-    if (component.empty()) {
-        const Record named = spec.file.empty() ? by_direction(first, other, unit) : of_file(first, other, unit);
+    const std::optional<std::string> unit = spec.unit ? spec.unit : other.unit;
+    std::string file = spec.file.value_or(first.file);
+    std::optional<std::string> component = spec.component;
+    if (!component) {
+        const Record named = spec.file ? of_file(first, other, unit) : by_direction(first, other, unit);
         file = named.file;
         component = named.component;
     }

@@ -23,7 +23,7 @@ struct OtherComponent {
     std::string key;                             ///< for messages: "excitation.second"
     ComponentSpec spec;                          ///< as given in the study
     Direction direction = Direction::horizontal; ///< or vertical
-    std::string unit;                            ///< of the first component, as given in the study
+    std::optional<std::string> unit;             ///< of the first component, as given in the study
 };
 
 /// Another component of the recording of which `first` is one:

@@ -44,8 +44,8 @@ struct ColumnMeaning {
     enum class Quantity { unnamed, acceleration, velocity, displacement, time, other };
     Quantity of_words = Quantity::unnamed; ///< of its words, or of its letter
     Quantity of_unit = Quantity::unnamed;
-    std::string unit;   ///< as it is spelled; empty if it has none
-    bool plain = false; ///< its quantity is a word, "velocity", and not a letter, which may be a direction
+    std::optional<std::string> unit; ///< as it is spelled; nullopt if it has none
+    bool plain = false;              ///< its quantity is a word, "velocity", and not a letter, which may be a direction
 };
 ColumnMeaning meaning_of_column(std::string_view name);
 
@@ -53,8 +53,8 @@ ColumnMeaning meaning_of_column(std::string_view name);
 const char* to_string(ColumnMeaning::Quantity quantity);
 
 /// The unit of acceleration that a line of text above the rows spells, as in "# unit: cm/s2" or "% Acceleration (g)";
-/// empty if there is none.
-std::string unit_in_line(std::string_view line);
+/// nullopt if there is none.
+std::optional<std::string> unit_in_line(std::string_view line);
 
 /// Plain columns of numbers, as record_columns.cpp describes them.
 struct ColumnTable {
@@ -77,9 +77,9 @@ struct RecordParser {
     bool (*recognise)(const RecordText& text);
     /// Every component, its values in `Record::unit`: the reader converts them, and fills in file, format and
     /// direction.
-    /// @param unit canonical name ("g", "g/10", "m/s2", "cm/s2", "mm/s2"), or empty: the file must say it
+    /// @param unit canonical name ("g", "g/10", "m/s2", "cm/s2", "mm/s2"); nullopt: the file must say it
     /// @throws InputError
-    std::vector<Record> (*parse)(const RecordText& text, const std::string& unit);
+    std::vector<Record> (*parse)(const RecordText& text, const std::optional<std::string>& unit);
 };
 
 extern const RecordParser at2_parser;
@@ -107,8 +107,9 @@ double unit_m_s2(std::string_view unit);
 /// A unit in lower case without blanks and marks of powers, "sec" as "s": "CM/SEC^2" is "cm/s2".
 std::string plain_unit(std::string_view spelling);
 
-/// "g", "g/10", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); empty if it is none.
-std::string canonical_unit(std::string_view spelling);
+/// "g", "g/10", "m/s2", "cm/s2" or "mm/s2" for any usual spelling ("gal", "cm/sec/sec", "M/S^2"); nullopt if it is
+/// none.
+std::optional<std::string> canonical_unit(std::string_view spelling);
 
 /// What to do about a missing unit, for messages.
 inline constexpr const char* unit_remedy = "Give it (unit = \"...\" beside the file in the study, or --unit): "
@@ -116,7 +117,8 @@ inline constexpr const char* unit_remedy = "Give it (unit = \"...\" beside the f
 
 /// The unit that line `i` spells, where none was given or the given one is the same.
 /// @throws InputError if it is no unit of acceleration, or another than the one given
-std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling, const std::string& given);
+std::string unit_of_file(const RecordText& text, std::size_t i, std::string_view spelling,
+                         const std::optional<std::string>& given);
 
 /// The size of a peak that a header states, in m/s2; none for 0, which stands in headers that do not know it, and for
 /// what is 0 or infinite in m/s2.
@@ -232,9 +234,9 @@ std::vector<double> read_numbers(const RecordText& text, std::size_t first_line,
 
 /// The components of a file in which they follow one another, with blank lines between them or not.
 /// @param read takes the one that begins at line `line` and moves `line` behind it
-std::vector<Record> one_after_another(const RecordText& text, const std::string& given,
+std::vector<Record> one_after_another(const RecordText& text, const std::optional<std::string>& given,
                                       Record (*read)(const RecordText& text, std::size_t& line,
-                                                     const std::string& given));
+                                                     const std::optional<std::string>& given));
 
 /// @throws InputError, naming line `i`, if dt is outside [shortest_dt_s, longest_dt_s]
 void check_dt(const RecordText& text, std::size_t i, double dt_s);

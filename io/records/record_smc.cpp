@@ -37,7 +37,7 @@ bool recognise(const RecordText& text)
     return false;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     if (kind_of(text).find("accelerogram") == std::string::npos)
         text.refuse(0, fmt::format("the file holds \"{}\" and not an acceleration. Give the file that begins with \"2 "

@@ -114,7 +114,7 @@ std::size_t padding_rows(const RecordText& text, std::size_t last, std::size_t c
     return rows;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     const std::size_t header = data_line(text);
     if (header >= std::min(longest_header, text.lines.size()))

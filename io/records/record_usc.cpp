@@ -33,7 +33,7 @@ std::string_view text_of(std::string_view line)
 }
 
 /// @param[in,out] line the component's first line; afterwards the one below its last values
-Record read_component(const RecordText& text, std::size_t& line, const std::string& given)
+Record read_component(const RecordText& text, std::size_t& line, const std::optional<std::string>& given)
 {
     const std::size_t top = line;
     if (!is_component_top(text.lines[top]))
@@ -68,7 +68,7 @@ Record read_component(const RecordText& text, std::size_t& line, const std::stri
     return record;
 }
 
-std::vector<Record> parse(const RecordText& text, const std::string& given)
+std::vector<Record> parse(const RecordText& text, const std::optional<std::string>& given)
 {
     return one_after_another(text, given, read_component);
 }

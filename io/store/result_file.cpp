@@ -140,8 +140,8 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
     hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
     hdf5::write_number(file, names::study_crc32, H5T_STD_U32LE, study_crc32_of(header));
     hdf5::write_text(file, "code_version", header.code_version);
-    if (!header.build.empty())
-        hdf5::write_text(file, names::build, header.build);
+    if (header.build)
+        hdf5::write_text(file, names::build, *header.build);
     hdf5::write_number(file, "realizations", H5T_STD_U64LE, header.total);
     hdf5::write_number(file, "first_realization", H5T_STD_U64LE, header.first);
     if (header.selected)

@@ -234,20 +234,20 @@ private:
             return;
         const hdf5::Handle object = hdf5::open_object(file_, path);
         hdf5::write_text(object.id(), "long_name", label->long_name);
-        if (const std::string unit = unit_of(path, object.id()); !unit.empty())
-            hdf5::write_text(object.id(), "units", unit);
+        if (const auto unit = unit_of(path, object.id()))
+            hdf5::write_text(object.id(), "units", *unit);
         std::vector<std::string> scales;
         for (std::size_t i = 0; i < dims.size(); ++i)
             scales.push_back(scale(path, dimensions[i], dims[i]));
         scales_.attach(path, scales);
     }
 
-    /// Empty for texts, and for numbers whose unit differs from one to the next.
-    std::string unit_of(const std::string& path, hid_t object) const
+    /// Nullopt for texts, and for numbers whose unit differs from one to the next.
+    std::optional<std::string> unit_of(const std::string& path, hid_t object) const
     {
         const hdf5::Handle type(H5Dget_type(object), H5Tclose);
         if (H5Tget_class(type.id()) == H5T_STRING)
-            return {};
+            return std::nullopt;
         if (hdf5::has_attribute(object, "unit"))
             return hdf5::read_text(object, "unit");
         const std::string listed = as_listed(path);
@@ -259,10 +259,10 @@ private:
         };
         if (is({"motions/value", "sensitivity/mean", "sensitivity/mu_star", "sensitivity/rms", "sensitivity/mu",
                 "sensitivity/sigma"}))
-            return {};
+            return std::nullopt;
         if (is({"fragility/intensity", "fragility/median", "fragility/grid", "fragility/stripe"})) {
             const hdf5::Handle group = hdf5::open_group(file_, "fragility");
-            if (const std::string unit = unit_in_name(hdf5::read_text(group.id(), "measure")); !unit.empty())
+            if (auto unit = unit_in_name(hdf5::read_text(group.id(), "measure")))
                 return unit;
         }
         return "1";

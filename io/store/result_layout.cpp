@@ -140,7 +140,7 @@ ResultLayout::ResultLayout(const ResultHeader& header)
         const auto [at, is_new] = column_of.try_emplace(input.base, columns_.size());
         if (is_new)
             columns_.push_back(
-                {"input/" + input.base, unit_of_input(input.base), "", Stored::f64, input.indexed, 1, 0});
+                {"input/" + input.base, unit_of_input(input.base), std::nullopt, Stored::f64, input.indexed, 1, 0});
         Column& column = columns_[at->second];
         if (column.matrix != input.indexed || !taken.emplace(at->second, input.index).second)
             throw std::invalid_argument("the input '" + name + "' comes twice");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -100,9 +101,9 @@ constexpr Stored stored_as()
 
 /// One data set with one entry for each row.
 struct Column {
-    std::string path; ///< below /realizations
-    std::string unit; ///< empty: none
-    std::string none; ///< what stands for "none", and its meaning; empty: nothing does
+    std::string path;                     ///< below /realizations
+    std::string unit;                     ///< "" of a number without one
+    std::optional<std::string_view> none; ///< what stands for "none", and its meaning; nullopt: nothing does
     Stored stored = Stored::f64;
     bool matrix = false;     ///< (n x width) instead of (n)
     std::uint64_t width = 1; ///< values for each row

@@ -33,8 +33,8 @@ void write_columns(hid_t file, const ResultLayout& layout)
                                                   column.stored == Stored::state ? &state_not_run : nullptr);
         if (!column.unit.empty())
             hdf5::write_text(dataset.id(), "unit", column.unit);
-        if (!column.none.empty())
-            hdf5::write_text(dataset.id(), "none", column.none);
+        if (column.none)
+            hdf5::write_text(dataset.id(), "none", std::string(*column.none));
     }
     const auto checksum = hdf5::create_dataset(file, names::checksum, H5T_STD_U64LE, {layout.chunks()});
     hdf5::write_number(checksum.id(), names::rows_per_chunk, H5T_STD_U32LE, ResultWriter::rows_per_chunk);

@@ -126,7 +126,7 @@ std::optional<OptimiseSpec> read_optimise(const KeyReader& top)
     const KeyReader keys = top.table(optimise_keys::table.name);
     OptimiseSpec spec;
     spec.minimise = keys.read_or(optimise_keys::minimise, spec.minimise);
-    spec.hazard = keys.read_or(optimise_keys::hazard, spec.hazard);
+    spec.hazard = keys.maybe(optimise_keys::hazard);
     spec.budget = keys.read(optimise_keys::budget);
     for (const TomlValue& value : table->entries)
         if (value.key != optimise_keys::minimise.name && value.key != optimise_keys::hazard.name &&
@@ -344,7 +344,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     Study study;
     const KeyReader keys = top.table(study_keys::table);
     keys.read_fields(study_keys::table, study, KeyUse{}.without({&study_keys::realizations}));
-    if (study.title.size() > most_title_bytes || study.title.find('\n') != std::string::npos)
+    if (study.title && (study.title->size() > most_title_bytes || study.title->find('\n') != std::string::npos))
         keys.refuse("title", "is not a valid line of text",
                     fmt::format("At most {} bytes, on one line.", most_title_bytes));
     const bool is_fragility = study.kind == StudyKind::fragility;
@@ -463,12 +463,12 @@ Study study_of(const TomlValue& root, const std::filesystem::path& file)
         for (std::size_t i = 0; i < study.fragility->records.size(); ++i)
             find_beside(study.fragility->records[i].file, tables[i]);
     }
-    if (study.excitation.second && !study.excitation.second->file.empty())
-        find_beside(study.excitation.second->file, *root.find("excitation")->find("second"));
-    if (study.vertical && !study.vertical->file.empty())
-        find_beside(study.vertical->file, study.structure.spatial()
-                                              ? *root.find("excitation")->find("vertical")
-                                              : *root.find("mechanisms")->find("vertical_motion"));
+    if (study.excitation.second && study.excitation.second->file)
+        find_beside(*study.excitation.second->file, *root.find("excitation")->find("second"));
+    if (study.vertical && study.vertical->file)
+        find_beside(*study.vertical->file, study.structure.spatial()
+                                               ? *root.find("excitation")->find("vertical")
+                                               : *root.find("mechanisms")->find("vertical_motion"));
     study.text = study_text(study);
     return study;
 }
@@ -500,10 +500,10 @@ std::optional<OptimiseSpec> read_optimisation(const std::filesystem::path& file,
 {
     const TomlValue root = read_toml(read_text(file), file.string(), overrides);
     std::optional<OptimiseSpec> spec = read_optimise(KeyReader(&root, "", root.place));
-    if (spec && !spec->hazard.empty()) { // beside the study file, unless it is a power law
+    if (spec && spec->hazard) { // beside the study file, unless it is a power law
         std::error_code none;
-        const auto beside = std::filesystem::absolute(file, none).parent_path() / spec->hazard;
-        if (spec->hazard.find('=') == std::string::npos || std::filesystem::exists(beside, none))
+        const auto beside = std::filesystem::absolute(file, none).parent_path() / *spec->hazard;
+        if (spec->hazard->find('=') == std::string::npos || std::filesystem::exists(beside, none))
             spec->hazard = beside.lexically_normal().string();
     }
     return spec;

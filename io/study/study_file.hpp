@@ -25,7 +25,7 @@ struct SearchedKey {
 /// [optimise] of a study file: what `stylobate compare` searches.
 struct OptimiseSpec {
     std::string minimise = "collapse"; ///< name of a limit state
-    std::string hazard = {};           ///< file, or a power law; empty: the probability is minimised
+    std::optional<std::string> hazard; ///< file, or a power law; nullopt: the probability is minimised
     std::uint64_t budget = 0;          ///< realizations
     std::vector<SearchedKey> keys;     ///< one to three, by name
 };

@@ -58,22 +58,25 @@ struct ReadFolder {
         std::string why;
     };
     struct Component {
-        std::string file, name; ///< `name` empty where the file has only one
+        std::string file;
+        std::optional<std::string> name; ///< nullopt where the file has only one
         bool vertical = false;
     };
     std::vector<Component> components;
     std::vector<Refused> refused;
 };
 
-ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const std::string& unit, PgaRange pga)
+ReadFolder read_folder(const std::vector<std::filesystem::path>& files, const std::optional<std::string>& unit,
+                       PgaRange pga)
 {
     ReadFolder folder;
     for (const std::filesystem::path& file : files)
         try {
             const std::vector<Record> records = read_records(file, unit, pga);
             for (const Record& record : records)
-                folder.components.push_back(
-                    {record.file, records.size() > 1 ? record.component : "", record.direction == Direction::vertical});
+                folder.components.push_back({record.file,
+                                             records.size() > 1 ? std::optional(record.component) : std::nullopt,
+                                             record.direction == Direction::vertical});
         } catch (const InputError& error) {
             folder.refused.push_back({file, error.what()});
         }
@@ -187,15 +190,15 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Pg
     std::sort(files.begin(), files.end());
     if (files.empty())
         keys.refuse("folder", fmt::format("has no file \"{}\"", pattern), "Check fragility.pattern.");
-    const std::string unit = acceleration_unit(keys.read_or(fragility_keys::unit, {}));
+    const auto unit = acceleration_unit(keys.maybe(fragility_keys::unit));
     const ReadFolder read = read_folder(files, unit, pga);
     check_refused(pattern, read);
     for (const ReadFolder::Refused& refused : read.refused)
         fragility.left_out.push_back(refused.file.filename().string());
     for (const ReadFolder::Component& component : read.components) {
         if (component.vertical)
-            fragility.left_out.push_back(fmt::format("{}{}{} (vertical)", fs::path(component.file).filename().string(),
-                                                     component.name.empty() ? "" : " ", component.name));
+            fragility.left_out.push_back(fmt::format("{}{} (vertical)", fs::path(component.file).filename().string(),
+                                                     component.name ? " " + *component.name : ""));
         else
             fragility.records.push_back({component.file, component.name, unit});
     }

@@ -123,7 +123,7 @@ ComponentSpec read_component(const KeyReader& keys, const TableKey& key, Excitat
         if (table.has(*each))
             table.refuse(each->name, "is not used by excitation.kind = \"table\"",
                          "Remove it: the names of a table's columns have its unit.");
-    if (component.file.empty())
+    if (!component.file)
         table.missing(other_file.name, "A table of samples has one component: give the file of the other one.");
     return component;
 }
@@ -149,7 +149,7 @@ std::optional<VerticalSpec> read_vertical(const KeyReader& keys, StudyKind study
     if (!keys.has(vertical))
         return std::nullopt;
     const ComponentSpec component = read_component(keys, vertical, excitation.kind, study);
-    return VerticalSpec{component.file, component.component, component.unit, excitation.baseline};
+    return VerticalSpec{component, excitation.baseline};
 }
 
 void check_direction(const KeyReader& top, const Study& study)
@@ -163,9 +163,11 @@ void check_direction(const KeyReader& top, const Study& study)
                         "Give one of the two.");
 }
 
-std::string acceleration_unit(const std::string& word)
+std::optional<std::string> acceleration_unit(std::optional<std::string> word)
 {
-    return word == "gal" ? "cm/s2" : word; // one name for one unit, so that equal studies have equal texts
+    if (word == "gal")
+        word = "cm/s2"; // one name for one unit, so that equal studies have equal texts
+    return word;
 }
 
 ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure)

@@ -77,7 +77,7 @@ void check_direction(const KeyReader& top, const Study& study);
 /// Refuses axes that the excitation cannot follow.
 void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes);
 /// One name for a unit of acceleration that has several.
-std::string acceleration_unit(const std::string& word);
+std::optional<std::string> acceleration_unit(std::optional<std::string> word);
 
 /// An axis: { from, to, count, spacing }.
 /// @param table which has the axis   @param range of its values, where this study allows others than the key

@@ -100,8 +100,8 @@ void check_curve(const KeyReader& keys, const HazardSpec& hazard, const char* ke
 HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside)
 {
     HazardSpec hazard;
-    const std::string named = keys.read_or(keys_of::file, {}), site = keys.read_or(keys_of::site, {});
-    const bool power = keys.has(keys_of::k0), points = keys.has(keys_of::intensities), file = !named.empty();
+    const std::optional<std::string> named = keys.maybe(keys_of::file), site = keys.maybe(keys_of::site);
+    const bool power = keys.has(keys_of::k0), points = keys.has(keys_of::intensities), file = named.has_value();
     if (power + points + file != 1)
         keys.refuse_all(fmt::format("survival.hazard has {} hazard curves, not one: give k0_per_year and k, or "
                                     "intensity_m_s2 and rate_per_year, or file",
@@ -109,7 +109,7 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
     if (keys.has(keys_of::k) != power)
         power ? keys.missing(keys_of::k.name, "It is the slope of the hazard curve, mostly 1 to 4.")
               : keys.refuse(keys_of::k.name, "is not used beside points of a curve", "Remove it.");
-    if (!site.empty() && !file)
+    if (site && !file)
         keys.refuse(keys_of::site.name, "is not used without a file", "Remove it.");
     if (keys.has(keys_of::rates) != points)
         points ? keys.missing(keys_of::rates.name, "Give the rate of each of intensity_m_s2.")
@@ -118,7 +118,7 @@ HazardSpec read_rates(const KeyReader& keys, const std::filesystem::path& beside
     if (points)
         check_curve(keys, hazard, keys_of::intensities.name.c_str());
     if (file) {
-        std::filesystem::path path = named;
+        std::filesystem::path path = *named;
         std::error_code none;
         if (path.is_relative() && std::filesystem::exists(beside / path, none))
             path = beside / path;

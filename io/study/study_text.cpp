@@ -218,9 +218,7 @@ Entries entries_of_excitation(const Study& study, const KeyUse& use)
     if (e.second)
         out.add_text(second.name, inline_fields(second, *e.second));
     if (recorded_vertical)
-        out.add_text(vertical.name,
-                     inline_fields(vertical, ComponentSpec{study.vertical->file, study.vertical->component,
-                                                           study.vertical->unit}));
+        out.add_text(vertical.name, inline_fields(vertical, static_cast<const ComponentSpec&>(*study.vertical)));
     if (e.band_pass)
         out.add(band_pass, std::vector{e.band_pass->low_hz, e.band_pass->high_hz});
     if (e.tail_s)

@@ -174,7 +174,7 @@ inline std::string joined(const std::string& before, const std::string& name)
 /// The unit of a column: that of the field, of the structure that it is in, or the end of its name. "1": none.
 inline std::string unit_of_column(const FieldFacts& facts, const std::string& inherited, const std::string& name)
 {
-    const std::string unit = *facts.unit ? facts.unit : !inherited.empty() ? inherited : std::string(unit_of(name));
+    const std::string unit(facts.unit.value_or(inherited.empty() ? unit_of(name) : inherited));
     return unit == "1" ? "" : unit;
 }
 
@@ -194,7 +194,7 @@ void visit_values(const F& f, const std::string& before, const std::string& unit
                         inner, [=](auto& s) -> decltype(auto) { return std::invoke(of, std::invoke(field, s)); },
                         its_unit, its_facts);
                 },
-                full, *facts.unit ? facts.unit : unit);
+                full, std::string(facts.unit.value_or(unit)));
     });
 }
 
@@ -259,7 +259,7 @@ void add_record(Table& table, const S& record)
             using T = row_values::TypeOf<decltype(field), const S>;
             const auto& value = std::invoke(field, record);
             if constexpr (row_values::is_list<T>) {
-                if (!value.empty() || !*facts.none)
+                if (!value.empty() || !facts.none)
                     row_values::add_column<typename T::value_type, false>(
                         table, name, value.size(), [&](std::size_t i) { return value[i]; }, std::nullopt, unit);
             } else if constexpr (std::is_same_v<T, bool>) {
@@ -281,7 +281,7 @@ void read_record(const Table& table, S& record)
                 using T = row_values::TypeOf<decltype(field), S>;
                 auto& value = std::invoke(field, record);
                 if constexpr (row_values::is_list<T>) {
-                    if (*facts.none && !table.has(name))
+                    if (facts.none && !table.has(name))
                         return;
                     value.resize(table.list_shape(name)[0]);
                     row_values::read_column<typename T::value_type, false>(

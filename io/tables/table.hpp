@@ -35,7 +35,7 @@ public:
         std::string name;
         Values values;
         Shape shape;                         ///< of the array, which lies row by row
-        std::string unit;                    ///< empty: none
+        std::string unit;                    ///< "" of a ratio, a count or a text
         std::vector<std::string> words = {}; ///< those that texts are taken from, where the file enumerates them
     };
     using Attribute = std::variant<std::string, double, std::uint64_t>;

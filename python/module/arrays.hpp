@@ -25,7 +25,7 @@ inline py::array read_only(py::array array)
 
 /// A view of all values, row by row.
 /// @param owner the Python object in which the values lie
-/// @param shape empty: a list
+/// @param shape none: a list
 template <class T>
 py::array view(const py::object& owner, const std::vector<T>& values, Shape shape = {})
 {

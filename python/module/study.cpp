@@ -7,6 +7,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
 
 namespace stylobate::python {
@@ -70,7 +73,16 @@ void add_study(py::module_& module)
                &sb::Intensity::predominant_frequency_hz, "mean_frequency_hz", &sb::Intensity::mean_frequency_hz);
 
     py::class_<sb::Record>(module, "Record")
-        .def_static("read", &sb::Record::read, "file"_a, "component"_a = "", "unit"_a = "")
+        .def_static(
+            "read",
+            [](const std::filesystem::path& file, std::optional<std::string> component,
+               std::optional<std::string> unit) {
+                for (std::optional<std::string>* text : {&component, &unit})
+                    if (*text == "") // not given, either
+                        text->reset();
+                return sb::Record::read(file, component, unit);
+            },
+            "file"_a, "component"_a = py::none(), "unit"_a = py::none())
         .def_static(
             "from_samples",
             [](const py::object& acceleration, double dt_s, const std::string& name) {

@@ -109,7 +109,7 @@ class Intensity:
 
 class Record:
     @staticmethod
-    def read(file: _Path, component: str = "", unit: str = "") -> Record: ...
+    def read(file: _Path, component: str | None = None, unit: str | None = None) -> Record: ...
     @staticmethod
     def from_samples(acceleration_m_s2: npt.ArrayLike, dt_s: float, name: str = "samples") -> Record: ...
     acceleration_m_s2: Final[_Numbers]
@@ -262,7 +262,7 @@ class Answer:
     def text(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
     def write(self, path: _Path) -> None: ...
-    def draw(self, path: _Path, limit_state: str = "") -> None: ...
+    def draw(self, path: _Path, limit_state: str | None = None) -> None: ...
 
 class Comparison(Answer):
     def __init__(self, path: _Path) -> None: ...
@@ -328,8 +328,8 @@ def risk(
     file: _Path,
     hazard: _Path | Iterable[_Path],
     *,
-    site: str | int = "",
-    limit_state: str = "",
+    site: str | int | None = None,
+    limit_state: str | None = None,
     years: Iterable[float] = (50, 100),
     level: float = 0.9,
     most_outside: float = 0.25,
@@ -346,7 +346,7 @@ def past(*files: _Path) -> Past: ...
 def report(
     file: _Path,
     *,
-    title: str = "",
+    title: str | None = None,
     animate: int | None = None,
     animate_mb: float | None = None,
     animate_seconds: float | None = None,

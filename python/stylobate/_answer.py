@@ -64,12 +64,12 @@ class Answer(FiledFinding):
         """`rows` as a pandas.DataFrame."""
         return self.rows.to_pandas()
 
-    def draw(self, path, limit_state=""):
+    def draw(self, path, limit_state=None):
         """Draws the picture of the program: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.
 
-        limit_state: "": the principal one.
+        limit_state: None: the principal one.
         """
-        self._core.draw(os.fspath(path), limit_state)
+        self._core.draw(os.fspath(path), limit_state or None)
 
     def _repr_html_(self):
         rows = self.rows
@@ -190,14 +190,14 @@ def compare(*files, settings=None, folder="", level=0.95, adaptive=None, margin=
     return None if found is None else _made(Comparison, found)
 
 
-def risk(file, hazard, *, site="", limit_state="", years=(50, 100), level=0.9, most_outside=0.25, sequences=0,
+def risk(file, hazard, *, site=None, limit_state=None, years=(50, 100), level=0.9, most_outside=0.25, sequences=0,
          threshold=None, pause_s=None, seed=1, settings=None, threads=0, simd="auto", progress=None):
     """How often limit states are reached at a site, and how likely that is over years: a Risk.
 
     file          results of a fragility study, or a comparison of fragility studies
     hazard        a file (CSV, OpenQuake's CSV or NRML) or several, or "k0=1e-4,k=2.5,measure=pga_g,sigma_ln=0.5"
-    site          of several in the hazard: "LON,LAT" or its number from 0
-    limit_state   one of the study; "": all
+    site          of several in the hazard: "LON,LAT" or its number from 0; None: there is one
+    limit_state   one of the study; None: all
     years         for the probabilities
     level         of the intervals
     most_outside  largest share of a frequency from outside of the intensities of study or hazard
@@ -210,7 +210,7 @@ def risk(file, hazard, *, site="", limit_state="", years=(50, 100), level=0.9, m
     InputError: as the program, exit status 2.
     """
     hazards = [hazard] if isinstance(hazard, (str, os.PathLike)) else hazard
-    asked = options(_core.RiskOptions(), site=str(site), limit_state=limit_state,
+    asked = options(_core.RiskOptions(), site=None if site in (None, "") else str(site), limit_state=limit_state or None,
                     years=[number(each, "years") for each in years], level=number(level, "level"),
                     most_outside=number(most_outside, "most_outside"), sequences=whole_number(sequences, "sequences"),
                     threshold=threshold, pause_s=pause_s, seed=whole_number(seed, "seed"),
@@ -227,11 +227,11 @@ def past(*files):
     return _made(Past, _core.past(_paths(files)))
 
 
-def report(file, *, title="", animate=None, animate_mb=None, animate_seconds=None, settings=None, threads=0,
+def report(file, *, title=None, animate=None, animate_mb=None, animate_seconds=None, settings=None, threads=0,
            simd="auto", progress=None):
     """The page of results, a comparison, a diagnosis, a calibration or a risk estimate: a Page.
 
-    title     "": by the study or the file
+    title     None: by the study or the file
     animate   N realizations in motion that fell and N that stood, of each cell; None: one of each
     animate_mb, animate_seconds   most for all of them: size [1e6 bytes], and time to run them again [s]
     settings  only {"excitation.file": path}, the present place of the study's record
@@ -240,7 +240,7 @@ def report(file, *, title="", animate=None, animate_mb=None, animate_seconds=Non
 
     What the program prints as a warning is given to `warnings.warn`. InputError: as the program, exit status 2.
     """
-    asked = options(_core.ReportOptions(), title=title, animate_mb=animate_mb, animate_seconds=animate_seconds,
+    asked = options(_core.ReportOptions(), title=title or None, animate_mb=animate_mb, animate_seconds=animate_seconds,
                     animate=None if animate is None else whole_number(animate, "animate"),
                     settings=_settings(settings), threads=whole_number(threads, "threads"), simd=simd)
     page = _core.report(os.fspath(file), asked, progress)

@@ -53,7 +53,7 @@ def calibrate(campaign, study=None, *, forms=(), fit=None, hold=(), outcomes=Fal
 
     study     to begin from, a Study, a dictionary of tables or a path; the structure is the specimen's. None: the
               specimen, its nominal friction, a bed of 2e9 N/m3. A table of outcomes needs it
-    forms     contact forms, such as ["area", "points"], or "all"; empty: the study's
+    forms     contact forms, such as ["area", "points"], or "all"; none: the study's
     fit       more numbers of the study file, {"contact.friction": (0.3, 0.9)} with the range to be searched (None: a
               fifth to five times the study's value), or a list of "KEY" or "KEY=FROM:TO"
     hold      keys of the contact that keep the study's value
@@ -72,7 +72,7 @@ def calibrate(campaign, study=None, *, forms=(), fit=None, hold=(), outcomes=Fal
     start = None if study is None else study_of(study)._core
     asked = options(_core.CalibrationOptions(), study=start, forms=_words(forms, "forms"), fit=_fitted(fit),
                     hold=_words(hold, "hold"), outcomes=bool(outcomes), held_out=bool(held_out),
-                    threads=whole_number(threads, "threads"), simd=simd, cache="" if cache is None else os.fspath(cache))
+                    threads=whole_number(threads, "threads"), simd=simd, cache=os.fspath(cache) if cache else None)
     found = _core.calibrate(os.fspath(campaign), asked, progress)
     return None if found is None else Calibration(found)
 

@@ -44,6 +44,6 @@ def diagnose(campaign, study=None, *, nulls=192, seed=1, threads=0, simd="auto",
     nulls, seed, threads = (whole_number(value, name) for value, name in
                             ((nulls, "nulls"), (seed, "seed"), (threads, "threads")))
     asked = options(_core.DiagnosisOptions(), study=start, nulls=nulls, seed=seed, threads=threads, simd=simd,
-                    cache="" if cache is None else os.fspath(cache))
+                    cache=os.fspath(cache) if cache else None)
     found = _core.diagnose(os.fspath(campaign), asked, progress)
     return None if found is None else Diagnosis(found)

@@ -101,7 +101,8 @@ def test_records_without_step_or_unit_or_with_a_wrong_shape(folder):
         with pytest.raises(stylobate.InputError) as error:
             stylobate.Record.read(file)
         assert f"stylobate: {error.value}\n" == said
-    assert stylobate.Record.read("no_unit.txt", unit="m/s2").dt_s == pytest.approx(0.01)
+    for component in (None, ""):
+        assert stylobate.Record.read("no_unit.txt", component, "m/s2").dt_s == pytest.approx(0.01)
     with pytest.raises(stylobate.InputError, match=r"acceleration_m_s2 has the shape \(3, 2\)"):
         stylobate.Record.from_samples(numpy.zeros((3, 2)), 0.01)
     with pytest.raises(stylobate.InputError, match="these are no numbers"):

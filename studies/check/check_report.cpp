@@ -134,8 +134,8 @@ std::string check_text(const CheckReport& r)
     std::string text =
         fmt::format("{}: a study of kind \"{}\"; contact.form = \"{}\"\n", r.file,
                     word_for(study_kind_names, study.kind), word_for(contact_form_names, study.contact.form));
-    if (!r.picture.empty())
-        text += fmt::format("picture: {}\n", r.picture);
+    if (r.picture)
+        text += fmt::format("picture: {}\n", *r.picture);
     text +=
         fmt::format("run: {}{}{} of {} blocks, {} of them free\n", r.size.at_most ? "at most " : "",
                     counted(r.size.realizations, "realization"), cells_text(study), r.size.blocks, r.size.free_blocks);
@@ -149,8 +149,8 @@ std::string check_text(const CheckReport& r)
     text += fmt::format("memory: about {}\nresults file: {}{}\n", bytes_text(r.memory_bytes),
                         r.size.at_most || (r.size.trajectory_bytes > 0 && !r.trial) ? "at most about " : "about ",
                         bytes_text(r.size.file_bytes));
-    if (!r.notice.empty())
-        text += r.notice + "\n";
+    if (r.notice)
+        text += *r.notice + "\n";
     if (r.counted)
         text += fmt::format("interval: {}\n", width_text(study, *r.counted));
     if (const std::optional<FirstMode>& mode = r.free.mode)
@@ -167,7 +167,7 @@ std::string check_text(const CheckReport& r)
     if (r.pilot)
         text += pilot_text(r);
     else
-        text += fmt::format("pilot: none; {}\n", r.why_no_pilot);
+        text += fmt::format("pilot: none; {}\n", *r.why_no_pilot);
     return text + law_share_text(r.laws, r.pilot ? &*r.pilot : nullptr, r.file);
 }
 
@@ -198,10 +198,10 @@ Json check_json(const CheckReport& r)
         .member("simd", to_string(r.run.isa));
     if (r.counted)
         json.member("counted_trials", *r.counted).member("worst_half_width", worst_half_width(*r.counted));
-    if (!r.picture.empty())
-        json.member("picture", r.picture);
-    if (!r.notice.empty())
-        json.member("notice", r.notice);
+    if (r.picture)
+        json.member("picture", *r.picture);
+    if (r.notice)
+        json.member("notice", *r.notice);
     if (r.trial) {
         const TrialShares shares = r.trial->shares();
         json.member("trial", Json::object()
@@ -246,7 +246,7 @@ Json check_json(const CheckReport& r)
             .member("realizations_per_second", check.seconds > 0 ? n / check.seconds : 0)
             .member("accuracy_missed", r.missed());
     } else {
-        json.member("why_no_pilot", r.why_no_pilot);
+        json.member("why_no_pilot", *r.why_no_pilot);
     }
     json.member("contact_law", law_share_json(r.laws));
     return json;
@@ -254,7 +254,7 @@ Json check_json(const CheckReport& r)
 
 void draw_study(const Study& study, const std::string& file, const std::filesystem::path& picture)
 {
-    plot_structure(study, study.title.empty() ? std::filesystem::path(file).stem().string() : study.title, picture);
+    plot_structure(study, study.title.value_or(std::filesystem::path(file).stem().string()), picture);
 }
 
 } // namespace stylobate

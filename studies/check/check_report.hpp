@@ -20,8 +20,8 @@ struct CheckReport {
     Study study;
     RunOptions run;
     std::vector<std::string> warnings{};
-    std::string notice{}; ///< of the kind; empty: none
-    std::string picture{};
+    std::optional<std::string> notice{};  ///< of the kind
+    std::optional<std::string> picture{}; ///< file of the drawing
     RunSize size{};
     std::optional<Trial> trial{};
     std::optional<RunTime> time{};
@@ -30,7 +30,7 @@ struct CheckReport {
     FreeMotion free{};
     std::vector<WeakSpot> weak{};
     std::vector<std::string> not_looked_for{}; ///< sentences
-    std::string why_no_pilot{};
+    std::optional<std::string> why_no_pilot{}; ///< nullopt: there is a pilot
     std::optional<NumericsCheck> pilot{};
     LawShare laws{};
 

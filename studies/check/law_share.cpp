@@ -123,11 +123,11 @@ std::string law_share_text(const LawShare& share, const NumericsCheck* numerics,
                                         static_cast<double>(law.pairs.realizations));
             else
                 text += fmt::format("  {:<8} {:<50} no valid realization\n", law.name, law.words);
-            if (!law.note.empty())
-                text += "           " + law.note + "\n";
+            if (law.note)
+                text += "           " + *law.note + "\n";
         }
     } else {
-        text = "contact law: not measured. " + share.why_none + "\n";
+        text = "contact law: not measured. " + *share.why_none + "\n";
     }
     for (const std::string& law : share.left_out)
         text += "  left out: " + law + "\n";
@@ -145,13 +145,13 @@ Json law_share_json(const LawShare& share)
     if (share.whole_run > 0)
         json.member("cost_of_the_whole_study", share.whole_run);
     if (!share.measured())
-        return json.member("why_not", share.why_none);
+        return json.member("why_not", *share.why_none);
     Json laws = Json::list();
     for (const LawResult& law : share.laws)
         laws.item(Json::object()
                       .member("name", law.name)
                       .member("words", law.words)
-                      .member("note", law.note)
+                      .member("note", law.note.value_or(""))
                       .member("realizations", law.pairs.realizations)
                       .member("collapsed", law.pairs.first)
                       .member("collapse_probability", law.probability())

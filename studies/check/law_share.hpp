@@ -16,22 +16,23 @@ namespace stylobate {
 
 /// One law beside that of the study.
 struct LawResult {
-    std::string name, words, note;
+    std::string name, words;
+    std::optional<std::string> note;
     PairedCollapses pairs; ///< first: under this law; second: under that of the study
     double seconds = 0;
     double probability() const { return static_cast<double>(pairs.first) / static_cast<double>(pairs.realizations); }
 };
 
 struct LawShare {
-    std::string why_none{};              ///< a sentence; empty: it was measured
-    std::vector<std::string> left_out{}; ///< sentences: laws that do not apply
-    std::uint64_t realizations = 0;      ///< that are run under each law
-    double estimated_s = 0;              ///< of all laws together, before they are run
-    double whole_run = 0;                ///< processor time of the whole study under all laws, relative to the study
+    std::optional<std::string> why_none{}; ///< a sentence; nullopt: it was measured
+    std::vector<std::string> left_out{};   ///< sentences: laws that do not apply
+    std::uint64_t realizations = 0;        ///< that are run under each law
+    double estimated_s = 0;                ///< of all laws together, before they are run
+    double whole_run = 0;                  ///< processor time of the whole study under all laws, relative to the study
     std::uint64_t base_valid = 0, base_collapsed = 0; ///< of these realizations, under the law of the study
     std::vector<LawResult> laws{};
 
-    bool measured() const { return why_none.empty(); }
+    bool measured() const { return !why_none; }
     double base_probability() const { return static_cast<double>(base_collapsed) / static_cast<double>(base_valid); }
     /// "as given" and the laws, and the probability of each.
     std::vector<std::string> names() const;

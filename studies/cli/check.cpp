@@ -20,15 +20,15 @@ namespace fs = std::filesystem;
 /// @throws InputError for an unknown format, or one that the file's extension contradicts
 std::optional<fs::path> drawing_of(const std::string& study, const DrawingOptions& wanted)
 {
-    if (!wanted.output.empty() && !wanted.format.empty() && ending_of(wanted.output) != wanted.format)
+    if (wanted.output && wanted.format && ending_of(*wanted.output) != *wanted.format)
         throw InputError(
-            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
-    if (wanted.output.empty() && wanted.format.empty())
+            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", *wanted.format, *wanted.output));
+    if (!wanted.output && !wanted.format)
         return std::nullopt;
-    if (wanted.output.empty())
-        return fs::path(study).stem().string() + "_structure." + wanted.format;
-    check_drawing(wanted.output);
-    return wanted.output;
+    if (!wanted.output)
+        return fs::path(study).stem().string() + "_structure." + *wanted.format;
+    check_drawing(*wanted.output);
+    return *wanted.output;
 }
 
 } // namespace

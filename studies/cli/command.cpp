@@ -8,11 +8,13 @@
 namespace stylobate {
 
 std::optional<Study> start_study(const CommonOptions& options, const std::string& measured, const char* verb,
-                                 const std::string& study)
+                                 const std::optional<std::string>& study)
 {
     check_kind(measured, verb);
-    check_option_kind(study, FileKind::study, "--study");
-    return study.empty() ? std::nullopt : std::optional(read_study(study, options.set));
+    if (!study)
+        return std::nullopt;
+    check_option_kind(*study, FileKind::study, "--study");
+    return read_study(*study, options.set);
 }
 
 int report_invalid(const std::optional<std::string>& message)
@@ -59,6 +61,16 @@ void add_all(CLI::App& verb, CommonOptions& options, const std::vector<std::stri
     add_force(verb, options);
     add_set(verb, options);
     add_common(verb, options, backends);
+}
+
+CLI::Option* add_word(CLI::App& verb, const std::string& name, std::optional<std::string>& into,
+                      const std::string& text)
+{
+    const auto keep = [&into](const std::string& word) {
+        if (!word.empty())
+            into = word;
+    };
+    return verb.add_option_function<std::string>(name, keep, text);
 }
 
 CLI::Option* add_repeated(CLI::App& verb, const std::string& name, std::vector<std::string>& into,

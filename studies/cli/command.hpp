@@ -33,16 +33,10 @@ struct CommonOptions : Machine {
     bool force = false; ///< replace files that are there
 };
 
-/// What a user has given; an empty text is nothing.
-inline std::optional<std::string> given(const std::string& text)
-{
-    return text.empty() ? std::nullopt : std::optional(text);
-}
-
 /// The study that a calibration or a diagnosis begins from; none: that of the measured data.
 /// @throws InputError if one of the files is not what the verb takes, or if there is no such study
 std::optional<Study> start_study(const CommonOptions& options, const std::string& measured, const char* verb,
-                                 const std::string& study);
+                                 const std::optional<std::string>& study);
 
 /// Prints what a verb has found on standard output, as lines or as JSON.
 template <class Text, class ToJson>
@@ -68,12 +62,15 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
 void add_force(CLI::App& verb, CommonOptions& options);
 /// All of these, of a verb that writes files.
 void add_all(CLI::App& verb, CommonOptions& options, const std::vector<std::string>& backends = {"cpu"});
+/// An option with one word; an empty word is none.
+CLI::Option* add_word(CLI::App& verb, const std::string& name, std::optional<std::string>& into,
+                      const std::string& text);
 /// An option that may be given several times, with one word each. @param word what is given, in the help
 CLI::Option* add_repeated(CLI::App& verb, const std::string& name, std::vector<std::string>& into,
                           const std::string& text, const char* word);
 /// @}
 
-/// The selection of a realization; empty members are not given.
+/// The selection of a realization; nullopt: not given.
 struct RealizationChoice {
     std::optional<long long> index; ///< alone
     CellChoice cells;
@@ -82,22 +79,22 @@ struct RealizationChoice {
     std::optional<long long> nth; ///< of those, in the order of their indices, from 1
 };
 
-/// Options of `export`; empty, or -1: not given.
+/// Options of `export`; nullopt, an empty list or -1: not given.
 struct ExportOptions {
-    std::string format;              ///< "png", "svg" or "pdf" of a picture; "csv", "nrml" or "json" of tables; "vtk"
-    std::string picture;             ///< of `picture_names`
-    std::string output;              ///< file of the picture, folder of the tables
-    std::string limit;               ///< limit state of a surface or slice
-    long long realization = -1;      ///< of a strip, or of "vtk"
-    long long cell = -1;             ///< of a surface, for the order of falls
-    std::vector<double> frequencies; ///< of a slice [Hz]
-    std::string title;               ///< of the picture, instead of the study's or the file's name
+    std::optional<std::string> format;  ///< "png", "svg", "pdf" of a picture; "csv", "nrml", "json" of tables; "vtk"
+    std::optional<std::string> picture; ///< of `picture_names`
+    std::optional<std::string> output;  ///< file of the picture, folder of the tables
+    std::optional<std::string> limit;   ///< limit state of a surface or slice
+    long long realization = -1;         ///< of a strip, or of "vtk"
+    long long cell = -1;                ///< of a surface, for the order of falls
+    std::vector<double> frequencies;    ///< of a slice [Hz]
+    std::optional<std::string> title;   ///< of the picture, instead of the study's or the file's name
 };
 
-/// The drawing of `check`; empty: not given.
+/// The drawing of `check`; nullopt: not given.
 struct DrawingOptions {
-    std::string format; ///< "png", "svg", "pdf"
-    std::string output;
+    std::optional<std::string> format; ///< "png", "svg", "pdf"
+    std::optional<std::string> output;
 };
 
 /// Options of `verify-file`.
@@ -106,45 +103,50 @@ struct VerifyChoice {
     std::uint64_t seed = 1;              ///< of their choice
 };
 
-/// Options of `new`, in the words of a study file; empty: the default.
+/// Options of `new`, in the words of a study file; nullopt: the default.
 struct NewStudyOptions {
-    std::string kind, structure, excitation;
+    std::string kind;
+    std::optional<std::string> structure, excitation;
 };
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`. The options that
 /// verbs share are put into its request here.
-/// @param shard "3/8": that part of the study alone; empty: all of it   @param laws also under other contact laws
-int run_command(const CommonOptions& options, const std::string& study, const std::string& results,
-                const std::string& shard, bool laws);
+/// @param shard "3/8": that part of the study alone; nullopt: all of it   @param laws also under other contact laws
+int run_command(const CommonOptions& options, const std::string& study, const std::optional<std::string>& results,
+                const std::optional<std::string>& shard, bool laws);
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial);
 int check_command(const CommonOptions& options, const std::string& study, CheckRequest request,
                   const DrawingOptions& drawing);
 int verify_command(const CommonOptions& options, const std::string& results, const VerifyChoice& wanted);
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
-                   const std::string& trajectory);
-/// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; empty: none
-int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
-                   const std::string& component, const std::string& block);
+                   const std::optional<std::string>& trajectory);
+/// @param block "WIDTHxHEIGHT" of a rigid block in metres, for the measures of rocking; nullopt: none
+int record_command(const CommonOptions& options, const std::vector<std::string>& files,
+                   const std::optional<std::string>& unit, const std::optional<std::string>& component,
+                   const std::optional<std::string>& block);
 /// The pictures of results of every kind.
 std::vector<std::string> picture_names();
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted);
-/// @param output the page; empty: beside the file, with .html
-int report_command(const CommonOptions& options, PageRequest request, const std::string& output);
-/// @param study contacts to begin with; empty: a bed of stone
-/// @param wanted the file; empty: the campaign's name with _diagnosis.h5
-int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::string& study,
-                     const std::string& wanted);
-/// @param file measured data, outcomes or results; empty: about the program
-/// @param mpi of this program; empty: none
-int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi);
-/// @param output the study file; empty: KIND.toml
-int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output);
+/// @param output the page; nullopt: beside the file, with .html
+int report_command(const CommonOptions& options, PageRequest request, const std::optional<std::string>& output);
+/// @param study contacts to begin with; nullopt: a bed of stone
+/// @param wanted the file; nullopt: the campaign's name with _diagnosis.h5
+int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::optional<std::string>& study,
+                     const std::optional<std::string>& wanted);
+/// @param file measured data, outcomes or results; nullopt: about the program
+/// @param mpi of this program (`mpi_library`)
+int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,
+                 const std::optional<std::string>& mpi);
+/// @param wanted_file the study file; nullopt: KIND.toml
+int new_command(const CommonOptions& options, const NewStudyOptions& wanted,
+                const std::optional<std::string>& wanted_file);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page
 int schema_command(bool markdown);
-/// @param study to begin from; empty: by the specimen   @param output results; empty: by the name of the measured file
-int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::string& study,
-                      const std::string& output);
+/// @param study to begin from; nullopt: by the specimen
+/// @param output results; nullopt: by the name of the measured file
+int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::optional<std::string>& study,
+                      const std::optional<std::string>& output);
 
 /// The verbs that answer an engineer's questions, with their options: compare, risk, past.
 class DecisionVerbs {
@@ -163,7 +165,7 @@ private:
     ComparisonRequest compare_;
     RiskRequest risk_;
     bool search_ = false;
-    std::string output_;
+    std::optional<std::string> output_;
     std::vector<std::string> files_;
 };
 

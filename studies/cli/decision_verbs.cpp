@@ -13,7 +13,8 @@ namespace stylobate {
 
 namespace {
 
-int search_study(const CommonOptions& options, const ComparisonRequest& request, const std::string& picture)
+int search_study(const CommonOptions& options, const ComparisonRequest& request,
+                 const std::optional<std::string>& picture)
 {
     if (!are_study_files(request.files))
         throw InputError(fmt::format("--search: {} is a result; give the study file", request.files.front()));
@@ -23,8 +24,8 @@ int search_study(const CommonOptions& options, const ComparisonRequest& request,
     if (request.adaptive)
         throw InputError("--adaptive: does not go with --search, whose points are run whole");
     Console console(options.quiet);
-    const SearchEnd end = search_study_file(
-        {request.files.front(), options.set, given(picture), request.level, options.force}, options, console);
+    const SearchEnd end = search_study_file({request.files.front(), options.set, picture, request.level, options.force},
+                                            options, console);
     print(
         options,
         [&] {
@@ -37,10 +38,10 @@ int search_study(const CommonOptions& options, const ComparisonRequest& request,
     return end.result ? report_invalid(end.invalid) : exit_interrupted;
 }
 
-int compare_command(const CommonOptions& options, ComparisonRequest request, const std::string& wanted)
+int compare_command(const CommonOptions& options, ComparisonRequest request, const std::optional<std::string>& wanted)
 {
     const std::string output =
-        given(wanted).value_or(std::filesystem::path(request.files.front()).stem().string() + "_comparison.h5");
+        wanted.value_or(std::filesystem::path(request.files.front()).stem().string() + "_comparison.h5");
     request.settings = options.set;
     request.folder = std::filesystem::path(output).parent_path().string();
     request.output = output;
@@ -70,21 +71,22 @@ int compare_command(const CommonOptions& options, ComparisonRequest request, con
     return report_invalid(end.invalid);
 }
 
-int past_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& picture)
+int past_command(const CommonOptions& options, const std::vector<std::string>& files,
+                 const std::optional<std::string>& picture)
 {
-    const CombinedPast past = past_of_files(files, given(picture), options.force);
+    const CombinedPast past = past_of_files(files, picture, options.force);
     print(
-        options, [&] { return combined_text(past) + (picture.empty() ? "" : picture + "\n"); },
+        options, [&] { return combined_text(past) + (picture ? *picture + "\n" : ""); },
         [&] {
             Json json = combined_json(past);
-            return picture.empty() ? json : json.member("written", picture);
+            return picture ? json.member("written", *picture) : json;
         });
     return exit_done;
 }
 
-int risk_command(const CommonOptions& options, RiskRequest request, const std::string& wanted)
+int risk_command(const CommonOptions& options, RiskRequest request, const std::optional<std::string>& wanted)
 {
-    const std::string output = given(wanted).value_or(beside(request.file, "_risk.h5").string());
+    const std::string output = wanted.value_or(beside(request.file, "_risk.h5").string());
     request.settings = options.set;
     request.output = output;
     request.force = options.force;
@@ -111,9 +113,9 @@ void DecisionVerbs::add_compare()
         ->add_option("STUDY", compare_.files,
                      "study files, the base first (one alone: its [variants]); or finished results of them")
         ->required();
-    compare->add_option("-o,--output", output_,
-                        "the comparison (default: the base's name with _comparison.h5); the results of the studies "
-                        "go beside it, under their names");
+    add_word(*compare, "-o,--output", output_,
+             "the comparison (default: the base's name with _comparison.h5); the results of the studies "
+             "go beside it, under their names");
     compare->add_option("--level", compare_.level, "confidence of intervals and verdicts")
         ->check(CLI::Range(0.5, 0.9999))
         ->capture_default_str();
@@ -141,7 +143,7 @@ void DecisionVerbs::add_past()
     auto* past = app_.add_subcommand(
         "past", "the past shaking of a site, from the results of survival studies of several of its structures");
     past->add_option("RESULTS", files_, "results of survival studies, of two structures or more")->required();
-    past->add_option("-o,--output", output_, "picture of their likelihoods: .png, .svg or .pdf (default: none)");
+    add_word(*past, "-o,--output", output_, "picture of their likelihoods: .png, .svg or .pdf (default: none)");
     add_force(*past, options_);
     add_common(*past, options_);
     past->callback([this] { status_ = past_command(options_, files_, output_); });
@@ -160,10 +162,10 @@ void DecisionVerbs::add_risk()
         ->required()
         ->take_all()
         ->allow_extra_args(false);
-    risk->add_option("--site", risk_.site, "site of several in the hazard: LON,LAT or its number from 0");
+    add_word(*risk, "--site", risk_.site, "site of several in the hazard: LON,LAT or its number from 0");
     risk->add_option("--years", risk_.years, "years for the probabilities (default: 50,100)")->delimiter(',');
     risk->add_option("--level", risk_.level, "level of the intervals")->capture_default_str();
-    risk->add_option("--state", risk_.state, "one limit state of the study (default: all)");
+    add_word(*risk, "--state", risk_.state, "one limit state of the study (default: all)");
     risk->add_option("--most-outside", risk_.most_outside,
                      "largest share of a frequency from outside of the intensities of study or hazard")
         ->capture_default_str();
@@ -180,7 +182,7 @@ void DecisionVerbs::add_risk()
     risk->add_option("--seed", risk_.seed, "seed of the histories")
         ->check(CLI::Range(0LL, 999999999999LL))
         ->needs(sequences);
-    risk->add_option("-o,--output", output_, "the estimate (HDF5; default: the name of FILE with _risk.h5)");
+    add_word(*risk, "-o,--output", output_, "the estimate (HDF5; default: the name of FILE with _risk.h5)");
     add_all(*risk, options_);
     risk->callback([this] { status_ = risk_command(options_, risk_, output_); });
 }

@@ -17,17 +17,17 @@
 
 namespace stylobate {
 
-int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::string& study,
-                      const std::string& output)
+int calibrate_command(const CommonOptions& options, CalibrationRequest request, const std::optional<std::string>& study,
+                      const std::optional<std::string>& output)
 {
     const std::filesystem::path measured(request.measured);
     const std::string stem =
         (measured.has_stem() ? measured : measured.parent_path()).stem().string(); // of a folder too
-    const std::string results = given(output).value_or(stem + "_calibration.h5");
+    const std::string results = output.value_or(stem + "_calibration.h5");
     const std::string without_ending = std::filesystem::path(results).replace_extension().string();
-    const std::string calibrated = (output.empty() ? stem : without_ending) + "_calibrated.toml";
+    const std::string calibrated = (output ? without_ending : stem) + "_calibrated.toml";
     request.settings = options.set;
-    request.start_name = given(study).value_or("--set");
+    request.start_name = study.value_or("--set");
     request.kept = without_ending + "_sets.bin";
     request.check_outputs = [&] {
         check_output(request.measured, results, options.force);
@@ -44,7 +44,7 @@ int calibrate_command(const CommonOptions& options, CalibrationRequest request, 
     if (!found.complete) {
         console.note(fmt::format(
             "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.",
-            found.kept_sets, end.planned, request.kept.string()));
+            found.kept_sets, end.planned, request.kept->string()));
         return exit_interrupted;
     }
     const std::string text = calibrated_text(found, request.measured);
@@ -78,12 +78,12 @@ std::string shell_word(const std::string& word)
 }
 
 /// The command that makes the same diagnosis.
-std::string command_of(const CommonOptions& options, const DiagnosisRequest& request, const std::string& study,
-                       const std::string& output)
+std::string command_of(const CommonOptions& options, const DiagnosisRequest& request,
+                       const std::optional<std::string>& study, const std::string& output)
 {
     std::string command = "stylobate diagnose " + shell_word(request.measured);
-    if (!study.empty())
-        command += " --study " + shell_word(study);
+    if (study)
+        command += " --study " + shell_word(*study);
     for (const std::string& setting : options.set)
         command += " --set " + shell_word(setting);
     return command + fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), request.nulls, request.seed);
@@ -91,14 +91,14 @@ std::string command_of(const CommonOptions& options, const DiagnosisRequest& req
 
 } // namespace
 
-int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::string& study,
-                     const std::string& wanted)
+int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::optional<std::string>& study,
+                     const std::optional<std::string>& wanted)
 {
     const std::string output =
-        given(wanted).value_or(std::filesystem::path(request.measured).stem().string() + "_diagnosis.h5");
+        wanted.value_or(std::filesystem::path(request.measured).stem().string() + "_diagnosis.h5");
     const std::string without_ending = std::filesystem::path(output).replace_extension().string();
     request.settings = options.set;
-    request.start_name = given(study).value_or("--set");
+    request.start_name = study.value_or("--set");
     const std::string extended = without_ending + "_extended.toml";
     request.cache = without_ending + "_campaigns.txt";
     request.check_outputs = [&] {
@@ -112,15 +112,15 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     if (!options.leads()) // it has simulated its part of the campaigns
         return diagnosis ? exit_done : exit_interrupted;
     if (!diagnosis) {
-        console.note(std::filesystem::exists(request.cache)
+        console.note(std::filesystem::exists(*request.cache)
                          ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
-                               request.cache.string() + "."
+                               request.cache->string() + "."
                          : "Interrupted before a simulated campaign was kept. The same command begins anew.");
         return exit_interrupted;
     }
     diagnosis->command = command_of(options, request, study, output);
-    if (!diagnosis->extended_study.empty()) {
-        write_whole(extended, diagnosis->extended_study);
+    if (diagnosis->extended_study) {
+        write_whole(extended, *diagnosis->extended_study);
         diagnosis->extended_study_file = extended;
     }
     write_diagnosis(*diagnosis, output);

@@ -35,34 +35,35 @@ namespace fs = std::filesystem;
 /// @throws InputError if neither is given, or if the two contradict each other
 std::string format_of(const ExportOptions& wanted)
 {
-    const std::string ending = ending_of(wanted.output);
+    const std::string ending = ending_of(wanted.output.value_or(""));
     const std::string of_picture = "The file extension of a picture is .png, .svg or .pdf.";
-    if (wanted.format.empty() && !is_picture_format(ending))
+    if (!wanted.format && !is_picture_format(ending))
         throw InputError(
-            wanted.output.empty()
+            !wanted.output
                 ? "no output format is given: give --to png, svg, pdf, csv, nrml, json or vtk; html, gif, mp4 or "
                   "webm.\n  Or name a picture by -o: its file extension selects the format."
                 : fmt::format("-o {}: its file extension is not a known format.\n  {} Of a realization in motion it is "
                               ".html, .gif, .mp4 or .webm. Tables need --to csv, nrml or json; ParaView --to vtk.",
-                              wanted.output, of_picture));
-    if (wanted.format.empty())
+                              *wanted.output, of_picture));
+    if (!wanted.format)
         return ending;
-    if (wanted.output.empty())
-        return wanted.format;
-    if (is_picture_format(wanted.format) && ending != wanted.format)
+    const std::string& format = *wanted.format;
+    if (!wanted.output)
+        return format;
+    if (is_picture_format(format) && ending != format)
         throw InputError(fmt::format(
-            "--to {} and -o {}: the file extension is not that of {}.\n  {} It selects the format: omit --to.",
-            wanted.format, wanted.output, wanted.format, of_picture));
+            "--to {} and -o {}: the file extension is not that of {}.\n  {} It selects the format: omit --to.", format,
+            *wanted.output, format, of_picture));
     const auto files = {"png", "svg", "pdf", "csv", "xml", "nrml", "json", "html", "h5", "vtk", "pvd", "vtp"};
-    if (!is_picture_format(wanted.format) && std::find(files.begin(), files.end(), ending) != files.end())
+    if (!is_picture_format(format) && std::find(files.begin(), files.end(), ending) != files.end())
         throw InputError(fmt::format(
             "--to {} and -o {}: these are several files, in a folder.\n  Name a folder, without a file extension.",
-            wanted.format, wanted.output));
-    return wanted.format;
+            format, *wanted.output));
+    return format;
 }
 
 /// The pictures that all results have.
-constexpr PictureKind strip{"strip", ""}, order{"order", ""};
+constexpr PictureKind strip{"strip", "any study"}, order{"order", "any study"};
 
 /// The picture of that name.
 /// @throws InputError with what these results have, and which results have it
@@ -88,15 +89,15 @@ PictureKind picture_of(const Results& results, const ExportOptions& wanted)
 {
     const std::span<const PictureKind> own = results.kind().pictures();
     const auto of_slices = std::ranges::find(own, true, &PictureKind::slices);
-    const PictureKind picture = !wanted.picture.empty()                  ? picture_named(wanted.picture, results)
+    const PictureKind picture = wanted.picture                           ? picture_named(*wanted.picture, results)
                                 : wanted.cell >= 0                       ? order
                                 : wanted.realization >= 0 || own.empty() ? strip
                                 : !wanted.frequencies.empty() && of_slices != own.end() ? *of_slices
                                                                                         : own.front();
-    if (!wanted.limit.empty() && !picture.limit)
+    if (wanted.limit && !picture.limit)
         throw InputError(fmt::format(
             "--limit {}: the picture '{}' shows no limit state; limit states are shown by surface, slice and fragility",
-            wanted.limit, picture.name));
+            *wanted.limit, picture.name));
     if (wanted.cell >= 0 && picture.name != order.name)
         throw InputError(fmt::format("--cell {}: applies to --picture order only", wanted.cell));
     if (wanted.realization >= 0 && picture.name != strip.name)
@@ -116,7 +117,7 @@ std::uint64_t realization_of(const Results& results, const ExportOptions& wanted
 fs::path place_of(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                   const std::string& ending)
 {
-    const fs::path to = wanted.output.empty() ? beside(file, ending) : fs::path(wanted.output);
+    const fs::path to = wanted.output ? fs::path(*wanted.output) : beside(file, ending);
     check_output(file, to, options.force);
     return to;
 }
@@ -131,13 +132,13 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     Picture picture;
     if (asked.name == strip.name) {
         picture.name = fmt::format("strip_realization_{}", realization);
-        picture.draw = [&](const std::string& title, const fs::path& to) {
-            strip_picture(results, traced_motion(results, options.isa(), realization), title, to);
+        picture.draw = [&](const std::string&, const fs::path& to) {
+            strip_picture(results, traced_motion(results, options.isa(), realization), wanted.title, to);
         };
     } else if (asked.name == order.name) {
         picture.name = wanted.cell >= 0 ? fmt::format("order_cell_{}", wanted.cell) : "order";
-        picture.draw = [&](const std::string& title, const fs::path& to) {
-            order_picture(results, wanted.cell, title, to);
+        picture.draw = [&](const std::string&, const fs::path& to) {
+            order_picture(results, wanted.cell, wanted.title, to);
         };
     } else {
         const bool all = results.kind().pictures_want_all(asked.name);
@@ -147,10 +148,7 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     }
     // two pictures of one result differ in their names
     const fs::path to = place_of(options, file, wanted, "_" + picture.name + "." + format);
-    const std::string title = !wanted.title.empty()   ? wanted.title
-                              : picture.title.empty() ? ""
-                                                      : picture.title + ": " + results.title();
-    picture.draw(title + picture.partial, to);
+    picture.draw(wanted.title.value_or(picture.title + ": " + results.title()) + picture.partial, to);
     return to;
 }
 
@@ -183,14 +181,13 @@ void export_csv(const Results& results, const std::string& name, const fs::path&
 /// One realization for ParaView.
 fs::path export_vtk(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
 {
-    if (!wanted.limit.empty() || !wanted.picture.empty() || !wanted.title.empty() || wanted.cell >= 0 ||
-        !wanted.frequencies.empty())
+    if (wanted.limit || wanted.picture || wanted.title || wanted.cell >= 0 || !wanted.frequencies.empty())
         throw InputError("--to vtk: writes one realization through time; of the options of pictures only --realization "
                          "applies to it");
     const Results results(file, options.set);
     const std::uint64_t index = realization_of(results, wanted);
     const fs::path folder =
-        wanted.output.empty() ? beside(file, fmt::format("_realization_{}_vtk", index)) : fs::path(wanted.output);
+        wanted.output ? fs::path(*wanted.output) : beside(file, fmt::format("_realization_{}_vtk", index));
     check_not_input(file, folder);
     write_vtk(folder, fmt::format("realization_{}", index), traced_motion(results, options.isa(), index).trajectory);
     Console(options.quiet).note("Forces and openings of joints are not part of a trajectory; they are left out.");
@@ -200,20 +197,20 @@ fs::path export_vtk(const CommonOptions& options, const std::string& file, const
 fs::path export_tables(const CommonOptions& options, const std::string& file, const ExportOptions& wanted,
                        const std::string& format)
 {
-    const std::string of_picture = !wanted.limit.empty()     ? "--limit " + wanted.limit
-                                   : !wanted.picture.empty() ? "--picture " + wanted.picture
-                                   : !wanted.title.empty()   ? "--title " + wanted.title
-                                   : wanted.cell >= 0        ? fmt::format("--cell {}", wanted.cell)
-                                   : wanted.realization >= 0 ? fmt::format("--realization {}", wanted.realization)
-                                   : !wanted.frequencies.empty()
-                                       ? fmt::format("--frequency {}", fmt::join(wanted.frequencies, ","))
-                                       : "";
-    if (!of_picture.empty())
+    const std::optional<std::string> of_picture =
+        wanted.limit                  ? "--limit " + *wanted.limit
+        : wanted.picture              ? "--picture " + *wanted.picture
+        : wanted.title                ? "--title " + *wanted.title
+        : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
+        : wanted.realization >= 0     ? fmt::format("--realization {}", wanted.realization)
+        : !wanted.frequencies.empty() ? fmt::format("--frequency {}", fmt::join(wanted.frequencies, ","))
+                                      : std::optional<std::string>();
+    if (of_picture)
         throw InputError(
-            of_picture +
+            *of_picture +
             ": applies to --to png, svg or pdf; the tables contain every realization and every limit state");
     const Results results(file, options.set);
-    const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
+    const fs::path folder = wanted.output ? fs::path(*wanted.output) : beside(file, "_" + format);
     check_output_folder(file, folder, options.force);
     const std::string name = fs::path(file).stem().string();
     if (format == "csv")
@@ -229,18 +226,18 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
     return folder;
 }
 
-/// The format of a realization in motion, by --to or by the ending of the output; empty: another format.
+/// The format of a realization in motion, by --to or by the ending of the output; nullopt: another format.
 /// @throws InputError if the two contradict each other
-std::string motion_format_of(const ExportOptions& wanted)
+std::optional<std::string> motion_format_of(const ExportOptions& wanted)
 {
-    const std::string ending = ending_of(wanted.output);
-    if (wanted.format.empty())
-        return is_motion_format(ending) ? ending : "";
-    if (!is_motion_format(wanted.format))
-        return "";
-    if (!wanted.output.empty() && ending != wanted.format)
+    const std::string ending = ending_of(wanted.output.value_or(""));
+    if (!wanted.format)
+        return is_motion_format(ending) ? std::optional(ending) : std::nullopt;
+    if (!is_motion_format(*wanted.format))
+        return std::nullopt;
+    if (wanted.output && ending != *wanted.format)
         throw InputError(
-            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", wanted.format, wanted.output));
+            fmt::format("--to {0} and -o {1}: the file extension is not .{0}", *wanted.format, *wanted.output));
     return wanted.format;
 }
 
@@ -248,14 +245,14 @@ std::string motion_format_of(const ExportOptions& wanted)
 std::optional<fs::path> export_motion(const CommonOptions& options, const std::string& file,
                                       const ExportOptions& wanted, const std::string& format)
 {
-    const std::string of_picture = !wanted.limit.empty()         ? "--limit " + wanted.limit
-                                   : !wanted.picture.empty()     ? "--picture " + wanted.picture
-                                   : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
-                                   : !wanted.frequencies.empty() ? "--frequency"
-                                                                 : "";
-    if (!of_picture.empty())
-        throw InputError(of_picture + ": does not apply to --to html, gif, mp4 or webm, which show one realization; "
-                                      "--realization selects it");
+    const std::optional<std::string> of_picture = wanted.limit                  ? "--limit " + *wanted.limit
+                                                  : wanted.picture              ? "--picture " + *wanted.picture
+                                                  : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
+                                                  : !wanted.frequencies.empty() ? "--frequency"
+                                                                                : std::optional<std::string>();
+    if (of_picture)
+        throw InputError(*of_picture + ": does not apply to --to html, gif, mp4 or webm, which show one realization; "
+                                       "--realization selects it");
     const Results results(file, options.set);
     const std::uint64_t realization = realization_of(results, wanted);
     const fs::path to = place_of(options, file, wanted, fmt::format("_realization_{}.{}", realization, format));
@@ -275,19 +272,19 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
     if (!picture && format != "csv")
         throw InputError(fmt::format(
             "--to {}: {} is a risk estimate; it has a picture (png, svg, pdf) and tables (csv)", format, file));
-    if (!wanted.picture.empty() || wanted.cell >= 0 || wanted.realization >= 0 || !wanted.frequencies.empty() ||
-        (!picture && (!wanted.limit.empty() || !wanted.title.empty())))
+    if (wanted.picture || wanted.cell >= 0 || wanted.realization >= 0 || !wanted.frequencies.empty() ||
+        (!picture && (wanted.limit || wanted.title)))
         throw InputError(fmt::format("{} is a risk estimate: of the options of pictures only --limit and --title apply "
                                      "to its picture, none to its tables",
                                      file));
     check_no_settings(options.set, file);
     if (!picture) {
-        const fs::path folder = wanted.output.empty() ? beside(file, "_" + format) : fs::path(wanted.output);
+        const fs::path folder = wanted.output ? fs::path(*wanted.output) : beside(file, "_" + format);
         check_output_folder(file, folder, options.force);
         write_files(risk_csv(read_any_risk(file)), folder);
         return folder;
     }
-    const std::string name = wanted.limit.empty() ? "." : "_" + wanted.limit + ".";
+    const std::string name = wanted.limit ? "_" + *wanted.limit + "." : ".";
     const fs::path to = place_of(options, file, wanted, name + format);
     plot_risk(read_any_risk(file), wanted.limit, wanted.title, to);
     return to;
@@ -296,16 +293,16 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
 /// Options that belong to single realizations or to the pictures of results.
 void check_comparison_options(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
 {
-    const std::string other = !options.set.empty()          ? "--set"
-                              : !wanted.picture.empty()     ? "--picture"
-                              : wanted.cell >= 0            ? "--cell"
-                              : wanted.realization >= 0     ? "--realization"
-                              : !wanted.frequencies.empty() ? "--frequency"
-                                                            : "";
-    if (!other.empty())
+    const std::optional<std::string> other = !options.set.empty()          ? "--set"
+                                             : wanted.picture              ? "--picture"
+                                             : wanted.cell >= 0            ? "--cell"
+                                             : wanted.realization >= 0     ? "--realization"
+                                             : !wanted.frequencies.empty() ? "--frequency"
+                                                                           : std::optional<std::string>();
+    if (other)
         throw InputError(fmt::format("{}: {} is a comparison, whose export has the options --to, --limit, --title and "
                                      "-o",
-                                     other, file));
+                                     *other, file));
 }
 
 /// @param format "png", "csv", ...   @returns the file
@@ -324,9 +321,9 @@ fs::path export_comparison(const CommonOptions& options, const std::string& file
         throw InputError(fmt::format("--to {}: a comparison is exported to png, svg, pdf or csv; compare --json prints "
                                      "it as JSON",
                                      format));
-    if (!wanted.limit.empty() || !wanted.title.empty())
+    if (wanted.limit || wanted.title)
         throw InputError(fmt::format("--{}: applies to --to png, svg or pdf; the table contains every limit state",
-                                     wanted.limit.empty() ? "title" : "limit"));
+                                     wanted.limit ? "limit" : "title"));
     const fs::path to = place_of(options, file, wanted, ".csv");
     write_whole(to, csv_text(comparison_rows(comparison)));
     return to;
@@ -346,17 +343,18 @@ std::vector<std::string> picture_names()
 int export_command(const CommonOptions& options, const std::string& results, const ExportOptions& wanted)
 {
     check_kind(results, "export");
-    check_not_input(results, wanted.output);
+    if (wanted.output)
+        check_not_input(results, *wanted.output);
     const FileKind kind = recognise(results).kind;
     if (kind == FileKind::comparison) {
-        const bool csv = wanted.format == "csv" || (wanted.format.empty() && ending_of(wanted.output) == "csv");
+        const bool csv = wanted.format == "csv" || (!wanted.format && ending_of(wanted.output.value_or("")) == "csv");
         print_written(options, export_comparison(options, results, wanted, csv ? "csv" : format_of(wanted)).string());
         return exit_done;
     }
-    const std::string motion = motion_format_of(wanted);
-    const std::string format = motion.empty() ? format_of(wanted) : motion;
+    const std::optional<std::string> motion = motion_format_of(wanted);
+    const std::string format = motion ? *motion : format_of(wanted);
     const std::optional<fs::path> written = kind == FileKind::risk ? export_risk(options, results, wanted, format)
-                                            : !motion.empty()      ? export_motion(options, results, wanted, motion)
+                                            : motion               ? export_motion(options, results, wanted, format)
                                             : is_picture_format(format)
                                                 ? export_picture(options, results, wanted, format)
                                             : format == "vtk" ? export_vtk(options, results, wanted)

@@ -198,7 +198,7 @@ void tell_result(const std::string& file, Told& told)
         .member("kind", header.kind)
         .member("seed", header.seed)
         .member("code_version", header.code_version)
-        .member("build", header.build)
+        .member("build", header.build.value_or(""))
         .member("study_crc32", fmt::format("{:08x}", study_crc32_of(header)))
         .member("realizations", header.total)
         .member("done", done)
@@ -209,12 +209,12 @@ void tell_result(const std::string& file, Told& told)
                                                                    "trajectory",
                                                                    header.first)
                                                      : "results of a study of kind " + header.kind;
-    told.text = fmt::format("{}, seed {}, by stylobate {}{}\n{} of {} realizations, {}\n", what, header.seed,
-                            header.code_version, header.build.empty() ? "" : fmt::format(" ({})", header.build), done,
-                            header.total,
-                            reader.complete()      ? "complete"
-                            : header.shard.whole() ? "unfinished"
-                                                   : "shard " + header.shard.text());
+    told.text =
+        fmt::format("{}, seed {}, by stylobate {}{}\n{} of {} realizations, {}\n", what, header.seed,
+                    header.code_version, header.build ? fmt::format(" ({})", *header.build) : "", done, header.total,
+                    reader.complete()      ? "complete"
+                    : header.shard.whole() ? "unfinished"
+                                           : "shard " + header.shard.text());
     told.unfinished = !reader.complete();
     if (told.unfinished)
         told.text += fmt::format("stylobate run STUDY.toml {}-o {}: continues it with the study stored in it\n",
@@ -334,7 +334,7 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
 
 void tell_record(const std::string& file, const RecognisedFile& known, Told& told)
 {
-    told.json.member("holds", "record").member("format", known.detail);
+    told.json.member("holds", "record").member("format", *known.detail);
     told.text = describe(known) + "\n";
     std::vector<Record> records;
     std::vector<std::string> refusals;
@@ -432,10 +432,11 @@ void print_file(const CommonOptions& options, const std::string& file, bool all)
 
 } // namespace
 
-int info_command(const CommonOptions& options, const std::string& file, bool all, const std::string& mpi)
+int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,
+                 const std::optional<std::string>& mpi)
 {
-    if (!file.empty()) {
-        print_file(options, file, all);
+    if (file) {
+        print_file(options, *file, all);
         return exit_done;
     }
     const std::vector<Isa> usable = usable_isas();
@@ -452,8 +453,8 @@ int info_command(const CommonOptions& options, const std::string& file, bool all
                                .member("threads", options.thread_count())
                                .member("gpu", !gpus.names.empty())
                                .member("gpus", Json::list(gpus.names))
-                               .member("mpi", !mpi.empty())
-                               .member("mpi_library", mpi)
+                               .member("mpi", mpi.has_value())
+                               .member("mpi_library", mpi.value_or(""))
                                .text());
         return exit_done;
     }
@@ -467,7 +468,7 @@ int info_command(const CommonOptions& options, const std::string& file, bool all
         fmt::print("GPU: {}\n", name);
     if (gpus.names.empty())
         fmt::print("GPU: none ({})\n", gpus.reason);
-    fmt::print("MPI: {}\n", mpi.empty() ? "none (this program was built without it)" : mpi);
+    fmt::print("MPI: {}\n", mpi.value_or("none (this program was built without it)"));
     return exit_done;
 }
 

@@ -22,6 +22,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -135,13 +136,12 @@ private:
                          "probability over them (0: none)")
             ->check(CLI::Range(0.0, 86400.0))
             ->capture_default_str();
-        check
-            ->add_option("--to", drawing_.format,
-                         "draw the structure to scale with its dimensions: png, svg or pdf (default: by the file "
-                         "extension of -o)")
+        add_word(*check, "--to", drawing_.format,
+                 "draw the structure to scale with its dimensions: png, svg or pdf (default: by the file "
+                 "extension of -o)")
             ->check(CLI::IsMember({"png", "svg", "pdf"}));
-        check->add_option("-o,--output", drawing_.output,
-                          "the drawing (default: the study's name with _structure and the format, here)");
+        add_word(*check, "-o,--output", drawing_.output,
+                 "the drawing (default: the study's name with _structure and the format, here)");
         add_all(*check, options_);
         check->callback([this] { status_ = check_command(options_, file_, check_, drawing_); });
     }
@@ -150,10 +150,10 @@ private:
     {
         auto* run = app_.add_subcommand("run", "run a study; continues an unfinished result of the same study");
         run->add_option("STUDY", file_, "study file (TOML)")->required();
-        run->add_option("-o,--output", output_, "results file (default: the study's name with .h5)");
-        run->add_option("--shard", shard_,
-                        "K/N: only this part of the realizations, from 1/N to N/N, into its own file; `merge` joins "
-                        "the files")
+        add_word(*run, "-o,--output", output_, "results file (default: the study's name with .h5)");
+        add_word(*run, "--shard", shard_,
+                 "K/N: only this part of the realizations, from 1/N to N/N, into its own file; `merge` joins "
+                 "the files")
             ->type_name("K/N");
         run->add_flag("--laws", laws_,
                       "also under other contact laws, on the same draws: softer, stiffer and rigid contacts, dashpots "
@@ -204,7 +204,7 @@ private:
         merge->add_option("-o,--output", output_, "results file")->required();
         merge->add_flag("--partial", partial_, "accept missing realizations; `run` can continue the file");
         add_all(*merge, options_);
-        merge->callback([this] { status_ = merge_command(options_, files_, output_, partial_); });
+        merge->callback([this] { status_ = merge_command(options_, files_, *output_, partial_); });
     }
 
     void add_replay()
@@ -215,13 +215,13 @@ private:
         replay->add_option("--frequency", choice_.cells.frequency_hz,
                            "surface: frequency of the cell, nearest value [Hz]");
         replay->add_option("--pga", choice_.cells.pga_m_s2, "surface: PGA of the cell, nearest value [m/s2]");
-        replay->add_option("--motion", choice_.cells.motion, "fragility study: name or number (from 0) of the motion");
+        add_word(*replay, "--motion", choice_.cells.motion, "fragility study: name or number (from 0) of the motion");
         replay->add_option("--intensity", choice_.cells.intensity, "fragility study: intensity level, nearest value");
         replay->add_flag("--fallen", choice_.fallen, "select a realization that fell");
         replay->add_flag("--stood", choice_.stood, "select a realization that did not fall");
         replay->add_option("--nth", choice_.nth,
                            "which of the selected ones, in the order of their indices, from 1 (default: 1)");
-        replay->add_option("-o,--output", output_, "results file for the trajectory (default: not kept)");
+        add_word(*replay, "-o,--output", output_, "results file for the trajectory (default: not kept)");
         add_all(*replay, options_);
         replay->callback([this] { status_ = replay_command(options_, file_, choice_, output_); });
     }
@@ -244,12 +244,12 @@ private:
     {
         auto* record = app_.add_subcommand("record", "read ground motions: format, PGA, duration, frequencies, ...");
         record->add_option("FILE", files_, "records of any known format")->required();
-        record->add_option("--unit", unit_,
-                           "unit of the acceleration if the file does not give it: m/s2, cm/s2, mm/s2, g, g/10");
-        record->add_option("--component", component_,
-                           "component to read: its name, its orientation, or its column counted from 1");
-        record->add_option("--block", block_,
-                           "WIDTHxHEIGHT of a rigid block in metres, such as 1x4.4: adds the measures of its rocking");
+        add_word(*record, "--unit", unit_,
+                 "unit of the acceleration if the file does not give it: m/s2, cm/s2, mm/s2, g, g/10");
+        add_word(*record, "--component", component_,
+                 "component to read: its name, its orientation, or its column counted from 1");
+        add_word(*record, "--block", block_,
+                 "WIDTHxHEIGHT of a rigid block in metres, such as 1x4.4: adds the measures of its rocking");
         add_common(*record, options_);
         record->callback([this] { status_ = record_command(options_, files_, unit_, component_, block_); });
     }
@@ -261,10 +261,10 @@ private:
             ->add_option("MEASURED", calibration_.measured,
                          "measured campaign (HDF5, or a folder of CSV files), or a table of outcomes (CSV)")
             ->required();
-        calibrate->add_option("--study", study_,
-                              "start study (default: the specimen, nominal friction, a bed of 2e9 N/m3; required for a "
-                              "table of outcomes)");
-        calibrate->add_option("-o,--output", output_, "results (HDF5); the calibrated study is written beside it");
+        add_word(*calibrate, "--study", study_,
+                 "start study (default: the specimen, nominal friction, a bed of 2e9 N/m3; required for a "
+                 "table of outcomes)");
+        add_word(*calibrate, "-o,--output", output_, "results (HDF5); the calibrated study is written beside it");
         add_repeated(*calibrate, "--fit", calibration_.fit,
                      "KEY or KEY=FROM:TO: an additional number of the study file to fit; may be given several times",
                      "KEY");
@@ -295,9 +295,9 @@ private:
             "find the errors of the simulation of measured data, their cause, an extended model and its gain");
         diagnosing->add_option("MEASURED", diagnosis_.measured, "measured campaign (HDF5, or a folder of CSV files)")
             ->required();
-        diagnosing->add_option("--study", study_, "study file with the initial contacts (default: a bed of stone)");
-        diagnosing->add_option("-o,--output", output_,
-                               "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
+        add_word(*diagnosing, "--study", study_, "study file with the initial contacts (default: a bed of stone)");
+        add_word(*diagnosing, "-o,--output", output_,
+                 "file of the diagnosis (default: the campaign's name with _diagnosis.h5)");
         diagnosing
             ->add_option("--nulls", nulls_,
                          "number of simulated healthy campaigns near the measured contact law; the others are in "
@@ -322,21 +322,18 @@ private:
         const std::vector<std::string> pictures = picture_names();
         auto* exporting = app_.add_subcommand("export", "write a result in other formats");
         exporting->add_option("RESULTS", file_, "results file or risk estimate (HDF5)")->required();
-        exporting
-            ->add_option("--to", export_.format,
-                         "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; vtk: a "
-                         "realization for ParaView; one "
-                         "realization in motion: html, or by ffmpeg gif, mp4 or webm (default: by the file extension "
-                         "of -o)")
+        add_word(*exporting, "--to", export_.format,
+                 "picture: png, svg or pdf; tables: csv, for fragility studies also nrml or json; vtk: a "
+                 "realization for ParaView; one "
+                 "realization in motion: html, or by ffmpeg gif, mp4 or webm (default: by the file extension "
+                 "of -o)")
             ->check(CLI::IsMember({"png", "svg", "pdf", "csv", "nrml", "json", "vtk", "html", "gif", "mp4", "webm"}));
-        exporting
-            ->add_option("--picture", export_.picture,
-                         fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
+        add_word(*exporting, "--picture", export_.picture,
+                 fmt::format("{} (default: by the kind of the study)", fmt::join(pictures, ", ")))
             ->check(CLI::IsMember(pictures));
-        exporting->add_option(
-            "--limit", export_.limit,
-            "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
-            "state of the study (default: peaks and collapse)");
+        add_word(*exporting, "--limit", export_.limit,
+                 "surface, slice: collapse, total, unseated, rocked or slid (default: collapse); fragility: a limit "
+                 "state of the study (default: peaks and collapse)");
         exporting
             ->add_option("--realization", export_.realization,
                          "strip, vtk, motion: index of the realization (default: 0)")
@@ -348,11 +345,11 @@ private:
                 "--frequency", export_.frequencies,
                 "slice: frequencies in Hz, within the axis; the nearest ones of the axis are drawn (default: three)")
             ->delimiter(',');
-        exporting->add_option("--title", export_.title,
-                              "title of the picture (default: study.title, or the file's name)");
-        exporting->add_option("-o,--output", export_.output,
-                              "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of "
-                              "the tables or of vtk");
+        add_word(*exporting, "--title", export_.title,
+                 "title of the picture (default: study.title, or the file's name)");
+        add_word(*exporting, "-o,--output", export_.output,
+                 "the picture, with a file extension for the format (.png, .svg, .pdf), or the folder of "
+                 "the tables or of vtk");
         add_all(*exporting, options_);
         exporting->callback([this] { status_ = export_command(options_, file_, export_); });
     }
@@ -366,8 +363,8 @@ private:
             ->add_option("FILE", report_.file,
                          "results file, comparison, diagnosis, calibration or risk estimate (HDF5)")
             ->required();
-        report->add_option("-o,--output", output_, "the page, .html (default: the file's name with that extension)");
-        report->add_option("--title", report_.title, "title of the page (default: study.title, or the file's name)");
+        add_word(*report, "-o,--output", output_, "the page, .html (default: the file's name with that extension)");
+        add_word(*report, "--title", report_.title, "title of the page (default: study.title, or the file's name)");
         report
             ->add_option(
                 "--animate", report_.animate,
@@ -405,14 +402,13 @@ private:
                          fmt::format("kind of the study: {}", fmt::join(words_of(study_kind_names), ", ")))
             ->required()
             ->check(CLI::IsMember(words_of(study_kind_names)));
-        begin->add_option("--structure", new_.structure, "column or colonnade (default: column)")
+        add_word(*begin, "--structure", new_.structure, "column or colonnade (default: column)")
             ->check(CLI::IsMember(words_of(structure_kind_names)));
-        begin
-            ->add_option("--excitation", new_.excitation,
-                         fmt::format("{} (default: harmonic; for a fragility study noise)",
-                                     fmt::join(words_of(excitation_kind_names), ", ")))
+        add_word(*begin, "--excitation", new_.excitation,
+                 fmt::format("{} (default: harmonic; for a fragility study noise)",
+                             fmt::join(words_of(excitation_kind_names), ", ")))
             ->check(CLI::IsMember(words_of(excitation_kind_names)));
-        begin->add_option("-o,--output", output_, "the study file (default: KIND.toml)");
+        add_word(*begin, "-o,--output", output_, "the study file (default: KIND.toml)");
         begin->add_flag("--quiet", options_.quiet, "print the name of the file only");
         add_force(*begin, options_);
         begin->callback([this] { status_ = new_command(options_, new_, output_); });
@@ -429,15 +425,15 @@ private:
     {
         auto* info =
             app_.add_subcommand("info", "print version, instruction sets and threads, or the content of a file");
-        info->add_option(
-            "FILE", file_,
+        add_word(
+            *info, "FILE", asked_,
             "any file that stylobate reads: a study, results, a replay, a diagnosis, a calibration, a risk estimate, "
             "measured data (HDF5, "
             "folder), measured outcomes (CSV), a record");
         info->add_flag("--all", all_, "print every note on measured data, not one of each kind");
         add_set(*info, options_);
         add_common(*info, options_);
-        info->callback([this] { status_ = info_command(options_, file_, all_, mpi_library()); });
+        info->callback([this] { status_ = info_command(options_, asked_, all_, mpi_library()); });
     }
 
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
@@ -448,12 +444,14 @@ private:
     int status_ = exit_done;
     DecisionVerbs decisions_{app_, options_, status_};
 
-    std::string file_, study_, output_; // input of a verb, its study, its output
+    std::string file_;                          // input of a verb
+    std::optional<std::string> study_, output_; // its study, its output
+    std::optional<std::string> asked_;          // input of info
     RealizationChoice choice_;
     std::vector<std::string> files_;
-    std::string shard_;
+    std::optional<std::string> shard_;
     bool partial_ = false, mpi_ = false, laws_ = false, all_ = false;
-    std::string unit_, component_, block_;
+    std::optional<std::string> unit_, component_, block_;
     CalibrationRequest calibration_;
     bool keep_all_ = false;
     DiagnosisRequest diagnosis_;

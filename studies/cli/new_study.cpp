@@ -24,17 +24,18 @@ auto value_of(const List& names, const std::string& word)
 
 } // namespace
 
-int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std::string output)
+int new_command(const CommonOptions& options, const NewStudyOptions& wanted,
+                const std::optional<std::string>& wanted_file)
 {
     TemplateChoice choice;
     choice.study = value_of(study_kind_names, wanted.kind);
-    choice.structure = value_of(structure_kind_names, wanted.structure);
-    if (!wanted.excitation.empty())
-        choice.excitation = value_of(excitation_kind_names, wanted.excitation);
+    if (wanted.structure)
+        choice.structure = value_of(structure_kind_names, *wanted.structure);
+    if (wanted.excitation)
+        choice.excitation = value_of(excitation_kind_names, *wanted.excitation);
     const std::string text = study_template(choice);
-    if (output.empty())
-        output = wanted.kind + ".toml";
-    check_output("", output, options.force);
+    const std::string output = wanted_file.value_or(wanted.kind + ".toml");
+    check_output(std::nullopt, output, options.force);
     write_whole(output, text);
     fmt::print("{}\n", output);
     if (!options.quiet)

@@ -36,10 +36,8 @@ struct BlockSize {
 };
 
 /// @throws InputError if the text is no WIDTHxHEIGHT
-std::optional<BlockSize> block_size(const std::string& text)
+BlockSize block_size(const std::string& text)
 {
-    if (text.empty())
-        return {};
     BlockSize size;
     const std::size_t cross = text.find_first_of("xX");
     const auto length = [](std::string_view part, double& value) {
@@ -81,7 +79,7 @@ Json describe(const Described& d)
         .member("orientation", r.orientation)
         .member("direction", to_string(r.direction))
         .member("title", r.title)
-        .member("note", r.note)
+        .member("note", r.note.value_or(""))
         .member("unit", r.unit)
         .member("samples", r.acceleration_m_s2.size())
         .member("dt_s", r.dt_s)
@@ -130,8 +128,8 @@ void print(const Described& d)
         fmt::print("  title        {}\n", r.title);
     fmt::print("  samples      {} at {} s, {:.2f} s in all, in {}\n", r.acceleration_m_s2.size(), r.dt_s,
                r.dt_s * static_cast<double>(r.acceleration_m_s2.size() - 1), r.unit);
-    if (!r.note.empty())
-        fmt::print("  note         {}\n", r.note);
+    if (r.note)
+        fmt::print("  note         {}\n", *r.note);
     fmt::print("  PGA          {:.4f} m/s2 ({:.4f} g)\n", im.pga_m_s2, im.pga_m_s2 / 9.80665);
     if (const std::optional<double> difference = header_difference(r, im)) {
         fmt::print("  its header   {:.4f} m/s2", *r.header_pga_m_s2);
@@ -162,10 +160,11 @@ void print(const Described& d)
 
 } // namespace
 
-int record_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& unit,
-                   const std::string& component, const std::string& block)
+int record_command(const CommonOptions& options, const std::vector<std::string>& files,
+                   const std::optional<std::string>& unit, const std::optional<std::string>& component,
+                   const std::optional<std::string>& block)
 {
-    const std::optional<BlockSize> size = block_size(block);
+    const std::optional<BlockSize> size = block ? std::optional(block_size(*block)) : std::nullopt;
     const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
     Json list = Json::list();
     int status = exit_done;
@@ -174,7 +173,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
         try {
             check_kind(file, "record");
             const std::vector<Record> records =
-                component.empty() ? read_records(file, unit) : std::vector<Record>{read_record(file, component, unit)};
+                component ? std::vector<Record>{read_record(file, *component, unit)} : read_records(file, unit);
             // all of a file is computed before any of it is printed
             std::vector<Described> all;
             for (const Record& record : records) {

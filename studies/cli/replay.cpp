@@ -25,13 +25,14 @@ namespace {
 
 struct ChosenRealization {
     std::uint64_t index = 0;
-    std::string words; ///< "number 2 of the 143 that fell, of 256 at 3.02 Hz, 9.8 m/s2"; empty if the index was given
+    /// "number 2 of the 143 that fell, of 256 at 3.02 Hz, 9.8 m/s2"; nullopt if the index was given.
+    std::optional<std::string> words;
 };
 
 /// The options must select in one way.
 void check_asked(const RealizationChoice& choice)
 {
-    const bool by_property = choice.cells.frequency_hz || choice.cells.pga_m_s2 || !choice.cells.motion.empty() ||
+    const bool by_property = choice.cells.frequency_hz || choice.cells.pga_m_s2 || choice.cells.motion ||
                              choice.cells.intensity || choice.fallen || choice.stood || choice.nth;
     if (choice.index && by_property)
         throw InputError(fmt::format("--realization {}: names one realization; omit the options that select among them "
@@ -61,7 +62,7 @@ ChosenRealization choose_realization(const Results& of, const RealizationChoice&
         if (*choice.index < 0 || index >= end || index < header.first)
             throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", *choice.index, results,
                                          header.first, end - 1));
-        return {index, ""};
+        return {index, std::nullopt};
     }
     const ChosenCells cells = of.kind().choose(choice.cells, results);
     const bool by_outcome = choice.fallen || choice.stood;
@@ -88,7 +89,7 @@ ChosenRealization choose_realization(const Results& of, const RealizationChoice&
     std::sort(found.begin(), found.end());
 
     const std::string what = choice.fallen ? "fell" : choice.stood ? "stood" : "there are";
-    const std::string where = cells.words.empty() ? "" : " " + cells.words;
+    const std::string where = cells.words ? " " + *cells.words : "";
     const std::string among = fmt::format("{} of {}{}{}", found.size(), all, where,
                                           header.has_rows() && !reader.complete() ? ", of those run so far" : "");
     const auto nth = static_cast<std::uint64_t>(choice.nth.value_or(1));
@@ -174,8 +175,8 @@ struct Replayed {
     const ResultRow& row;
     const std::vector<std::string>& names; ///< of the blocks
     double total_s = 0;                    ///< `total_collapse_s`
-    std::string chosen;                    ///< how it was chosen, in words
-    std::string trajectory;                ///< file; empty: none
+    std::optional<std::string> chosen;     ///< how it was chosen, in words
+    std::optional<std::string> trajectory; ///< file
     bool keeps_rows = true;                ///< the results
     bool complete = true;                  ///< the results
     bool known = false;                    ///< whether they have a row of it
@@ -208,10 +209,10 @@ void print_json(const Replayed& r)
         .member("step_s", o.step_s)
         .member("in_results", r.known)
         .member("same_bits", r.same);
-    if (!r.chosen.empty())
-        json.member("chosen", r.chosen);
-    if (!r.trajectory.empty())
-        json.member("trajectory", r.trajectory);
+    if (r.chosen)
+        json.member("chosen", *r.chosen);
+    if (r.trajectory)
+        json.member("trajectory", *r.trajectory);
     fmt::print("{}\n", json.text());
 }
 
@@ -231,8 +232,8 @@ void print_text(const Replayed& r)
                    o.unseating_time_s);
     if (o.state == State::invalid)
         fmt::print(" ({})", to_string(o.invalid_reason));
-    if (!r.chosen.empty())
-        fmt::print("\n  {}", r.chosen);
+    if (r.chosen)
+        fmt::print("\n  {}", *r.chosen);
     const std::string residual = o.at_rest != 0 ? fmt::format("residual {:.4g} m", o.residual_top_displacement_m)
                                                 : "residual not known (it still moved at the end)";
     fmt::print("\n  centre of the top block: peak displacement {:.4g} m, {}; sliding {:.4g} m, rocking {:.4g} rad\n",
@@ -250,14 +251,14 @@ void print_text(const Replayed& r)
                              ? (r.complete ? "not in the results: not needed by the run" : "not in the results yet")
                          : r.same ? "bitwise identical to the results"
                                   : "NOT bitwise identical to the results");
-    if (!r.trajectory.empty())
-        fmt::print("  trajectory in {}\n", r.trajectory);
+    if (r.trajectory)
+        fmt::print("  trajectory in {}\n", *r.trajectory);
 }
 
 } // namespace
 
 int replay_command(const CommonOptions& options, const std::string& results, const RealizationChoice& choice,
-                   const std::string& trajectory)
+                   const std::optional<std::string>& trajectory)
 {
     check_kind(results, "replay");
     const Results file(results, options.set);
@@ -266,8 +267,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     const Experiment& experiment = file.experiment();
     const ChosenRealization chosen = choose_realization(file, choice);
     const std::uint64_t index = chosen.index;
-    if (!trajectory.empty())
-        check_output(results, trajectory, options.force);
+    if (trajectory)
+        check_output(results, *trajectory, options.force);
 
     ResultHeader one = header;
     one.first = index;
@@ -281,8 +282,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.build = code_build();
     const TracedRealization f = trace(experiment, index, options.isa());
     const ResultRow row = result_row(experiment.study(), f.realization, f.outcome);
-    if (!trajectory.empty()) // made only now: an interrupted replay leaves no file
-        write_replay(trajectory, one, row, f.trajectory);
+    if (trajectory) // made only now: an interrupted replay leaves no file
+        write_replay(*trajectory, one, row, f.trajectory);
 
     const bool known = reader.has(index);
     const bool same = known && same_bits(reader.row(index), row);

@@ -23,11 +23,11 @@ int print_run(const CommonOptions& options, const RunReport& report)
 
 } // namespace
 
-int run_command(const CommonOptions& options, const std::string& study, const std::string& results,
-                const std::string& shard, bool laws)
+int run_command(const CommonOptions& options, const std::string& study, const std::optional<std::string>& results,
+                const std::optional<std::string>& shard, bool laws)
 {
     Console console(options.quiet || !options.leads());
-    const RunReport report = run_study_file({study, options.set, given(results), given(shard), laws}, options, console);
+    const RunReport report = run_study_file({study, options.set, results, shard, laws}, options, console);
     if (!options.leads())
         return report.complete ? exit_done : exit_interrupted;
     return print_run(options, report);
@@ -45,9 +45,9 @@ int merge_command(const CommonOptions& options, const std::vector<std::string>& 
     return print_run(options, *report);
 }
 
-int report_command(const CommonOptions& options, PageRequest request, const std::string& output)
+int report_command(const CommonOptions& options, PageRequest request, const std::optional<std::string>& output)
 {
-    request.output = given(output).value_or(beside(request.file, ".html").string());
+    request.output = output.value_or(beside(request.file, ".html").string());
     request.settings = options.set;
     request.force = options.force;
     Console console(options.quiet);

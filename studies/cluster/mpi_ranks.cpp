@@ -156,7 +156,7 @@ std::unique_ptr<Ranks> mpi_ranks()
     return std::make_unique<MpiRanks>();
 }
 
-std::string mpi_library()
+std::optional<std::string> mpi_library()
 {
     char text[MPI_MAX_LIBRARY_VERSION_STRING];
     int length = 0;
@@ -173,9 +173,9 @@ std::unique_ptr<Ranks> mpi_ranks()
                      "with cmake -DSTYLOBATE_MPI=ON, and build; or run shards (--shard).");
 }
 
-std::string mpi_library()
+std::optional<std::string> mpi_library()
 {
-    return {};
+    return std::nullopt;
 }
 
 #endif

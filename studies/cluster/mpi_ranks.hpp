@@ -4,6 +4,7 @@
 #include "ensemble/run/ranks.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -11,7 +12,7 @@ namespace stylobate {
 /// Alone it is one rank. @throws InputError if this program was built without MPI
 std::unique_ptr<Ranks> mpi_ranks();
 
-/// The MPI that this program was built with, such as "Open MPI v4.1.4"; empty: none.
-std::string mpi_library();
+/// The MPI that this program was built with, such as "Open MPI v4.1.4"; nullopt: none.
+std::optional<std::string> mpi_library();
 
 } // namespace stylobate

@@ -136,8 +136,7 @@ void add_components(const Study& study, const Record& first, Motions& motions)
     if (excitation.second)
         motions.second = motion(*excitation.second, "excitation.second", Direction::horizontal);
     if (study.vertical)
-        motions.vertical = motion({study.vertical->file, study.vertical->component, study.vertical->unit},
-                                  "excitation.vertical", Direction::vertical);
+        motions.vertical = motion(*study.vertical, "excitation.vertical", Direction::vertical);
 }
 
 /// The same of a table.
@@ -159,9 +158,9 @@ void add_tables(const Study& study, Motions& motions)
         return other;
     };
     if (study.excitation.second)
-        motions.second = motion(study.excitation.second->file, "excitation.second");
+        motions.second = motion(*study.excitation.second->file, "excitation.second");
     if (study.vertical)
-        motions.vertical = motion(study.vertical->file, "excitation.vertical");
+        motions.vertical = motion(*study.vertical->file, "excitation.vertical");
 }
 
 Experiment with_motions(Study study)
@@ -193,7 +192,7 @@ Motions motions_of(const Study& study, const Record* record)
             add_tables(study, motions);
     }
     if (const std::optional<VerticalSpec>& spec = study.vertical; spec && !study.structure.spatial())
-        motions.vertical = make_motion(read_record(spec->file, spec->component, spec->unit, pga), spec->baseline);
+        motions.vertical = make_motion(read_record(*spec->file, spec->component, spec->unit, pga), spec->baseline);
     return motions;
 }
 
@@ -257,7 +256,7 @@ LoadedStudy LoadedStudy::from_results(const Study& of_results, const ResultHeade
         else if (print.starts_with("# second"))
             check(loaded.experiment().motions().second->source, of_second, print);
         else if (print.starts_with("# vertical"))
-            check(study.structure.spatial() ? loaded.experiment().motions().vertical->source : study.vertical->file,
+            check(study.structure.spatial() ? loaded.experiment().motions().vertical->source : *study.vertical->file,
                   of_vertical(study), print);
         else
             check(study.excitation.file, of_record, print);

@@ -40,13 +40,13 @@ MotionSet read_motions(const Study& study)
         if (excitation.time_scale != 1)
             stretch(motion, excitation.time_scale);
         std::string name = std::filesystem::path(record.file).filename().string();
-        if (!record.component.empty())
-            name += " " + record.component;
+        if (record.component)
+            name += " " + *record.component;
         if (!is_plain_text(name)) // else the results, whose study has it in a comment, could not be read again
             throw InputError(
                 fmt::format("{}: the name of a motion is that of its file{}, and has a line break, another "
                             "control character or a byte that is no UTF-8.\n  Rename the file.",
-                            record.file, record.component.empty() ? "" : " with its component"));
+                            record.file, record.component ? " with its component" : ""));
         set.names.push_back(std::move(name));
         set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
     }

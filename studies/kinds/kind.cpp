@@ -46,9 +46,9 @@ void Kind::add(const Tally& tally)
     take(tally);
 }
 
-std::string Kind::prepare(const Experiment&, const std::string&)
+std::optional<std::string> Kind::prepare(const Experiment&, const std::string&)
 {
-    return {};
+    return std::nullopt;
 }
 
 void Kind::share(Progress& progress) const
@@ -72,14 +72,14 @@ Json Kind::limits_json() const
 ChosenCells Kind::choose(const CellChoice& choice, const std::string& results) const
 {
     const auto refuse = [&](const char* option, const char* why) {
-        const std::string by = chosen_by();
+        const std::optional<std::string> by = chosen_by();
         throw InputError(fmt::format("{}: {} is a result of kind '{}', {}.{}", option, results, kind_name(), why,
-                                     by.empty() ? "" : " Choose by " + by + "."));
+                                     by ? " Choose by " + *by + "." : ""));
     };
     if (choice.frequency_hz || choice.pga_m_s2)
         refuse(choice.frequency_hz ? "--frequency" : "--pga", "which has no axes of frequency and PGA");
-    if (!choice.motion.empty() || choice.intensity)
-        refuse(!choice.motion.empty() ? "--motion" : "--intensity", "not of a fragility study");
+    if (choice.motion || choice.intensity)
+        refuse(choice.motion ? "--motion" : "--intensity", "not of a fragility study");
     return {};
 }
 

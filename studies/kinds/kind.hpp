@@ -29,14 +29,14 @@ struct LawBand;
 /// A picture of a kind, and its options on the command line.
 struct PictureKind {
     std::string_view name; ///< "surface": the word of the command line
-    std::string_view of;   ///< results that have it: "a fragility study"; empty: all
+    std::string_view of;   ///< results that have it: "a fragility study"
     bool limit = false;    ///< of one limit state
     bool slices = false;   ///< of some frequencies
 };
 struct PictureRequest {
     std::string_view name;              ///< of a picture of the kind
-    std::string limit;                  ///< empty: the usual one
-    std::vector<double> frequencies_hz; ///< empty: some
+    std::optional<std::string> limit;   ///< nullopt: the usual one
+    std::vector<double> frequencies_hz; ///< of a slice; none: three of the axis
     const LawBand* laws = nullptr;      ///< over contact laws; null: not measured
 };
 struct Picture {
@@ -49,12 +49,12 @@ struct Picture {
 /// Which cells are asked for, by where they lie.
 struct CellChoice {
     std::optional<double> frequency_hz, pga_m_s2;
-    std::string motion;
+    std::optional<std::string> motion;
     std::optional<double> intensity;
 };
 struct ChosenCells {
     std::function<bool(std::uint64_t cell)> has = [](std::uint64_t) { return true; };
-    std::string words; ///< "at 3.02 Hz, 9.8 m/s2"; empty: all of them
+    std::optional<std::string> words; ///< "at 3.02 Hz, 9.8 m/s2"; nullopt: all cells
 };
 
 /// The value of an axis that is nearest on the axis' scale.
@@ -81,20 +81,20 @@ public:
     /// Realizations 0 .. n - 1 are drawn once before anything is written, so that a study that cannot be run is
     /// refused.
     virtual std::uint64_t drawn_first() const { return study_.total(); }
-    /// Why the study cannot be run in parts, each without the others; empty: it can.
-    virtual std::string why_no_shards() const { return {}; }
-    /// Why the realizations cannot be shared out to several processes while they run; empty: they can.
-    virtual std::string why_no_ranks() const { return {}; }
+    /// Why the study cannot be run in parts, each without the others; nullopt: it can.
+    virtual std::optional<std::string> why_no_shards() const { return std::nullopt; }
+    /// Why the realizations cannot be shared out to several processes while they run; nullopt: they can.
+    virtual std::optional<std::string> why_no_ranks() const { return std::nullopt; }
     /// How many realizations a shard has.
     virtual std::uint64_t size_of(const Shard& shard) const
     {
         return static_cast<std::uint64_t>(study_.events()) * RunOrder(study_.originals()).places(shard).size();
     }
-    /// What keeps the study from being stepped on a device: "has [twins], ..."; empty: nothing does.
-    virtual std::string needs_processor() const { return {}; }
+    /// What keeps the study from being stepped on a device: "has [twins], ..."; nullopt: nothing does.
+    virtual std::optional<std::string> needs_processor() const { return std::nullopt; }
     /// Looks at the study before its run. @param file of the study, for messages
     /// @returns what the user should know, or nothing   @throws InputError if it cannot be run so
-    virtual std::string prepare(const Experiment&, const std::string& file);
+    virtual std::optional<std::string> prepare(const Experiment&, const std::string& file);
     /// How many trajectories the results file keeps, after `prepare`.
     virtual std::uint64_t trajectories() const { return 0; }
     /// Memory of each realization [bytes]: what the store and the kind keep of it until the end (`RowNumbers`, `take`),
@@ -139,16 +139,16 @@ public:
     /// Whether shares over all its realizations are meaningful, that is whether they are drawn from the study's
     /// distribution.
     virtual bool draws_plainly() const { return true; }
-    /// Why none of its realizations can be run again by itself; empty: each can.
-    virtual std::string why_no_replay() const { return {}; }
+    /// Why none of its realizations can be run again by itself; nullopt: each can.
+    virtual std::optional<std::string> why_no_replay() const { return std::nullopt; }
     /// Counts over all trials. @param complete whether these are all of the study
     Json limits_json() const;
     const LimitCounts& counts() const { return counts_; }
     const ResultHeader& header() const { return header_; }
     /// @throws InputError if there are no such cells. @param results for messages
     virtual ChosenCells choose(const CellChoice& choice, const std::string& results) const;
-    /// How cells are chosen on the command line: "--frequency and --pga"; empty: there are none.
-    virtual std::string chosen_by() const { return {}; }
+    /// How cells are chosen on the command line: "--frequency and --pga"; nullopt: it has no cells.
+    virtual std::optional<std::string> chosen_by() const { return std::nullopt; }
 
     // ---- tables, pictures and pages of results ---------------------------------------------------------------------
 

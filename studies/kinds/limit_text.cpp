@@ -66,16 +66,18 @@ Json limits_json(const LimitCounts& counts, const std::vector<std::string>& name
     return json;
 }
 
-std::string counted_words(const Study& study)
+std::optional<std::string> counted_words(const Study& study)
 {
-    return study.events() > 1 ? "of one event" : study.design().replica_set ? "without replicas" : "";
+    if (study.events() > 1)
+        return "of one event";
+    return study.design().replica_set ? std::optional("without replicas") : std::nullopt;
 }
 
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
-                        const std::string& of)
+                        const std::optional<std::string>& of)
 {
     const Share collapsed = counts.share(LimitState::collapse);
-    std::string text = "  " + of + (of.empty() ? "" : ": ") + "collapsed " + share_text(collapsed);
+    std::string text = "  " + (of ? *of + ": " : "") + "collapsed " + share_text(collapsed);
     if (collapsed.count > 0)
         text += fmt::format(", median time {:.3g} s", counts.median_collapse_time_s());
     if (const Share unseated = counts.share(LimitState::unseated); unseated.count > 0)

@@ -4,6 +4,7 @@
 #include "studies/experiment/limit_state.hpp"
 #include "studies/report/json.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,13 @@ namespace stylobate {
 
 /// Outcomes of the valid realizations, over all cells.
 /// @param names of the blocks   @param to_rest whether realizations are followed beyond the first fall
-/// @param of what they are (`counted_words`); empty: of all realizations
+/// @param of what they are (`counted_words`)
 std::string limits_text(const LimitCounts& counts, const std::vector<std::string>& names, bool to_rest,
-                        const std::string& of);
+                        const std::optional<std::string>& of);
 
-/// Which realizations the outcomes of a study are of where it has others too: "of one event", "without replicas".
-std::string counted_words(const Study& study);
+/// Which realizations the outcomes of a study are of where it has others too: "of one event", "without
+/// replicas". nullopt: of all realizations.
+std::optional<std::string> counted_words(const Study& study);
 
 /// @param fair whether all cells have equally many realizations; else the shares among all mean nothing and are left
 /// out

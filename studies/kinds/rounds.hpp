@@ -11,8 +11,8 @@ namespace stylobate {
 
 /// Realizations that are stepped together.
 struct Round {
-    std::span<const std::uint64_t> indices = {}; ///< empty: all realizations of the study
-    /// Makes a realization from its index; called from several threads at once. Empty: the sampler does.
+    std::span<const std::uint64_t> indices = {}; ///< none: all realizations of the study
+    /// Makes a realization from its index; called from several threads at once. Null: the sampler does.
     std::function<Realization(std::uint64_t index)> realize = {};
     const Study* as = nullptr; ///< the study that they are stepped as; null: the study itself
     bool fair = false;         ///< whether their share of collapses is that of the whole study

@@ -42,7 +42,7 @@ std::string default_words(const TomlKey& key)
 {
     if (key.needed())
         return "**needed**";
-    return key.absent_is_value ? "`" + key.absent + "`" : cell(key.absent);
+    return key.absent_is_value ? "`" + *key.absent + "`" : cell(*key.absent);
 }
 
 class Page {
@@ -59,10 +59,10 @@ public:
         std::string about = table.meaning;
         about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
         about += ".";
-        if (const std::string use = use_words(table); !use.empty())
-            about += fmt::format(" Used where {}.", use);
+        if (const std::optional<std::string> use = use_words(table))
+            about += fmt::format(" Used where {}.", *use);
         if (!table.needed() && table.type != KeyType::tables)
-            about += fmt::format(" If the table is absent: {}.", table.absent);
+            about += fmt::format(" If the table is absent: {}.", *table.absent);
         paragraph(about);
         keys(table, path);
         for (const TomlKey* key : table.keys)
@@ -75,8 +75,8 @@ public:
         out_ += markdown_head("key | type and range | default | meaning");
         for (const TomlKey* key : table.keys) {
             std::string meaning = key->meaning;
-            if (const std::string use = use_words(*key); !use.empty())
-                meaning += fmt::format("; used where {}", use);
+            if (const std::optional<std::string> use = use_words(*key))
+                meaning += fmt::format("; used where {}", *use);
             if (const auto seen = printed_.find(key); seen != printed_.end())
                 meaning += fmt::format(" (keys: see `[{}]`)", seen->second);
             else if (!key->keys.empty())
@@ -128,13 +128,13 @@ public:
 private:
     void quantity(const SpreadKey& key, const std::string& above)
     {
-        const std::string use = use_words(key);
+        const std::optional<std::string> use = use_words(key);
         std::string per;
         for (const std::string& word : key.per.words)
             per += (per.empty() ? "" : ", ") + word;
         out_ += markdown_row("`{}{}` | `{}`{} | {} | {} | {}", above, key.name, key.sd.name,
                              key.relative ? ", `cov`, `sigma_ln`" : "", key.value.text(), per,
-                             use.empty() ? key.meaning : key.meaning + "; used where " + use);
+                             use ? key.meaning + "; used where " + *use : key.meaning);
     }
 
     std::string out_;
@@ -145,8 +145,8 @@ private:
 
 std::string type_words(const TomlKey& key)
 {
-    const std::string unit = key.unit();
-    const std::string in_unit = unit.empty() ? "" : ", " + unit;
+    const auto unit = key.unit();
+    const std::string in_unit = unit ? ", " + *unit : "";
     const std::string or_word = key.words.empty() ? "" : "; or " + listed(key.words);
     switch (key.type) {
     case KeyType::number:
@@ -179,14 +179,14 @@ std::string type_words(const TomlKey& key)
     return {};
 }
 
-std::string use_words(const TomlKey& key)
+std::optional<std::string> use_words(const TomlKey& key)
 {
-    std::string text;
+    std::optional<std::string> text;
     for (const Condition& condition : key.used)
-        text += (text.empty() ? "" : ", and ") + condition.key + " = " + listed(condition.values);
+        text = (text ? *text + ", and " : "") + condition.key + " = " + listed(condition.values);
     if (key.models != KeyFacts().models)
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", and ", model_key,
-                            key.models.front() == model_names.front() ? 2 : 3);
+        text = (text ? *text + ", and " : "") +
+               fmt::format("{} = {}", model_key, key.models.front() == model_names.front() ? 2 : 3);
     return text;
 }
 

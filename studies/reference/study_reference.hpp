@@ -13,8 +13,8 @@ namespace stylobate {
 /// "number in (0, 10], m", "\"smooth\" or \"abrupt\"", "list of numbers in [0, 1]", "table".
 std::string type_words(const TomlKey& key);
 
-/// "excitation.kind = \"harmonic\" or \"tapered\", and study.kind = \"single\""; empty: always used.
-std::string use_words(const TomlKey& key);
+/// "excitation.kind = \"harmonic\" or \"tapered\", and study.kind = \"single\""; nullopt: always used.
+std::optional<std::string> use_words(const TomlKey& key);
 
 /// Every key with its type, unit, range, default and meaning, in Markdown; it is kept as docs/study_reference.md.
 std::string study_reference();

@@ -203,13 +203,13 @@ private:
             text += ".";
         else
             text += " (" + type_words(key) + ").";
-        if (const std::string use = use_words(key); !use.empty())
-            text += " Used where " + use + ".";
+        if (const std::optional<std::string> use = use_words(key))
+            text += " Used where " + *use + ".";
         if (!key.needed() && !key.absent_is_value)
-            text += " Default: " + key.absent + ".";
+            text += " Default: " + *key.absent + ".";
         schema.member("description", text);
         if (key.absent_is_value) // numbers, words, booleans and lists of numbers are the same in JSON
-            schema.member_as_is("default", key.absent);
+            schema.member_as_is("default", *key.absent);
     }
 
     /// What a table's own kind or method excludes: `excitation.kind` in [excitation].

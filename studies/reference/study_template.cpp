@@ -43,42 +43,42 @@ private:
         bool given = table.needed();
         for (const TomlKey* key : table.keys)
             if (use_.of(*key)) {
-                const std::string value = value_of(*key, table.name + "." + key->name);
-                given = given || !value.empty();
+                const std::optional<std::string> value = value_of(*key, table.name + "." + key->name);
+                given = given || value;
                 keys += line_of(*key, value);
             }
         std::string about = table.meaning;
         if (!table.needed())
-            about += "; without this table: " + table.absent;
+            about += "; without this table: " + *table.absent;
         return line((given ? "[" : "# [") + table.name + "]", about) + keys;
     }
 
-    /// What the study gives; empty: it leaves the key to its default.
-    std::string value_of(const TomlKey& key, const std::string& path) const
+    /// What the study gives; nullopt: it leaves the key to its default.
+    std::optional<std::string> value_of(const TomlKey& key, const std::string& path) const
     {
         if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
             return path == model_key ? kind->second : toml_quoted(kind->second);
         // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
         if (path == "contact.damping" && comes_to_rest_)
             return toml_quoted(word_for(damping_at_names, DampingAt::ends));
-        if (!key.example.empty())
-            return key.example;
-        return key.needed() && !key.keys.empty() ? inline_table(key) : std::string();
+        if (key.example)
+            return *key.example;
+        return key.needed() && !key.keys.empty() ? std::optional(inline_table(key)) : std::nullopt;
     }
 
-    std::string line_of(const TomlKey& key, const std::string& value) const
+    std::string line_of(const TomlKey& key, const std::optional<std::string>& value) const
     {
         std::string about = key.meaning;
         if (key.type == KeyType::word)
             about += ": " + type_words(key);
-        else if (!key.unit().empty() && key.keys.empty())
-            about += " [" + key.unit() + "]";
+        else if (const auto unit = key.unit(); unit && key.keys.empty())
+            about += " [" + *unit + "]";
         if (!key.needed() && !key.absent_is_value && key.keys.empty())
-            about += "; default: " + key.absent;
-        if (!value.empty())
-            return line(key.name + " = " + value, about);
+            about += "; default: " + *key.absent;
+        if (value)
+            return line(key.name + " = " + *value, about);
         if (key.absent_is_value)
-            return line("# " + key.name + " = " + key.absent, about);
+            return line("# " + key.name + " = " + *key.absent, about);
         if (key.type == KeyType::named)
             return line("# " + (key.keys.empty() ? key.name + " = { \"TABLE.KEY\" = ... }"
                                                  : "\"TABLE.KEY\" = " + inline_table(key)),
@@ -94,9 +94,9 @@ private:
     {
         std::string entries;
         for (const TomlKey* key : table.keys) {
-            if (!key->needed() && !key->absent_is_value && key->example.empty())
+            if (!key->needed() && !key->absent_is_value && !key->example)
                 continue;
-            const std::string value = !key->example.empty() ? key->example : key->needed() ? to_be_given : key->absent;
+            const std::string value = key->example ? *key->example : key->needed() ? to_be_given : *key->absent;
             entries += (entries.empty() ? "" : ", ") + key->name + " = " + value;
         }
         return table.type == KeyType::tables ? "[ { " + entries + " }, ... ]" : "{ " + entries + " }";

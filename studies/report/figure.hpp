@@ -1,6 +1,7 @@
 #pragma once
 /// A figure as plain data: `html_figure.hpp` draws it.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,15 @@ enum class SeriesKind {
 
 /// NaN in y, low or high leaves a gap.
 struct FigureSeries {
-    std::string name; ///< for the legend; empty: not in it
+    std::string name; ///< in the legend; "" where it is not listed there
     SeriesKind kind = SeriesKind::line;
     std::vector<double> x;
     std::vector<double> y;    ///< as many as x; of a band: empty
     std::vector<double> low;  ///< as many as x, or empty
     std::vector<double> high; ///< as many as x, or empty
-    // Of a diagnosis these two are empty: its file does not keep them.
-    std::string group = {}; ///< series of one group have one colour and one entry of the legend; empty: its name
-    std::string layer = {}; ///< what of its group it is ("fitted curve"): layers can be switched off; empty: none
+    // The file of a diagnosis does not keep these two.
+    std::optional<std::string> group = {}; ///< has one colour and one entry of the legend; nullopt: the name
+    std::optional<std::string> layer = {}; ///< what of its group it is ("fitted curve"); layers can be switched off
 };
 
 /// A figure as data; who shows it draws it.
@@ -35,7 +36,7 @@ struct Figure {
     std::string y_label;
     bool x_log = false;
     bool y_log = false;
-    std::vector<std::string> x_ticks; ///< names instead of numbers, at x = 0, 1, 2, ...; empty: numbers
+    std::vector<std::string> x_ticks; ///< names instead of numbers, at x = 0, 1, 2, ...; none: numbers
     std::vector<FigureSeries> series;
 };
 

@@ -31,7 +31,7 @@ std::string html_escaped(std::string_view text);
 
 /// A word of a file or of the command line.
 Html code(std::string_view text);
-/// A word in a coloured field. @param tone "good", "warn", "bad" or empty
+/// A word in a coloured field. @param tone "good", "warn", "bad", or "" for the plain colour
 Html tag(std::string_view tone, std::string_view text);
 
 struct HtmlTable {

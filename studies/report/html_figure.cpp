@@ -269,7 +269,7 @@ public:
             all.item(Json::object()
                          .member("name", s.name)
                          .member("group", group_of(s))
-                         .member("layer", s.layer)
+                         .member("layer", s.layer.value_or(""))
                          .member("kind", s.kind == SeriesKind::spans  ? "spans"
                                          : s.kind == SeriesKind::bars ? "bars"
                                                                       : "values")
@@ -288,13 +288,13 @@ public:
 
 private:
     std::size_t samples() const { return figure_.series.size() > many_series ? most_samples / 2 : most_samples; }
-    static const std::string& group_of(const FigureSeries& s) { return s.group.empty() ? s.name : s.group; }
+    static const std::string& group_of(const FigureSeries& s) { return s.group ? *s.group : s.name; }
 
     /// Series of one group share that of the first of them.
     std::size_t colour_number(std::size_t i) const
     {
         std::size_t number = i;
-        if (!figure_.series[i].group.empty()) { // the groups are counted instead
+        if (figure_.series[i].group) { // the groups are counted instead
             std::vector<std::string> seen;
             for (std::size_t k = 0; k <= i; ++k)
                 if (std::find(seen.begin(), seen.end(), group_of(figure_.series[k])) == seen.end())

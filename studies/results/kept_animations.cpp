@@ -200,13 +200,13 @@ private:
             kept_.words = fmt::format("Animations: {} of {}", kept, counted(all, "chosen realization"));
         if (all == 0)
             return;
-        kept_.words +=
+        *kept_.words +=
             fmt::format("; {:.3g} Hz, {:.2g} MB of a budget of {:g} MB.", kept_.rate_hz, mb_, options_.budget_mb);
         if (full)
-            kept_.words += " The budget is used up: --animate-mb sets another one.";
+            *kept_.words += " The budget is used up: --animate-mb sets another one.";
         if (late)
-            kept_.words += fmt::format(" The time of {} is used up: --animate-seconds sets another one.",
-                                       duration_text(options_.seconds));
+            *kept_.words += fmt::format(" The time of {} is used up: --animate-seconds sets another one.",
+                                        duration_text(options_.seconds));
     }
 
     bool is_surface() const { return !results_.header().frequency_hz.empty(); }
@@ -221,14 +221,14 @@ private:
     KeptAnimations kept_;
 };
 
-/// Why no realization of these results can be shown; empty: they can.
-std::string why_none(const Results& results)
+/// Why no realization of these results can be shown; nullopt: they can.
+std::optional<std::string> why_none(const Results& results)
 {
-    if (const std::string why = results.kind().why_no_replay(); !why.empty())
+    if (const std::optional<std::string> why = results.kind().why_no_replay())
         return why;
     if (!results.header().has_rows())
         return "has no rows of realizations (output.realizations = \"none\"), of which some could be chosen";
-    return {};
+    return std::nullopt;
 }
 
 } // namespace
@@ -240,12 +240,12 @@ KeptAnimations keep_animations(const Results& results, Isa isa, const AnimationO
         none.words = "No animations were asked for (--animate 0).";
         return none;
     }
-    if (const std::string why = why_none(results); !why.empty()) {
+    if (const std::optional<std::string> why = why_none(results)) {
         if (options.wanted)
             throw InputError(fmt::format("{}: no animations can be made: {}.\n  Leave out --animate and its limits.",
-                                         results.file(), why));
+                                         results.file(), *why));
         none.words =
-            fmt::format("No animations: {} {}.", std::filesystem::path(results.file()).filename().string(), why);
+            fmt::format("No animations: {} {}.", std::filesystem::path(results.file()).filename().string(), *why);
         return none;
     }
     try {

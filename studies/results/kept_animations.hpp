@@ -7,6 +7,7 @@
 #include "studies/results/results.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,9 @@ struct AnimationOptions {
 struct KeptAnimations {
     AnimationStage stage;
     double rate_hz = 0;
-    std::vector<Animation> list; ///< by cell and index
-    std::string words;           ///< what was kept and what was not, for the page; empty: none
-    std::string warning;         ///< why there are none though there might be; empty: nothing is wrong
+    std::vector<Animation> list;        ///< by cell and index
+    std::optional<std::string> words;   ///< what was kept and what was not, for the page; nullopt: none
+    std::optional<std::string> warning; ///< why there are none though there might be; nullopt: nothing is wrong
 };
 
 /// Those that the file keeps as trajectories, and those that are run again: of a surface by cells, of other studies

@@ -176,7 +176,7 @@ bool write_film(const TracedMotion& motion, const Study& study, const fs::path& 
 
 /// The page of the player alone.
 std::string motion_page(const TracedMotion& motion, const Results& results, std::uint64_t index,
-                        const std::string& title)
+                        const std::optional<std::string>& title)
 {
     KeptAnimations kept = animations_for(results.study());
     Animation animation = animation_of(motion.trajectory, kept.stage, animation_stride(results.study()));
@@ -185,7 +185,7 @@ std::string motion_page(const TracedMotion& motion, const Results& results, std:
     animation.pga_m_s2 = motion.pga_m_s2;
     animation.fall_time_s = motion.fall_time_s;
     kept.list.push_back(std::move(animation));
-    HtmlPage page(title.empty() ? fmt::format("{}, realization {}", results.title(), index) : title,
+    HtmlPage page(title.value_or(fmt::format("{}, realization {}", results.title(), index)),
                   fmt::format("Computed by stylobate {}.", results.header().code_version));
     page.data("animations", animations_json(kept, results.study()));
     page.player();
@@ -199,7 +199,7 @@ bool is_motion_format(std::string_view format)
     return format == "html" || format == "gif" || format == "mp4" || format == "webm";
 }
 
-bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::string& title,
+bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::optional<std::string>& title,
                   const std::string& format, const fs::path& file, Observer& observer)
 {
     AtomicFile::check(file); // this and the search before the realization is run

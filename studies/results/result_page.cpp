@@ -159,12 +159,12 @@ HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector
 
 class ResultPage {
 public:
-    ResultPage(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-               const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
+    ResultPage(const Results& results, Isa isa, const std::optional<std::string>& title,
+               const KeptAnimations& animations, const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
         : results_(results), isa_(isa), animations_(animations), laws_(laws), reader_(results.reader()),
           header_(results.header()), warnings_(warnings), study_(results.study()), kind_(results.concluded()),
           rows_(results.trials()), counts_(kind_.counts()),
-          page_(title.empty() ? "Results: " + results.title() : title, subtitle(header_)),
+          page_(title.value_or("Results: " + results.title()), subtitle(header_)),
           writer_{page_, [this](const std::string& caption, const auto& draw) { picture(caption, draw); }},
           surface_(!header_.frequency_hz.empty())
     {
@@ -234,13 +234,13 @@ private:
     void summary()
     {
         const Share collapsed = counts_.share(LimitState::collapse);
-        const std::string of = counted_words(study_);
+        const std::optional<std::string> of = counted_words(study_);
         std::string text;
         if (rows_.size() == 1)
             text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         else
             text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
-                               collapsed.trials, of.empty() ? "" : " " + of,
+                               collapsed.trials, of ? " " + *of : "",
                                surface_ ? fmt::format(" over {} × {} cells of frequency and PGA",
                                                       header_.frequency_hz.size(), header_.pga_m_s2.size())
                                         : "",
@@ -309,8 +309,8 @@ private:
         if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
             page_.data("cells",
                        cells_json(*table, rows_, header_.block_names, fs::path(results_.file()).filename().string()));
-            if (!animations_.words.empty())
-                page_.note(animations_.words);
+            if (animations_.words)
+                page_.note(*animations_.words);
         }
         if (!animations_.list.empty())
             page_.data("animations", animations_json(animations_, study_));
@@ -325,15 +325,15 @@ private:
             if (!animations_.list.empty()) {
                 page_.section("Realizations in motion");
                 page_.player();
-                page_.note(animations_.words);
+                page_.note(*animations_.words);
             }
             return;
         }
         page_.section("Motion");
         if (!animations_.list.empty())
             page_.player();
-        if (!animations_.words.empty())
-            page_.note(animations_.words);
+        if (animations_.words)
+            page_.note(*animations_.words);
         const std::size_t shown = std::min<std::size_t>(first_shown, rows_.size());
         for (std::size_t i = 0; i < shown; ++i)
             motion(rows_[i]);
@@ -354,7 +354,7 @@ private:
         page_.section("Order of falls");
         if (falls.trials > 1)
             picture("The share of the realizations in which a block has fallen, over time.",
-                    [&](const fs::path& png) { order_picture(results_, -1, "", png); });
+                    [&](const fs::path& png) { order_picture(results_, -1, std::nullopt, png); });
         HtmlTable table{"lrrrrr",
                         {"block", "fell", "share", describe_interval(falls.interval), "median time [s]", "fell first"},
                         {},
@@ -464,7 +464,7 @@ private:
         page_.paragraph(fmt::format("With stylobate {} and the study below as STUDY.toml:", header_.code_version));
         const std::string name = fs::path(results_.file()).filename().string();
         std::string commands;
-        if (!kind_.why_no_replay().empty())
+        if (kind_.why_no_replay())
             commands = fmt::format("stylobate run STUDY.toml -o {}\n", name);
         else if (header_.kind == "replay")
             commands =
@@ -486,7 +486,7 @@ private:
         try {
             const TracedMotion f = traced_motion(results_, isa_, row.index);
             picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
-                    [&](const fs::path& png) { strip_picture(results_, f, "", png); });
+                    [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
             page_.figure(
                 figure_svg(history_figure(results_, f), 220),
                 fmt::format("Realization {}: displacement of the base, and of blocks against the base.", row.index));
@@ -534,8 +534,9 @@ private:
 
 } // namespace
 
-HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-                     const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
+HtmlPage result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
+                     const KeptAnimations& animations, const std::optional<LawBand>& laws,
+                     std::vector<std::string>& warnings)
 {
     return ResultPage(results, isa, title, animations, laws, warnings).page();
 }

@@ -17,12 +17,13 @@ namespace stylobate {
 /// it again; and the data by which its script shows values under the pointer and realizations in motion. Where the
 /// pictures cannot be drawn the page contains a message.
 /// @param isa for realizations whose trajectories the file does not hold
-/// @param title of the page; empty: by the study or the file
+/// @param title of the page; nullopt: by the study or the file
 /// @param animations of `keep_animations`
 /// @param laws over contact laws; none: the page states which command measures it
 /// @param warnings receives a line for each picture that could not be drawn
 /// @throws InputError if the run is not complete
-HtmlPage result_page(const Results& results, Isa isa, const std::string& title, const KeptAnimations& animations,
-                     const std::optional<LawBand>& laws, std::vector<std::string>& warnings);
+HtmlPage result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
+                     const KeptAnimations& animations, const std::optional<LawBand>& laws,
+                     std::vector<std::string>& warnings);
 
 } // namespace stylobate

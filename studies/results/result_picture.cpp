@@ -84,10 +84,11 @@ Figure history_figure(const Results& results, const TracedMotion& motion)
     return figure;
 }
 
-void strip_picture(const Results& results, const TracedMotion& motion, const std::string& title, const fs::path& file)
+void strip_picture(const Results& results, const TracedMotion& motion, const std::optional<std::string>& title,
+                   const fs::path& file)
 {
     const Trajectory& t = motion.trajectory;
-    plot_strip(t, motion.fall_time_s, title.empty() ? strip_title(results, t.index) : title, file);
+    plot_strip(t, motion.fall_time_s, title.value_or(strip_title(results, t.index)), file);
 }
 
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,
@@ -120,7 +121,8 @@ FallOrder fall_order(const std::vector<std::string>& names, const std::vector<Re
     return order;
 }
 
-void order_picture(const Results& results, long long cell, const std::string& given_title, const fs::path& file)
+void order_picture(const Results& results, long long cell, const std::optional<std::string>& given_title,
+                   const fs::path& file)
 {
     const ResultHeader& header = results.header();
     check_complete(results.reader(), results.file());
@@ -155,7 +157,7 @@ void order_picture(const Results& results, long long cell, const std::string& gi
         study.outcome.follow == Follow::rest ? "" : "each realization was computed only until its first fall";
     if (falls.together > 0)
         note += fmt::format("{}in {} several fell first, simultaneously", note.empty() ? "" : " · ", falls.together);
-    plot_order(falls, given_title.empty() ? title : given_title, note, file);
+    plot_order(falls, given_title.value_or(title), note, file);
 }
 
 } // namespace stylobate

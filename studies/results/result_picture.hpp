@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,9 @@ struct TracedMotion {
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index);
 
 /// One realization over time.
-/// @param title empty: from the results, the realization and its outcome
+/// @param title nullopt: from the results, the realization and its outcome
 /// @throws InputError as `plot_strip` does
-void strip_picture(const Results& results, const TracedMotion& motion, const std::string& title,
+void strip_picture(const Results& results, const TracedMotion& motion, const std::optional<std::string>& title,
                    const std::filesystem::path& file);
 
 /// One realization over time as curves of a page: displacement of the base, and of blocks against the base and their
@@ -44,8 +45,9 @@ FallOrder fall_order(const std::vector<std::string>& names, const std::vector<Re
 
 /// Which blocks fall, in which order and when.
 /// @param cell of a surface; -1: all realizations
-/// @param title empty: by the results and the cell
+/// @param title nullopt: by the results and the cell
 /// @throws InputError if there is no such cell, if the run is not complete, and as `plot_order` does
-void order_picture(const Results& results, long long cell, const std::string& title, const std::filesystem::path& file);
+void order_picture(const Results& results, long long cell, const std::optional<std::string>& title,
+                   const std::filesystem::path& file);
 
 } // namespace stylobate

@@ -41,13 +41,13 @@ const std::vector<ResultRow>& Results::trials() const
 
 std::string Results::title() const
 {
-    return study_.title.empty() ? std::filesystem::path(file_).stem().string() : study_.title;
+    return study_.title.value_or(std::filesystem::path(file_).stem().string());
 }
 
 const Experiment& Results::experiment() const
 {
-    if (const std::string why = kind_->why_no_replay(); !why.empty())
-        throw InputError(fmt::format("{}: {}", file_, why));
+    if (const std::optional<std::string> why = kind_->why_no_replay())
+        throw InputError(fmt::format("{}: {}", file_, *why));
     if (!loaded_)
         loaded_.emplace(LoadedStudy::from_results(study_, header(), file_, settings_));
     return loaded_->experiment();

@@ -24,8 +24,8 @@ std::string span_text(const std::vector<double>& values, const char* unit)
                            : fmt::format("{:.4g} {} to {:.4g} {}", *least, unit, *most, unit);
 }
 
-/// Number and sizes of the blocks of a kind; empty without any.
-std::string blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun)
+/// Number and sizes of the blocks of a kind; nullopt without any.
+std::optional<std::string> blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun)
 {
     std::vector<double> width, height, mass;
     std::size_t fixed = 0;
@@ -37,7 +37,7 @@ std::string blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun
             fixed += block.fixed;
         }
     if (width.empty())
-        return "";
+        return std::nullopt;
     return fmt::format("{}{}: width {}, height {}, mass {}", counted(width.size(), noun),
                        fixed > 0 ? fmt::format(" ({} fixed)", fixed) : "", span_text(width, "m"),
                        span_text(height, "m"), span_text(mass, "kg"));
@@ -46,10 +46,11 @@ std::string blocks_text(const std::vector<PlacedBlock>& blocks, const char* noun
 std::string structure_text(const Study& study, const Layout& layout)
 {
     std::string text = counted(study.structure.columns.size(), "column");
-    for (const std::string& part : {blocks_text(layout.blocks, "drum"), blocks_text(layout.blocks, "capital"),
-                                    blocks_text(layout.blocks, "epistyle")})
-        if (!part.empty())
-            text += "; " + part;
+    for (const std::optional<std::string>& part :
+         {blocks_text(layout.blocks, "drum"), blocks_text(layout.blocks, "capital"),
+          blocks_text(layout.blocks, "epistyle")})
+        if (part)
+            text += "; " + *part;
     return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
 }
 
@@ -127,7 +128,7 @@ std::string excitation_text(const Study& study, const ResultRow* one)
                            : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
     }
     if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
-        text += " " + e.file + (e.component.empty() ? "" : ", component " + e.component);
+        text += " " + e.file + (e.component ? ", component " + *e.component : "");
     if (e.kind == ExcitationKind::harmonic || e.kind == ExcitationKind::tapered)
         text += fmt::format(", {:.3g} cycles", e.cycles);
     if (one) {

@@ -120,7 +120,7 @@ public:
     Runner(const Experiment& experiment, Kind& kind, RunStore& store, const RunOptions& options, Observer& observer,
            const Shard& shard)
         : Rounds(experiment, options, observer, shard), kind_(kind), store_(store),
-          heard_(!kind.why_no_shards().empty())
+          heard_(kind.why_no_shards().has_value())
     {
         if (options.ranks && heard_) // what an earlier part of the run has left
             share_rows(
@@ -299,13 +299,13 @@ ResultHeader header_of(const LoadedStudy& loaded, const Shard& shard)
 
 } // namespace
 
-StudyRun::StudyRun(LoadedStudy loaded, ResultHeader header, std::string name, std::string results, Ranks* ranks,
-                   std::vector<std::string> warnings)
+StudyRun::StudyRun(LoadedStudy loaded, ResultHeader header, std::string name, std::optional<std::string> results,
+                   Ranks* ranks, std::vector<std::string> warnings)
     : loaded_(std::move(loaded)), name_(std::move(name)), results_(std::move(results)), header_(std::move(header)),
       ranks_(ranks), warnings_(std::move(warnings)), kind_(make_kind(loaded_.study(), header_)),
-      notice_(results_.empty() && kind_->prepares_file_alone() ? "" : kind_->prepare(loaded_.experiment(), name_)),
-      found_(leads() && std::filesystem::exists(results_)),
-      finished_(found_ && ResultWriter::is_finished(results_, header_))
+      notice_(results_ || !kind_->prepares_file_alone() ? kind_->prepare(loaded_.experiment(), name_) : std::nullopt),
+      found_(results_ && leads() && std::filesystem::exists(*results_)),
+      finished_(found_ && ResultWriter::is_finished(*results_, header_))
 {
 }
 
@@ -335,7 +335,7 @@ void StudyRun::open(std::unique_ptr<RunStore> store)
 {
     if (store_)
         return;
-    store_ = store ? std::move(store) : leads() ? open_store(results_, header_, found_) : std::make_unique<RunStore>();
+    store_ = store ? std::move(store) : leads() ? open_store(*results_, header_, found_) : std::make_unique<RunStore>();
     found_ = true;
 }
 
@@ -379,7 +379,7 @@ Progress StudyRun::restore()
 {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     Progress progress{.seconds = unknown, .rate = unknown, .occupancy = unknown};
-    const ResultReader reader(results_);
+    const ResultReader reader(*results_);
     progress.done = progress.total = reader.done();
     reader.for_each_row([&](const ResultRow& row) {
         kind_->add(row);
@@ -400,8 +400,8 @@ void StudyRun::for_each_row(const std::function<void(const ResultRow&)>& f) cons
 {
     if (store_)
         store_->for_each_row(f);
-    else if (std::filesystem::exists(results_))
-        ResultReader(results_).for_each_row(f);
+    else if (results_ && std::filesystem::exists(*results_))
+        ResultReader(*results_).for_each_row(f);
 }
 
 std::uint64_t StudyRun::invalid() const
@@ -418,7 +418,7 @@ std::uint64_t StudyRun::done() const
         store_->for_each_row([&](const ResultRow&) { ++rows; });
         return rows;
     }
-    return std::filesystem::exists(results_) ? ResultReader(results_).done() : 0;
+    return results_ && std::filesystem::exists(*results_) ? ResultReader(*results_).done() : 0;
 }
 
 } // namespace stylobate

@@ -71,29 +71,31 @@ class StudyRun {
 public:
     /// Looks at the study and at its file, and changes nothing.
     /// @param name of the study, for messages
-    /// @param results its file, which need not be there; empty: its rows go into a store that `open` is given
+    /// @param results its file, which need not be there
     /// @param shard the part of it that is run
     /// @param ranks that run it together; null: this process is alone
     /// @throws InputError if the study cannot be run, or if the file is another study's
     StudyRun(LoadedStudy loaded, std::string name, std::string results, const Shard& shard = {},
              Ranks* ranks = nullptr);
     /// A study that has been judged already. @param header of its results   @param warnings what was found
-    StudyRun(LoadedStudy loaded, ResultHeader header, std::string name, std::string results, Ranks* ranks = nullptr,
-             std::vector<std::string> warnings = {});
+    /// @param results its file; nullopt: its rows go into a store that `open` is given
+    StudyRun(LoadedStudy loaded, ResultHeader header, std::string name, std::optional<std::string> results,
+             Ranks* ranks = nullptr, std::vector<std::string> warnings = {});
     ~StudyRun();
     StudyRun(const StudyRun&) = delete;
     StudyRun& operator=(const StudyRun&) = delete;
 
     const std::string& name() const { return name_; }
-    const std::string& results() const { return results_; }
+    /// @pre it has a file
+    const std::string& results() const { return *results_; }
     const Study& study() const { return loaded_.study(); }
     const LoadedStudy& loaded() const { return loaded_; }
     const ResultHeader& header() const { return header_; }
     const Kind& kind() const { return *kind_; }
     /// What of the study can hardly be meant, in sentences.
     const std::vector<std::string>& warnings() const { return warnings_; }
-    /// What its kind has chosen, in sentences; empty: nothing.
-    const std::string& notice() const { return notice_; }
+    /// What its kind has chosen, in sentences; nullopt: nothing.
+    const std::optional<std::string>& notice() const { return notice_; }
     /// Whether a file of the study is there.
     bool found() const { return found_; }
     /// Whether nothing is left to run.
@@ -130,12 +132,13 @@ private:
     bool leads() const { return !ranks_ || ranks_->leads(); }
 
     const LoadedStudy loaded_;
-    const std::string name_, results_;
+    const std::string name_;
+    const std::optional<std::string> results_;
     const ResultHeader header_;
     Ranks* const ranks_;
     const std::vector<std::string> warnings_;
     const std::unique_ptr<Kind> kind_;
-    const std::string notice_;
+    const std::optional<std::string> notice_;
     bool found_ = false, finished_ = false;
     std::unique_ptr<RunStore> store_; ///< while it is open
 };

@@ -12,39 +12,36 @@ namespace {
 
 /// Files by the ending of their names; folders are offered with them.
 struct FileWord {
-    const char* command; ///< empty: any
+    const char* command; ///< null: any
     const char* word;    ///< an option, or what stands for a word that has its place
     const char* endings; ///< "*": any file
 };
 
 constexpr FileWord file_words[] = {
-    {"compare", "STUDY", "toml h5"}, {"", "STUDY", "toml"},
-    {"", "--study", "toml"},         {"", "RESULTS", "h5"},
-    {"", "MEASURED", "h5 csv"},      {"report", "FILE", "h5"},
-    {"risk", "FILE", "h5"},          {"", "FILE", "*"},
-    {"report", "--output", "html"},  {"new", "--output", "toml"},
-    {"export", "--output", "*"},     {"run", "--output", "h5"},
-    {"replay", "--output", "h5"},    {"calibrate", "--output", "h5"},
-    {"diagnose", "--output", "h5"},  {"compare", "--output", "h5"},
-    {"risk", "--output", "h5"},      {"risk", "--hazard", "csv xml"},
+    {"compare", "STUDY", "toml h5"}, {nullptr, "STUDY", "toml"},      {nullptr, "--study", "toml"},
+    {nullptr, "RESULTS", "h5"},      {nullptr, "MEASURED", "h5 csv"}, {"report", "FILE", "h5"},
+    {"risk", "FILE", "h5"},          {nullptr, "FILE", "*"},          {"report", "--output", "html"},
+    {"new", "--output", "toml"},     {"export", "--output", "*"},     {"run", "--output", "h5"},
+    {"replay", "--output", "h5"},    {"calibrate", "--output", "h5"}, {"diagnose", "--output", "h5"},
+    {"compare", "--output", "h5"},   {"risk", "--output", "h5"},      {"risk", "--hazard", "csv xml"},
 };
 
-std::string endings_of(const std::string& command, const std::string& word)
+std::optional<std::string> endings_of(const std::string& command, const std::string& word)
 {
     for (const FileWord& file : file_words)
-        if (word == file.word && (*file.command == '\0' || command == file.command))
+        if (word == file.word && (file.command == nullptr || command == file.command))
             return file.endings;
-    return {};
+    return std::nullopt;
 }
 
 /// What may stand in its place, as the shell's `words=...`, `endings=...` or `keys=...`.
 std::string values_of(const UsageCommand& command, const UsageOption& option)
 {
-    const std::string word = option.names.empty() ? option.value : option.names.back();
+    const std::string word = option.names.empty() ? *option.value : option.names.back();
     if (!option.choices.empty())
         return fmt::format("words='{}'", fmt::join(option.choices, " "));
-    if (const std::string endings = endings_of(command.name, word); !endings.empty())
-        return fmt::format("endings='{}'", endings);
+    if (const std::optional<std::string> endings = endings_of(command.name, word))
+        return fmt::format("endings='{}'", *endings);
     if (word == "--set")
         return "keys=yes";
     return ":";
@@ -57,7 +54,7 @@ std::string option_cases(const Usage& usage)
     const auto names = [](const std::vector<UsageOption>& options, bool with_value) {
         std::vector<std::string> all;
         for (const UsageOption& option : options)
-            if (!with_value || !option.value.empty())
+            if (!with_value || option.value)
                 all.insert(all.end(), option.names.begin(), option.names.end());
         return fmt::format("{}", fmt::join(all, " "));
     };
@@ -79,7 +76,7 @@ std::string value_cases(const Usage& usage)
                                 values_of(command, command.places[i]));
         }
         for (const UsageOption& option : command.options)
-            if (!option.value.empty())
+            if (option.value)
                 for (const std::string& name : option.names)
                     text += fmt::format("    '{} {}') {} ;;\n", command.name, name, values_of(command, option));
     }

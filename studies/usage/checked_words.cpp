@@ -44,10 +44,10 @@ const CLI::App& verb_of(const CLI::App& app, const std::string& word)
             known.push_back("--" + long_name);
     const auto meant =
         name.size() == 2 ? std::nullopt : nearest_word(name.starts_with("--") ? name : "-" + name, known);
-    const std::string of = &verb == &app ? "" : verb.get_name();
+    const std::optional<std::string> of = &verb == &app ? std::nullopt : std::optional(verb.get_name());
     throw InputError(fmt::format("{} is not an option{}.\n  {}stylobate {}--help lists the options.", name,
-                                 of.empty() ? of : " of " + of, meant ? "Did you mean " + *meant + "? " : "",
-                                 of.empty() ? of : of + " "));
+                                 of ? " of " + *of : "", meant ? "Did you mean " + *meant + "? " : "",
+                                 of ? *of + " " : ""));
 }
 
 /// Of the values of an option: empty, or why one is no such number. CLI11 takes the nearest number of 64 bits for a

@@ -57,9 +57,9 @@ std::string head_of(const UsageOption& option)
     std::string head;
     for (const std::string& name : option.names)
         head += (head.empty() ? "" : ", ") + bold(name);
-    if (option.value.empty())
+    if (!option.value)
         return head;
-    std::string value = slanted(option.value);
+    std::string value = slanted(*option.value);
     if (listed_in_head(option)) {
         value.clear();
         for (const std::string& word : option.choices)
@@ -74,10 +74,10 @@ std::string text_of(const UsageOption& option)
     if (!option.choices.empty() && !listed_in_head(option) &&
         option.text.find(option.choices.back()) == std::string::npos)
         text += plain(fmt::format("; one of {}", fmt::join(option.choices, ", ")));
-    if (!option.range.empty())
-        text += plain("; " + option.range);
-    if (!option.usual.empty())
-        text += plain(fmt::format(" (default: {})", option.usual));
+    if (option.range)
+        text += plain("; " + *option.range);
+    if (option.usual)
+        text += plain(fmt::format(" (default: {})", *option.usual));
     return text;
 }
 
@@ -165,7 +165,7 @@ private:
     {
         std::string line = bold("stylobate " + command.name);
         for (const UsageOption& place : command.places) {
-            const std::string word = slanted(place.value) + (place.repeated ? "..." : "");
+            const std::string word = slanted(*place.value) + (place.repeated ? "..." : "");
             line += place.required ? " " + word : " [" + word + "]";
         }
         return line + " [" + slanted("OPTION") + "...]";

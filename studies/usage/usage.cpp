@@ -13,18 +13,20 @@ namespace {
 void read_type(const std::string& type, UsageOption& option)
 {
     option.value = type.substr(0, type.find(':'));
-    const auto between = [&](const char* begin, const char* end) {
+    const auto between = [&](const std::string& begin, const char* end) -> std::optional<std::string> {
         const std::size_t from = type.find(begin);
-        return from == std::string::npos ? ""
-                                         : type.substr(from + std::string(begin).size(),
-                                                       type.find(end, from) - from - std::string(begin).size());
+        if (from == std::string::npos)
+            return std::nullopt;
+        return type.substr(from + begin.size(), type.find(end, from) - from - begin.size());
     };
-    std::istringstream words(between("{", "}"));
+    std::istringstream words(between("{", "}").value_or(""));
     for (std::string word; std::getline(words, word, ',');)
         option.choices.push_back(word);
     option.range = between(" in [", "]");
-    if (const std::size_t dash = option.range.find(" - "); dash != std::string::npos)
-        option.range.replace(dash, 3, " to ");
+    if (!option.range)
+        return;
+    if (const std::size_t dash = option.range->find(" - "); dash != std::string::npos)
+        option.range->replace(dash, 3, " to ");
 }
 
 UsageOption option_of(const CLI::Option& given)
@@ -38,7 +40,8 @@ UsageOption option_of(const CLI::Option& given)
         read_type(given.get_type_name(), option);
     if (!given.nonpositional())
         option.value = given.get_name();
-    option.usual = given.get_default_str();
+    if (const std::string usual = given.get_default_str(); !usual.empty()) // as CLI11 has it
+        option.usual = usual;
     option.text = given.get_description();
     option.required = given.get_required();
     option.repeated = given.get_items_expected_max() > 1;

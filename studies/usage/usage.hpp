@@ -2,6 +2,7 @@
 /// The command line as plain data, and what is written of it: the manual page, the completion of bash, the end of the
 /// help text; and what CLI11 does not report of a command line, or not with what was meant.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,10 @@ namespace stylobate {
 /// An option, or (without names) a word that has its place.
 struct UsageOption {
     std::vector<std::string> names;   ///< "-o", "--output"
-    std::string value;                ///< what stands for its value: "KEY=VALUE"; empty: it takes none
+    std::optional<std::string> value; ///< what stands for its value: "KEY=VALUE"; nullopt: it takes none
     std::vector<std::string> choices; ///< the words that it may be; none: anything
-    std::string range;                ///< of a number: "1 to 4096"
-    std::string usual;                ///< the value where it is not given
+    std::optional<std::string> range; ///< of a number: "1 to 4096"
+    std::optional<std::string> usual; ///< the value where it is not given
     std::string text;                 ///< its meaning
     bool required = false;
     bool repeated = false; ///< may be given several times

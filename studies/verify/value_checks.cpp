@@ -86,7 +86,7 @@ public:
     {
         const auto check = [&](const std::string& group, const char* name, const FieldFacts& facts, const auto& value) {
             if constexpr (std::is_same_v<decltype(value), const double&>) {
-                if (facts.none == std::string_view(it_still_moved) && row_.outcome.at_rest == 0)
+                if (facts.none == it_still_moved && row_.outcome.at_rest == 0)
                     return require(group + name, value, std::isnan(value), "NaN of what still moved");
                 require(group + name, value, std::isfinite(value), "a finite number");
                 const bool none = value == -1 && is_event_time(facts);

@@ -46,7 +46,7 @@ const char* word_of(CheckVerdict verdict)
 
 std::string written_by(const FileVerification& v)
 {
-    return v.build.empty() ? v.code_version : fmt::format("{} ({})", v.code_version, v.build);
+    return v.build ? fmt::format("{} ({})", v.code_version, *v.build) : v.code_version;
 }
 
 std::string version_note(const FileVerification& v)
@@ -118,7 +118,7 @@ Json json_of(const FileVerification& v)
         .member("done", v.done)
         .member("complete", v.complete)
         .member("code_version", v.code_version)
-        .member("build", v.build)
+        .member("build", v.build.value_or(""))
         .member("same_version", v.same_version)
         .member("study_crc32", v.study_crc32)
         .member("well", v.well())

@@ -46,10 +46,11 @@ struct FileVerification {
     std::string kind; ///< of the study
     std::uint64_t realizations = 0, done = 0;
     bool complete = false;
-    std::string code_version, build; ///< of the program that began the file; `build` may be empty
-    std::string study_crc32;         ///< eight hexadecimal digits
-    bool same_version = false;       ///< whether it was this one
-    bool stopped = false;            ///< at the user's request, before the end
+    std::string code_version;         ///< of the program that began the file
+    std::optional<std::string> build; ///< of that program; nullopt where the file does not state it
+    std::string study_crc32;          ///< eight hexadecimal digits
+    bool same_version = false;        ///< whether it was this one
+    bool stopped = false;             ///< at the user's request, before the end
     std::vector<FileCheck> checks;
 
     /// Whether no check has found a difference.

@@ -49,8 +49,8 @@ std::string key_of(const Measured& measured, const std::filesystem::path& file)
     std::set<std::string> files;
     if (const auto* table = std::get_if<OutcomeTable>(&measured))
         for (const MeasuredOutcome& row : table->rows)
-            if (!row.motion_file.empty() && files.insert(row.motion_file).second)
-                key += " " + fingerprint(file.parent_path() / row.motion_file);
+            if (row.motion_file && files.insert(*row.motion_file).second)
+                key += " " + fingerprint(file.parent_path() / *row.motion_file);
     return key;
 }
 
@@ -96,7 +96,7 @@ CalibrationEnd calibrate_measured(const CalibrationRequest& request, const Machi
     });
     search.outcomes = request.outcomes;
     search.held_out = request.held_out;
-    if (run.leads() && !request.kept.empty()) {
+    if (run.leads() && request.kept) {
         search.kept = request.kept;
         search.kept_key = key_of(measured, request.measured);
     }

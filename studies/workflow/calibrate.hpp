@@ -13,17 +13,17 @@
 namespace stylobate {
 
 struct CalibrationRequest {
-    std::string measured;                  ///< a campaign, or a table of outcomes (CSV)
-    std::optional<Study> start{};          ///< to begin from; none: the specimen's (`default_study`)
-    std::string start_name = "study";      ///< for messages
-    std::vector<std::string> settings{};   ///< of the start where none is given
-    std::vector<std::string> fit{};        ///< "KEY" or "KEY=FROM:TO", beside the contact's or instead of them
-    std::vector<std::string> hold{};       ///< keys of the contact that keep the study's value
-    std::vector<std::string> forms{};      ///< contact forms, or "all"; empty: the study's
-    bool outcomes = false;                 ///< use the outcomes (fell or stood) even where histories are available
-    bool held_out = true;                  ///< cross-validation over motions
-    std::filesystem::path kept{};          ///< file of what was predicted, until it is complete; empty: none
-    std::function<void()> check_outputs{}; ///< called where nothing else is refused any more; may be empty
+    std::string measured;                ///< a campaign, or a table of outcomes (CSV)
+    std::optional<Study> start{};        ///< to begin from; none: the specimen's (`default_study`)
+    std::string start_name = "study";    ///< for messages
+    std::vector<std::string> settings{}; ///< of the start where none is given
+    std::vector<std::string> fit{};      ///< "KEY" or "KEY=FROM:TO", beside the contact's or instead of them
+    std::vector<std::string> hold{};     ///< keys of the contact that keep the study's value
+    std::vector<std::string> forms{};    ///< contact forms, or "all"; none: the study's
+    bool outcomes = false;               ///< use the outcomes (fell or stood) even where histories are available
+    bool held_out = true;                ///< cross-validation over motions
+    std::optional<std::filesystem::path> kept{}; ///< file of what was predicted, until it is complete
+    std::function<void()> check_outputs{};       ///< called where nothing else is refused any more; may be empty
 };
 
 struct CalibrationEnd {

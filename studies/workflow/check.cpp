@@ -15,11 +15,11 @@ namespace {
 constexpr std::uint64_t usual_pilot = 1024, least_pilot = 16, most_pilot = 10'000'000;
 constexpr double most_trial_seconds = 3600, most_law_seconds = 86400;
 
-/// Why a part of the study cannot be run twice; empty: it can.
-std::string no_pilot(const Study& study)
+/// Why a part of the study cannot be run twice; nullopt: it can.
+std::optional<std::string> no_pilot(const Study& study)
 {
     if (const StudyDesign design = study.design(); !design.selected && design.factors == nullptr)
-        return {}; // a realization is drawn by its index alone
+        return std::nullopt; // a realization is drawn by its index alone
     return fmt::format("the realizations of study.kind = \"{}\"{} are chosen by what others did. Check the same "
                        "structure and shaking as a surface.",
                        word_for(study_kind_names, study.kind), study.surface ? " with surface.adaptive" : "");
@@ -32,8 +32,8 @@ std::uint64_t pilot_of(const CheckRequest& request, const Study& study, const st
     if (pilot != 0 && (pilot < least_pilot || pilot > most_pilot))
         throw InputError(
             fmt::format("--pilot {}: a pilot has {} to {} realizations; 0: none", pilot, least_pilot, most_pilot));
-    if (const std::string why = no_pilot(study); request.pilot && pilot > 0 && !why.empty())
-        throw InputError(fmt::format("{}: --pilot runs a part of a study twice: {}", file, why));
+    if (const auto why = no_pilot(study); request.pilot && pilot > 0 && why)
+        throw InputError(fmt::format("{}: --pilot runs a part of a study twice: {}", file, *why));
     return pilot;
 }
 
@@ -108,7 +108,7 @@ std::optional<CheckReport> check_study(LoadedStudy loaded, const std::string& fi
     report.free = free_motion(report.study);
     report.weak = weak_spots(loaded, loaded.implausibilities(), trial, &report.free);
     report.not_looked_for = not_looked_for(loaded, trial, report.free);
-    if (report.why_no_pilot.empty())
+    if (!report.why_no_pilot)
         run_pilot(loaded.experiment(), pilot, request.law_seconds, report, observer);
     else
         report.laws.why_none = pilot == 0 ? "--pilot 0." : "There is no pilot.";

@@ -90,8 +90,8 @@ ComparisonEnd compare_study_files(const ComparisonRequest& request, const Machin
     for (const auto& study : studies) {
         for (const std::string& warning : study->warnings())
             observer.warn(study->name() + ": " + warning);
-        if (!study->notice().empty())
-            observer.warn(study->name() + ": " + study->notice());
+        if (study->notice())
+            observer.warn(study->name() + ": " + *study->notice());
     }
     ComparisonEnd end;
     if (request.adaptive)

@@ -13,13 +13,13 @@ namespace stylobate {
 
 struct DiagnosisRequest {
     std::string measured;
-    std::optional<Study> start{};          ///< contacts to begin with; none: a bed of stone
-    std::string start_name = "study";      ///< for messages
-    std::vector<std::string> settings{};   ///< of the start where none is given
-    std::uint64_t nulls = 192;             ///< healthy campaigns that are simulated near the measured contact law
-    std::uint64_t seed = 1;                ///< of what is drawn in them
-    std::filesystem::path cache{};         ///< `DiagnosisOptions::cache`
-    std::function<void()> check_outputs{}; ///< called where nothing else is refused any more; may be empty
+    std::optional<Study> start{};        ///< contacts to begin with; none: a bed of stone
+    std::string start_name = "study";    ///< for messages
+    std::vector<std::string> settings{}; ///< of the start where none is given
+    std::uint64_t nulls = 192;           ///< healthy campaigns that are simulated near the measured contact law
+    std::uint64_t seed = 1;              ///< of what is drawn in them
+    std::optional<std::filesystem::path> cache{}; ///< `DiagnosisOptions::cache`
+    std::function<void()> check_outputs{};        ///< called where nothing else is refused any more; may be empty
 };
 
 /// Collective, of all ranks of the machine; rank 0 has the diagnosis. The stages are notes.

@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 struct KindWords {
     FileKind kind;
-    const char* name;  ///< "a diagnosis"
-    const char* taken; ///< what a verb takes: "the results of a study"
+    const char* name;            ///< "a diagnosis"
+    const char* taken = nullptr; ///< what a verb takes: "the results of a study"; null: no verb takes it
 };
 constexpr KindWords kind_words[] = {
-    {FileKind::unknown, "not a file of stylobate", ""},
+    {FileKind::unknown, "not a file of stylobate"},
     {FileKind::study, "a study file", "a study file (TOML)"},
     {FileKind::results, "the results of a study", "the results of a study (HDF5)"},
     {FileKind::diagnosis, "a diagnosis", "a diagnosis"},
@@ -37,10 +37,10 @@ constexpr KindWords kind_words[] = {
     {FileKind::campaign, "a measured campaign", "a measured campaign (HDF5, or a folder of CSV files)"},
     {FileKind::outcomes, "a table of measured outcomes", "a table of measured outcomes (CSV with a column 'fell')"},
     {FileKind::record, "a record of ground motion", "records of ground motion"},
-    {FileKind::table, "a table that 'stylobate export' wrote", ""},
-    {FileKind::functions, "fragility functions for other tools", ""},
-    {FileKind::picture, "a picture", ""},
-    {FileKind::page, "a page (HTML)", ""},
+    {FileKind::table, "a table that 'stylobate export' wrote"},
+    {FileKind::functions, "fragility functions for other tools"},
+    {FileKind::picture, "a picture"},
+    {FileKind::page, "a page (HTML)"},
 };
 
 const KindWords& words_of(FileKind kind)
@@ -103,14 +103,14 @@ RecognisedFile of_sealed(const fs::path& file)
     check_seal(FileHandle::open(file, false), file.string()); // before the library meets what may be damaged
     const hdf5::Label label = hdf5::label_of(file);
     if (label.format == "stylobate-diagnosis")
-        return {FileKind::diagnosis, ""};
+        return {FileKind::diagnosis};
     if (label.format == "stylobate-comparison")
-        return {FileKind::comparison, ""};
+        return {FileKind::comparison};
     if (label.format == "stylobate-risk")
-        return {FileKind::risk, ""};
+        return {FileKind::risk};
     if (label.format == "stylobate-risk-change")
         return {FileKind::risk, risk_of_comparison};
-    return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind.value_or("")} : RecognisedFile{};
+    return label.format == "stylobate" ? RecognisedFile{FileKind::results, label.kind} : RecognisedFile{};
 }
 
 RecognisedFile of_hdf5(const fs::path& file)
@@ -118,8 +118,7 @@ RecognisedFile of_hdf5(const fs::path& file)
     const std::optional<std::string> format = hdf5::label_of(file).format;
     return {format == "stylobate-calibration" ? FileKind::calibration
             : format == "stylobate-measured"  ? FileKind::campaign
-                                              : FileKind::unknown,
-            ""};
+                                              : FileKind::unknown};
 }
 
 /// A table heading of TOML that only one kind of file has.
@@ -166,29 +165,29 @@ RecognisedFile of_folder(const fs::path& folder)
 {
     std::error_code ignored;
     if (fs::exists(folder / "campaign.toml", ignored))
-        return {FileKind::campaign, ""};
+        return {FileKind::campaign};
     for (const char* table : {"realizations.csv", "counts.csv"})
         if (fs::exists(folder / table, ignored))
-            return {FileKind::table, ""};
+            return {FileKind::table};
     return {};
 }
 
 RecognisedFile of_text(const fs::path& file, std::string_view text)
 {
     if (const FileKind kind = of_toml(text); kind != FileKind::unknown)
-        return {kind, ""};
+        return {kind};
     if (file.extension() == ".toml")
-        return {FileKind::study, ""};
+        return {FileKind::study};
     if (text.find('\0') != std::string_view::npos)
         return {};
     if (text.find("<svg") < 1000)
         return {FileKind::picture, "SVG"};
     if (text.find("<html") < 1000)
-        return {FileKind::page, ""};
+        return {FileKind::page};
     if (text.find("<nrml") < 1000 || text.find("\"stylobate-fragility\"") < 1000)
-        return {FileKind::functions, ""};
+        return {FileKind::functions};
     if (const FileKind kind = of_csv(text); kind != FileKind::unknown)
-        return {kind, ""};
+        return {kind};
     if (const auto format = record_format(file))
         return {FileKind::record, *format};
     return {};
@@ -224,11 +223,11 @@ std::string describe(const RecognisedFile& file)
 {
     if (file.kind == FileKind::results)
         return file.detail == "replay" ? "one realization that was run again, with its trajectory"
-                                       : fmt::format("the results of a study of kind '{}'", file.detail);
+                                       : fmt::format("the results of a study of kind '{}'", file.detail.value_or(""));
     if (file.kind == FileKind::record && file.detail == "columns")
         return "a table of numbers, which may be a record of ground motion";
     const char* const name = words_of(file.kind).name;
-    return file.detail.empty() ? name : fmt::format("{} ({})", name, file.detail);
+    return file.detail ? fmt::format("{} ({})", name, *file.detail) : name;
 }
 
 std::vector<FileUse> uses_of(const RecognisedFile& file, const std::string& name)

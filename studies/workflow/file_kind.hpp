@@ -2,6 +2,7 @@
 /// Type of a file, from its content, and the commands that accept it: the only place that identifies files.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,9 @@ inline constexpr const char* risk_of_comparison = "of a comparison"; ///< detail
 
 struct RecognisedFile {
     FileKind kind = FileKind::unknown;
-    std::string detail; ///< of results the kind of the study, of a record its format, of a picture its format; of a
-                        ///< risk estimate `risk_of_comparison` or empty
+    /// Of results the kind of the study; of a record and of a picture the format; of a risk estimate of several studies
+    /// `risk_of_comparison`.
+    std::optional<std::string> detail{};
 };
 
 /// @throws InputError if it is a file of stylobate that is damaged, truncated or of another format version

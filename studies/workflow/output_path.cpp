@@ -44,9 +44,10 @@ void check_not_input(const std::string& input, const fs::path& output)
         throw InputError(fmt::format("-o {}: is the input file; choose another output", output.string()));
 }
 
-void check_output(const std::string& input, const fs::path& output, bool force)
+void check_output(const std::optional<std::string>& input, const fs::path& output, bool force)
 {
-    check_not_input(input, output);
+    if (input)
+        check_not_input(*input, output);
     std::error_code none;
     if (!force && fs::exists(output, none) && !fs::is_directory(output, none)) // no folder can become a file
         throw InputError(output.string(), 0,

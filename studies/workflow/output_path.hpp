@@ -2,6 +2,7 @@
 /// Where a verb writes.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,10 +25,10 @@ void check_not_input(const std::string& input, const std::filesystem::path& outp
 
 /// An existing file is kept unless --force is given: a mistyped output loses nothing.
 ///
-/// @param output a file; checked before the work is done
+/// @param input nullopt: the verb reads no file   @param output a file; checked before the work is done
 /// @param force whether a file that is there may be replaced
 /// @throws InputError if the output is the input, or if it exists and is not to be replaced
-void check_output(const std::string& input, const std::filesystem::path& output, bool force);
+void check_output(const std::optional<std::string>& input, const std::filesystem::path& output, bool force);
 
 /// Checks a folder of several files before they are written: it may be there, but empty.
 /// @throws InputError as `check_output`

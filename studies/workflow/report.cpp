@@ -71,8 +71,8 @@ MadePage page_of_results(const PageRequest& request, const Machine& machine, Wor
     MadePage page;
     const KeptAnimations animations =
         keep_animations(results, machine.isa(), animation_options(request, machine), observer);
-    if (!animations.warning.empty())
-        page.warnings.push_back(animations.warning);
+    if (animations.warning)
+        page.warnings.push_back(*animations.warning);
     if (!observer.stop_requested())
         page.html = result_page(results, machine.isa(), request.title, animations,
                                 law_band_beside(request.file, results.study(), results.header()), page.warnings)

@@ -13,7 +13,7 @@ namespace stylobate {
 struct PageRequest {
     std::string file;
     std::optional<std::string> output{};     ///< the page; none: it is not written
-    std::string title{};                     ///< empty: by the study or the file
+    std::optional<std::string> title{};      ///< nullopt: by the study or the file
     std::vector<std::string> settings{};     ///< only the present path of the study's record
     std::optional<std::uint64_t> animate{};  ///< N that fell and N that stood, of each cell
     std::optional<double> animate_mb{};      ///< of all animations together [1e6 bytes]

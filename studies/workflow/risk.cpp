@@ -237,12 +237,12 @@ Json risk_json(const AnyRisk& risk)
     return std::visit([](const auto& one) { return risk_json(one); }, risk);
 }
 
-HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::string& title)
+HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title)
 {
     return std::visit([&](const auto& one) { return risk_page(one, file, title); }, risk);
 }
 
-void plot_risk(const AnyRisk& risk, const std::string& state, const std::string& title,
+void plot_risk(const AnyRisk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,
                const std::filesystem::path& picture)
 {
     std::visit([&](const auto& one) { plot_risk(one, state, title, picture); }, risk);

@@ -23,10 +23,10 @@ using AnyRisk = std::variant<Risk, RiskChange>;
 struct RiskRequest {
     std::string file;                    ///< results of a fragility study, or a comparison
     std::vector<std::string> hazard{};   ///< files, or a power law
-    std::string site{};                  ///< of several in the hazard; empty: there is one
+    std::optional<std::string> site{};   ///< of several in the hazard; nullopt: there is one
     std::vector<std::string> settings{}; ///< only the present path of the study's record
-    std::string state{};                 ///< one limit state; empty: all
-    std::vector<double> years{};         ///< empty: 50 and 100
+    std::optional<std::string> state{};  ///< one limit state; nullopt: all
+    std::vector<double> years{};         ///< none: 50 and 100
     double level = 0.9;                  ///< of intervals
     double most_outside = 0.25;          ///< largest share of a frequency from outside of the ranges of runs and hazard
     std::uint64_t sequences = 0;         ///< simulated histories with the damage carried along
@@ -49,9 +49,9 @@ std::vector<Table> tables_of(const AnyRisk& risk);
 std::vector<std::pair<std::string, std::string>> risk_csv(const AnyRisk& risk);
 std::string risk_text(const AnyRisk& risk);
 Json risk_json(const AnyRisk& risk);
-HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::string& title);
-/// @param title empty: the usual one
-void plot_risk(const AnyRisk& risk, const std::string& state, const std::string& title,
+HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title);
+/// @param state nullopt: the principal one   @param title nullopt: the usual one
+void plot_risk(const AnyRisk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,
                const std::filesystem::path& picture);
 /// A row for each limit state, of a comparison for each of each variant: annual frequencies and probabilities over
 /// the years, with their intervals.

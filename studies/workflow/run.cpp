@@ -150,8 +150,8 @@ std::optional<std::string> too_many_invalid(const StudyRuns& studies)
 void check_can_run(const StudyRuns& studies, const std::string& backend)
 {
     for (const auto& study : studies)
-        if (const std::string why = study->kind().needs_processor(); backend == "cuda" && !why.empty())
-            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), why));
+        if (const auto why = study->kind().needs_processor(); backend == "cuda" && why)
+            throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), *why));
     for (const auto& study : studies)
         try {
             study->check_drawn();
@@ -199,22 +199,22 @@ void check_can_run(const LoadedStudy& loaded, const std::string& study, const Sh
 {
     const ResultHeader header = loaded.result_header();
     const std::unique_ptr<Kind> kind = make_kind(loaded.study(), header);
-    if (const std::string why = kind->why_no_shards(); !shard.whole() && !why.empty())
-        throw InputError(fmt::format("--shard {}: {} {}. Run it without --shard.", shard.text(), study, why));
-    if (const std::string why = kind->why_no_ranks(); machine.ranks && !why.empty())
-        throw InputError(fmt::format("--mpi: {} {}. Run it without --mpi.", study, why));
-    if (const std::string why = kind->needs_processor(); machine.backend == "cuda" && !why.empty())
-        throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, why));
+    if (const auto why = kind->why_no_shards(); !shard.whole() && why)
+        throw InputError(fmt::format("--shard {}: {} {}. Run it without --shard.", shard.text(), study, *why));
+    if (const auto why = kind->why_no_ranks(); machine.ranks && why)
+        throw InputError(fmt::format("--mpi: {} {}. Run it without --mpi.", study, *why));
+    if (const auto why = kind->needs_processor(); machine.backend == "cuda" && why)
+        throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, *why));
 }
 
 /// What its user should know of a run, beside its warnings.
-std::string notice_of(const StudyRun& run, const RunRequest& request)
+std::optional<std::string> notice_of(const StudyRun& run, const RunRequest& request)
 {
-    std::string notice = run.notice();
+    std::optional<std::string> notice = run.notice();
     if (const auto variants = read_variant_names(request.study, request.settings); !variants.empty())
-        notice += fmt::format("{}{} has [variants] ({}), which run leaves out: it computes the base alone. stylobate "
-                              "compare {} computes them all.",
-                              notice.empty() ? "" : "\n", request.study, fmt::join(variants, ", "), request.study);
+        notice = fmt::format("{}{} has [variants] ({}), which run leaves out: it computes the base alone. stylobate "
+                             "compare {} computes them all.",
+                             notice ? *notice + "\n" : "", request.study, fmt::join(variants, ", "), request.study);
     return notice;
 }
 
@@ -317,7 +317,7 @@ RunReport run_study_file(const RunRequest& request, const Machine& machine, Work
         request.results ? *request.results : default_results(request.study, shard_of(request.shard));
     RunReport report{.results = results, .run = nullptr, .backend = machine.backend};
     std::unique_ptr<StudyRun> run;
-    std::string notice;
+    std::optional<std::string> notice;
     together(machine.ranks, [&] {
         check_kind(request.study, "run");
         check_option_kind(results, FileKind::results, "-o");
@@ -346,8 +346,8 @@ RunReport run_study_file(const RunRequest& request, const Machine& machine, Work
         together(machine.ranks, [&] { run->open(); });
         for (const std::string& warning : run->warnings()) // now that nothing is refused any more
             observer.warn(warning);
-        if (!notice.empty())
-            observer.note(notice);
+        if (notice)
+            observer.note(*notice);
         RunEnd end = run->run(report.options, observer);
         report.progress = end.progress;
         report.complete = end.complete;
@@ -377,7 +377,7 @@ std::optional<RunReport> merge_shards(const MergeRequest& request, const Machine
     const Study study = parse_study(header.study_toml, first + " (its study)");
     LoadedStudy loaded = LoadedStudy::from_results(study, header, first, request.settings);
     const std::filesystem::path unready = request.output + ".merging";
-    auto checked = std::make_unique<StudyRun>(std::move(loaded), header, first, "");
+    auto checked = std::make_unique<StudyRun>(std::move(loaded), header, first, std::nullopt);
     const RunOptions options = machine.run_options();
 
     std::vector<ShardFile> parts;

@@ -123,8 +123,8 @@ std::string text_value(Random& random)
 
 std::string value_of(const TomlKey& key, Random& random, int depth)
 {
-    if (random() % 4 == 0 && (!key.example.empty() || key.absent_is_value))
-        return key.example.empty() ? key.absent : key.example;
+    if (random() % 4 == 0 && (key.example || key.absent_is_value))
+        return key.example ? *key.example : *key.absent;
     if (!key.words.empty() && (key.type == KeyType::word || random() % 4 == 0))
         return toml_quoted(key.words[below(random, key.words.size())]);
     const auto number = [&] { return number_in(key.range.low, key.range.high, random); };

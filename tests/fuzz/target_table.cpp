@@ -16,8 +16,7 @@ void check_outcomes(const OutcomeTable& table, std::size_t bytes)
     for (const MeasuredOutcome& row : table.rows) {
         for (const auto& number : {row.amplitude_m, row.frequency_hz, row.pga_m_s2, row.pgv_over_pga_s})
             promise(!number || (std::isfinite(*number) && *number > 0), "a number of an outcome is not above 0");
-        promise(!row.motion_file.empty() || row.pga_m_s2 || (row.amplitude_m && row.frequency_hz),
-                "an outcome has no motion");
+        promise(row.motion_file || row.pga_m_s2 || (row.amplitude_m && row.frequency_hz), "an outcome has no motion");
         promise(row.line > 0, "an outcome is of no line");
     }
 }

@@ -152,11 +152,11 @@ TEST_F(LibraryCalibration, WhatAStopKeepsTheProgramGoesOnWith)
     };
     options.go_on = [&] { return !portion; };
     EXPECT_FALSE(api::calibrate(folder / "tests.csv", options));
-    ASSERT_TRUE(fs::exists(options.cache));
+    ASSERT_TRUE(fs::exists(*options.cache));
 
     const Ended ended = run(with(table_words, {"-o", "c.h5", "--json", "--quiet"}));
     EXPECT_GE(json_of(ended)["restored_sets"].number, 16);
-    EXPECT_FALSE(fs::exists(options.cache));
+    EXPECT_FALSE(fs::exists(*options.cache));
     const std::optional<api::Calibration> whole = api::calibrate(folder / "tests.csv", of_table());
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->restored_sets(), 0U);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace stylobate {
 namespace {
@@ -140,16 +141,16 @@ Behind behind(const std::vector<double>& best, const std::vector<double>& own, d
     return {sum, {sum - reach, sum + reach}};
 }
 
-/// The sentence of a measure. @param best the first one's name; empty: this is the first
-std::string sentence(const RankedMeasure& measure, double less, const std::string& best, std::size_t features,
-                     double level)
+/// The sentence of a measure. @param best name of the first one; nullopt: this is the first
+std::string sentence(const RankedMeasure& measure, double less, const std::optional<std::string>& best,
+                     std::size_t features, double level)
 {
     std::string says =
         fmt::format("{}: dispersion {:.3f} ({:.3f} to {:.3f}), information {:.3f} nat per run", measure.name,
                     measure.dispersion, measure.dispersion_limits.lower, measure.dispersion_limits.upper, measure.gain);
-    if (!best.empty())
+    if (best)
         says += fmt::format(", {:.3f} ({:.3f} to {:.3f}) less than {}{}", less, measure.behind.lower,
-                            measure.behind.upper, best, measure.behind.lower <= 0 ? ", which is not significant" : "");
+                            measure.behind.upper, *best, measure.behind.lower <= 0 ? ", which is not significant" : "");
     if (features > 0) {
         std::string adds;
         for (const Sufficiency& test : measure.sufficiency)
@@ -193,9 +194,9 @@ std::vector<RankedMeasure> ranked_measures(const FragilityData& data, const std:
         } else {
             const auto [sum, limits] = behind(all.front().by_record, fitted.by_record, level);
             measure.behind = {limits.lower / trials, limits.upper / trials};
-            measure.says =
-                sentence(measure, sum / trials, &fitted == &all.front() ? std::string() : all.front().measure.name,
-                         features.size(), level);
+            measure.says = sentence(measure, sum / trials,
+                                    &fitted == &all.front() ? std::nullopt : std::optional(all.front().measure.name),
+                                    features.size(), level);
         }
         ranked.push_back(measure);
     }

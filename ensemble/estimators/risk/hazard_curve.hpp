@@ -6,6 +6,7 @@
 /// Events of the intensities dx have the frequency -d lambda = k exp(c - k x) dx.
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct HazardFractile {
 /// both), and so beyond the first and the last one.
 struct HazardModel {
     std::string source;                    ///< file, or the power law as it was given
-    std::string site;                      ///< of several in the file; empty: there is but one
+    std::optional<std::string> site;       ///< of a file of several; nullopt: the hazard is of one site alone
     std::string measure;                   ///< with its SI unit, as of a fragility study: "pga_m_s2", "sa_1s_m_s2"
     std::vector<double> intensity;         ///< (n >= 2) ascending, > 0
     std::vector<double> frequency;         ///< (n) best estimate (usually the mean) of that of exceedance [1/year]

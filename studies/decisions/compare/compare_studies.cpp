@@ -243,7 +243,7 @@ Comparison comparison_facts(const Study& base, const ResultHeader& header, const
     const PairLayout layout = pair_layout(base, header.motions, level);
     Comparison comparison;
     comparison.kind = header.kind;
-    comparison.title = base.title;
+    comparison.title = base.title.value_or("");
     comparison.base_name = name;
     comparison.base_results = fs::path(file).filename().string();
     comparison.base_toml = header.study_toml;

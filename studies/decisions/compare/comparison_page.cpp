@@ -44,10 +44,10 @@ Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
 
 class ComparisonPage {
 public:
-    ComparisonPage(const Comparison& comparison, const std::string& file, const std::string& title,
+    ComparisonPage(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
                    std::vector<std::string>& warnings)
         : c_(comparison), file_(file), warnings_(warnings),
-          page_(title.empty() ? "Comparison with " + (c_.title.empty() ? c_.base_name : c_.title) : title,
+          page_(title.value_or("Comparison with " + (c_.title.empty() ? c_.base_name : c_.title)),
                 fmt::format("{}. Made by stylobate {}.", file, c_.code_version))
     {
     }
@@ -250,7 +250,7 @@ private:
         picture("the map",
                 "Change of " + limit +
                     " over frequency and PGA. Cells in full colours are named: " + adjustment_text(c_) + ".",
-                [&](const fs::path& png) { comparison_picture(c_, limit, "", png); });
+                [&](const fs::path& png) { comparison_picture(c_, limit, std::nullopt, png); });
     }
 
     void stripes(const std::string& limit)
@@ -343,7 +343,7 @@ private:
 
 } // namespace
 
-HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::string& title,
+HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
                          std::vector<std::string>& warnings)
 {
     return ComparisonPage(comparison, file, title, warnings).page();
@@ -434,24 +434,24 @@ void draw_stripes(const Comparison& comparison, const std::string& limit, const 
 
 } // namespace
 
-const LimitComparison& limit_of(const VariantComparison& variant, const std::string& limit)
+const LimitComparison& limit_of(const VariantComparison& variant, const std::optional<std::string>& limit)
 {
     const auto found =
-        limit.empty() ? variant.limits.begin() : std::ranges::find(variant.limits, limit, &LimitComparison::name);
+        limit ? std::ranges::find(variant.limits, *limit, &LimitComparison::name) : variant.limits.begin();
     if (found != variant.limits.end())
         return *found;
     std::string names;
     for (const LimitComparison& each : variant.limits)
         names += (names.empty() ? "" : ", ") + each.name;
-    throw InputError(fmt::format("--limit {}: no limit state of {}; it has {}", limit, variant.name, names));
+    throw InputError(
+        fmt::format("--limit {}: no limit state of {}; it has {}", limit.value_or(""), variant.name, names));
 }
 
-void comparison_picture(const Comparison& comparison, const std::string& limit, const std::string& title,
-                        const std::filesystem::path& file)
+void comparison_picture(const Comparison& comparison, const std::optional<std::string>& limit,
+                        const std::optional<std::string>& title, const std::filesystem::path& file)
 {
     const std::string name = limit_of(comparison.variants.front(), limit).name;
-    const std::string heading =
-        !title.empty() ? title : fmt::format("Change of {}: base {}", name, comparison.base_name);
+    const std::string heading = title.value_or(fmt::format("Change of {}: base {}", name, comparison.base_name));
     if (!comparison.frequency_hz.empty())
         draw_maps(comparison, name, heading, file);
     else if (!comparison.intensity.empty())

@@ -61,7 +61,7 @@ Table hazard_table(const HazardModel& hazard)
 {
     Table table("hazard");
     table.set("source", hazard.source);
-    table.set("site", hazard.site);
+    table.set("site", hazard.site.value_or(""));
     table.set("measure", hazard.measure);
     table.set("unbounded", std::uint64_t{hazard.unbounded});
     table.add(measure_column(hazard), hazard.intensity);
@@ -75,7 +75,8 @@ HazardModel hazard_of(const Table& table)
 {
     HazardModel hazard;
     hazard.source = table.text("source");
-    hazard.site = table.text("site");
+    if (const std::string site = table.text("site"); !site.empty())
+        hazard.site = site;
     hazard.measure = table.text("measure");
     hazard.unbounded = table.count("unbounded") != 0;
     const Table::Shape& shape = table.list_shape(measure_column(hazard));

@@ -123,7 +123,7 @@ Json risk_json(const RiskChange& change)
         .member("comparison", change.comparison_file)
         .member("base", change.base_name)
         .member("hazard", change.hazard.source)
-        .member("site", change.hazard.site)
+        .member("site", change.hazard.site.value_or(""))
         .member("measure", change.hazard.measure)
         .member("level", change.level)
         .member("motions", change.motions)
@@ -148,9 +148,9 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
                                               : "The risk is " + verdict + ".");
 }
 
-HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::string& title)
+HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
 {
-    HtmlPage page(title.empty() ? "Change of risk: " + change.title : title,
+    HtmlPage page(title.value_or("Change of risk: " + change.title),
                   fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,
                               hazard_text(change.hazard), change.code_version));
     page.section("The answer");

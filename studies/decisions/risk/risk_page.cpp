@@ -184,9 +184,9 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
 
 } // namespace
 
-HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string& title)
+HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title)
 {
-    HtmlPage page(title.empty() ? "Risk: " + risk.title : title,
+    HtmlPage page(title.value_or("Risk: " + risk.title),
                   fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
                               hazard_text(risk.hazard), risk.code_version));
     page.section("The answer");
@@ -227,9 +227,9 @@ std::string block(const std::string& name, const FigureSeries& series)
     return data + "EOD\n";
 }
 
-const StateRisk& state_named(const Risk& risk, const std::string& name)
+const StateRisk& state_named(const Risk& risk, const std::optional<std::string>& name)
 {
-    if (name.empty())
+    if (!name)
         return risk.principal();
     std::vector<std::string> names;
     for (const StateRisk* s : risk.chosen()) {
@@ -238,7 +238,7 @@ const StateRisk& state_named(const Risk& risk, const std::string& name)
         names.push_back(s->state);
     }
     throw InputError(
-        fmt::format("--limit {}: no limit state of this estimate; it has {}", name, fmt::join(names, ", ")));
+        fmt::format("--limit {}: no limit state of this estimate; it has {}", *name, fmt::join(names, ", ")));
 }
 
 /// Commands of one of the three parts, from the top.
@@ -252,7 +252,7 @@ std::string part(int number, const std::string& y_label, const std::string& comm
 
 } // namespace
 
-void plot_risk(const Risk& risk, const std::string& name, const std::string& title,
+void plot_risk(const Risk& risk, const std::optional<std::string>& name, const std::optional<std::string>& title,
                const std::filesystem::path& picture)
 {
     const StateRisk& s = state_named(risk, name);
@@ -280,7 +280,7 @@ void plot_risk(const Risk& risk, const std::string& name, const std::string& tit
     const std::string said =
         fmt::format("{}: {} a year; bands and bars: {:g} % (fragility: {:g} %)", s.state,
                     frequency_text(s.estimate.frequency), 100 * risk.level, 100 * risk.fragility_level);
-    std::string script = data + gnuplot_heading(title.empty() ? "Risk: " + risk.title : title, said) +
+    std::string script = data + gnuplot_heading(title.value_or("Risk: " + risk.title), said) +
                          fmt::format("set logscale x\nset xrange [{}:{}]\n", s.estimate.parts.front().to * 0.97,
                                      s.estimate.parts.back().from * 1.03) +
                          "set xtics (.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100)\n"
@@ -317,9 +317,10 @@ namespace {
 
 constexpr std::array variant_colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"};
 
-const StateChange& state_named(const RiskChange& change, const VariantChange& variant, const std::string& name)
+const StateChange& state_named(const RiskChange& change, const VariantChange& variant,
+                               const std::optional<std::string>& name)
 {
-    if (name.empty())
+    if (!name)
         return variant.principal();
     std::string known;
     for (const StateChange& s : variant.states) {
@@ -327,7 +328,7 @@ const StateChange& state_named(const RiskChange& change, const VariantChange& va
             return s;
         known += (known.empty() ? "" : ", ") + s.state;
     }
-    throw InputError(fmt::format("--limit {}: no limit state of {}; it has {}", name, change.comparison_file, known));
+    throw InputError(fmt::format("--limit {}: no limit state of {}; it has {}", *name, change.comparison_file, known));
 }
 
 std::string shares_block(const std::string& name, const std::vector<double>& intensity,
@@ -341,8 +342,8 @@ std::string shares_block(const std::string& name, const std::vector<double>& int
 
 } // namespace
 
-void plot_risk(const RiskChange& change, const std::string& state, const std::string& title,
-               const std::filesystem::path& picture)
+void plot_risk(const RiskChange& change, const std::optional<std::string>& state,
+               const std::optional<std::string>& title, const std::filesystem::path& picture)
 {
     const StateChange& first = state_named(change, change.variants.front(), state);
     std::string data = shares_block("base", change.intensity, first.base_share), changes = "$changes << EOD\n", tics;
@@ -368,7 +369,7 @@ void plot_risk(const RiskChange& change, const std::string& state, const std::st
         fmt::format("{} · {} motions · below: change of the probability in {:g} years, bars: {:g} %", first.meaning,
                     change.motions, change.years.back(), 100 * change.level);
     const std::string script =
-        data + changes + "EOD\n" + gnuplot_heading(title.empty() ? "Change of risk: " + change.title : title, said) +
+        data + changes + "EOD\n" + gnuplot_heading(title.value_or("Change of risk: " + change.title), said) +
         "set lmargin at screen 0.14\nset rmargin at screen 0.97\nset border 3 linewidth 0.8\nset tics out nomirror\n"
         "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\nset multiplot\n"
         "set tmargin at screen 0.87\nset bmargin at screen 0.53\nset logscale x\n" +

@@ -200,7 +200,7 @@ std::vector<std::string> risk_cells(const Risk& risk, const StateRisk& state)
 
 std::string hazard_text(const HazardModel& hazard)
 {
-    return hazard.site.empty() ? hazard.source : hazard.source + " at " + hazard.site;
+    return hazard.site ? hazard.source + " at " + *hazard.site : hazard.source;
 }
 
 std::string bounds_text(const Limits& bounds)
@@ -257,7 +257,7 @@ Json risk_json(const Risk& risk)
     Json json = Json::object();
     json.member("fragility", risk.fragility_file)
         .member("hazard", risk.hazard.source)
-        .member("site", risk.hazard.site)
+        .member("site", risk.hazard.site.value_or(""))
         .member("measure", risk.hazard.measure)
         .member("level", risk.level)
         .member("conventions", conventions_text_of(risk.study_text).value_or(""))

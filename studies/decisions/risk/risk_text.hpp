@@ -7,6 +7,7 @@
 #include "studies/report/json.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,19 +67,19 @@ Json risk_json(const RiskChange& change);
 /// (4 to 18) with dowels: a change of -3 (-6 to -1) percentage points, 90 % interval. The risk is lower."
 std::string risk_change_answer(const RiskChange& change, const VariantChange& variant);
 
-/// @param file of the estimate, for its name   @param title instead of the comparison's; empty: that one
-HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::string& title);
+/// @param file of the estimate, for its name   @param title instead of the comparison's; nullopt: that one
+HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title);
 
 /// Shares of the stripes of base and variants, and the change of the probability over the last of the years.
-/// @param state a limit state; empty: the principal one   @throws InputError if it is none, or is not determined
-void plot_risk(const RiskChange& change, const std::string& state, const std::string& title,
-               const std::filesystem::path& picture);
+/// @param state a limit state; nullopt: the principal one   @throws InputError if it is none, or is not determined
+void plot_risk(const RiskChange& change, const std::optional<std::string>& state,
+               const std::optional<std::string>& title, const std::filesystem::path& picture);
 
-/// @param file of the estimate, for its name   @param title instead of the study's; empty: that one
-HtmlPage risk_page(const Risk& risk, const std::string& file, const std::string& title);
+/// @param file of the estimate, for its name   @param title instead of the study's; nullopt: that one
+HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title);
 
-/// @param state a limit state; empty: the principal one   @throws InputError if it is none, or if it cannot be drawn
-void plot_risk(const Risk& risk, const std::string& state, const std::string& title,
+/// @param state a limit state; nullopt: the principal one   @throws InputError if it is none, or if it cannot be drawn
+void plot_risk(const Risk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,
                const std::filesystem::path& picture);
 
 } // namespace stylobate

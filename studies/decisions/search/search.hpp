@@ -61,7 +61,7 @@ struct SearchResult {
     ChangeNumber frequency_change;      ///< of that point against the base
     double unseen = 0;                  ///< of that point (`FrequencyEstimate::unseen`), in no interval [1/year]
     std::optional<std::string> outside; ///< why its frequency is not determined; nullopt: it is
-    bool is_frequency() const { return !asked.hazard.empty(); }
+    bool is_frequency() const { return asked.hazard.has_value(); }
 };
 
 struct SearchFiles {

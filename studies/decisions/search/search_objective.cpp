@@ -26,7 +26,7 @@ HazardModel hazard_of(const OptimiseSpec& spec, const std::string& file, const S
                          "optimise.hazard: the frequency is by the shares of stripes.\n  Give fragility.method = "
                          "\"stripes\" with two intensities at least, or omit optimise.hazard.");
     try {
-        return read_hazard({spec.hazard}, measure_of(*motions));
+        return read_hazard({*spec.hazard}, measure_of(*motions));
     } catch (const InputError& error) {
         const std::string text = error.what(), option = "--hazard ";
         throw InputError(file, 0, "optimise.hazard: " + (text.starts_with(option) ? text.substr(option.size()) : text));
@@ -94,7 +94,7 @@ struct SearchObjective::Counts {
 SearchObjective::SearchObjective(const OptimiseSpec& spec, const std::string& file, const Study& study, double level)
     : file_(file), level_(level)
 {
-    if (spec.hazard.empty())
+    if (!spec.hazard)
         return;
     hazard_ = hazard_of(spec, file, study);
     const MotionSetSpec& motions = *study.design().motions;

@@ -36,7 +36,8 @@ std::string answer_text(const SearchResult& r)
                        "surface of {} points\n  in {:g} years: {:.3g} % ({:.3g} to {:.3g})\n  by the best estimate of "
                        "the hazard {}; the interval is of the motions\n",
                        r.asked.minimise, r.value, r.lower, r.upper, 100 * r.level, r.points.size(), years,
-                       100 * over_years(r.value), 100 * over_years(r.lower), 100 * over_years(r.upper), r.asked.hazard);
+                       100 * over_years(r.value), 100 * over_years(r.lower), 100 * over_years(r.upper),
+                       *r.asked.hazard);
 }
 
 /// The best point that was run, against the base.
@@ -126,7 +127,7 @@ Json search_json(const SearchResult& r)
         .member("realizations", r.realizations)
         .member("budget_spent", r.at_the_end);
     if (r.is_frequency())
-        json.member("hazard", r.asked.hazard)
+        json.member("hazard", *r.asked.hazard)
             .member("years", years)
             .member("probability_over_years", over_years(r.value))
             .member("probability_over_years_lower", over_years(r.lower))

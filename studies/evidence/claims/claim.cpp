@@ -171,8 +171,7 @@ std::vector<VariantAxis> read_axes(const KeyReader& keys)
         for (const KeyReader& level : one.tables("levels")) {
             level.allow_only({"name", "set", "only", "also", "law"});
             axis.levels.push_back({level.text("name"), strings(level, "set"), strings(level, "only")});
-            if (level.has("law"))
-                axis.levels.back().law = level.text("law");
+            axis.levels.back().law = level.text_if_given("law");
             for (const KeyReader& also : level.tables("also")) {
                 also.allow_only({"only", "set"});
                 axis.levels.back().also.push_back({strings(also, "only"), strings(also, "set")});
@@ -269,7 +268,7 @@ Figure read_figure(const KeyReader& keys, const std::vector<VariantAxis>& axes)
     figure.only = strings(keys, "only");
     check_words(keys, "only", axes, figure.only);
     figure.line = keys.maybe_number("line", {-1e300, 1e300, false});
-    figure.line_label = keys.text_or_empty("line_label");
+    figure.line_label = keys.text_if_given("line_label").value_or("");
     return figure;
 }
 

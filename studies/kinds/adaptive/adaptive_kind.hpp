@@ -46,7 +46,7 @@ public:
     static bool fits(const Study& study) { return study.surface && study.surface->adaptive; }
     /// Rounds that have been run are gone through again, by the outcomes that are there: the next ones are the same as
     /// without an interruption.
-    std::string why_no_shards() const override
+    std::optional<std::string> why_no_shards() const override
     {
         return "has surface.adaptive, whose realizations are chosen by what others did";
     }
@@ -59,7 +59,7 @@ public:
 
 protected:
     void take(const ResultRow& row) override { outcomes_.add(row); }
-    std::string remark(const SurfaceTable& table) const override { return describe_adaptive(table); }
+    std::optional<std::string> remark(const SurfaceTable& table) const override { return describe_adaptive(table); }
 
 private:
     CellOutcomes outcomes_;

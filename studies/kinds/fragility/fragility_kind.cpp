@@ -51,8 +51,8 @@ ChosenCells FragilityKind::choose(const CellChoice& choice, const std::string& r
     const FragilitySpec& spec = *study_.fragility;
     std::optional<std::uint64_t> m, s;
     ChosenCells cells;
-    if (!choice.motion.empty()) {
-        m = motion_of(header_.motions.names, choice.motion, results);
+    if (choice.motion) {
+        m = motion_of(header_.motions.names, *choice.motion, results);
         cells.words = fmt::format("under motion '{}'", header_.motions.names[*m]);
     }
     if (choice.intensity) {
@@ -65,7 +65,7 @@ ChosenCells FragilityKind::choose(const CellChoice& choice, const std::string& r
             levels.push_back(spec.intensity.value(i));
         const std::string measure = measure_name(spec.measure, spec.period_s);
         s = nearest_on_axis(levels, *choice.intensity, "--intensity", "of " + measure, results);
-        cells.words += fmt::format("{}at {} = {:.4g}", m ? ", " : "", measure, levels[*s]);
+        cells.words = fmt::format("{}at {} = {:.4g}", m ? *cells.words + ", " : "", measure, levels[*s]);
     }
     cells.has = [m, s, stripes = static_cast<std::uint64_t>(spec.stripes())](std::uint64_t cell) {
         return (!m || cell / stripes == *m) && (!s || cell % stripes == *s);
@@ -78,9 +78,9 @@ Picture FragilityKind::picture(const ResultReader& reader, const std::string& re
 {
     check_complete(reader, results);
     std::vector<std::string> limits;
-    if (!request.limit.empty())
-        limits.push_back(request.limit);
-    return {request.limit.empty() ? "fragility" : "fragility_" + request.limit, "Fragility", "",
+    if (request.limit)
+        limits.push_back(*request.limit);
+    return {request.limit ? "fragility_" + *request.limit : "fragility", "Fragility", "",
             [this, limits](const std::string& title, const std::filesystem::path& file) {
                 plot_fragility(fragility_, limits, title, file);
             }};

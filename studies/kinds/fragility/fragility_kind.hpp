@@ -19,7 +19,7 @@ public:
     void add_to(Json& json) const override;
 
     ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
-    std::string chosen_by() const override { return "--motion and --intensity"; }
+    std::optional<std::string> chosen_by() const override { return "--motion and --intensity"; }
 
     static constexpr PictureKind own_pictures[] = {{"fragility", "a fragility study", true}};
     std::span<const PictureKind> pictures() const override { return own_pictures; }

@@ -31,7 +31,7 @@ Figure fragility_figure(const Fragility& fragility);
 void fragility_section(const Fragility& fragility, HtmlPage& page);
 
 /// Curves of all limit states of one kind each, with their bands, and the shares of the stripes with their bars.
-/// @param states names of limit states; empty: the peak's, and the collapse
+/// @param states names of limit states; without any: the peak's, and the collapse
 /// @throws InputError for a name that is none, or if nothing can be drawn
 void plot_fragility(const Fragility& fragility, const std::vector<std::string>& states, const std::string& title,
                     const std::filesystem::path& png);

@@ -24,7 +24,7 @@ public:
     /// Independent draws: the states of the chains are not known in advance.
     std::uint64_t drawn_first() const override;
     /// Chains are gone through again by the outcomes that are there.
-    std::string why_no_shards() const override
+    std::optional<std::string> why_no_shards() const override
     {
         return "is of kind \"rare\", whose realizations are chosen by what others did";
     }
@@ -38,7 +38,7 @@ public:
 
     /// Its realizations lean to the collapse.
     bool draws_plainly() const override { return false; }
-    std::string why_no_replay() const override
+    std::optional<std::string> why_no_replay() const override
     {
         return "a realization of a chain depends on all previous ones; it cannot be repeated alone";
     }

@@ -12,7 +12,7 @@ public:
     using SurfaceKind::SurfaceKind;
 
     static bool fits(const Study& study) { return study.replicas.has_value(); }
-    std::string needs_processor() const override
+    std::optional<std::string> needs_processor() const override
     {
         return "has [twins], whose pairs are followed step by step on the processor";
     }

@@ -51,19 +51,19 @@ std::string lost_text(const Replicas& replicas)
     return text;
 }
 
-/// Where no verdict can be stated, and how many pairs it takes; empty where all can.
-std::string open_text(const Replicas& replicas)
+/// Where no verdict can be stated, and how many pairs it takes; nullopt where all can.
+std::optional<std::string> open_text(const Replicas& replicas)
 {
     std::uint64_t open = 0, all = 0;
     for (const KindDiscordance& kind : replicas.kinds) {
         open += kind.open;
         all += kind.open + kind.classes[0] + kind.classes[1] + kind.classes[2];
     }
-    return open == 0 ? std::string()
-                     : fmt::format(
-                           "{} in {} of {} cells of all kinds of perturbed replicas ({} pairs in each). A cell without "
-                           "a discordant pair needs {}, a cell at the edge of a class more: raise study.realizations.",
-                           too_few_pairs, open, all, replicas.realizations, fewest_pairs());
+    if (open == 0)
+        return std::nullopt;
+    return fmt::format("{} in {} of {} cells of all kinds of perturbed replicas ({} pairs in each). A cell without "
+                       "a discordant pair needs {}, a cell at the edge of a class more: raise study.realizations.",
+                       too_few_pairs, open, all, replicas.realizations, fewest_pairs());
 }
 
 /// In words, the growth of one displacement.
@@ -108,8 +108,8 @@ std::string replicas_text(const Replicas& replicas)
                             percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
                             interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2],
                             kind.open);
-    if (const std::string open = open_text(replicas); !open.empty())
-        text += fmt::format("  {}\n", open);
+    if (const std::optional<std::string> open = open_text(replicas))
+        text += fmt::format("  {}\n", *open);
     text += fmt::format("  smallest displacement at which the verdict is not certain, and number of cells: {}\n",
                         lost_text(replicas));
     for (const ReplicaGrowth& growth : replicas.growth)
@@ -193,8 +193,8 @@ void replicas_section(const Replicas& replicas, HtmlPage& page, const std::funct
     page.note("Relative to independent: the share of discordant pairs over that of two independent realizations of the "
               "same cell. It is the fraction of the verdict's variance in a cell that is due to the quantity in which "
               "the replicas differ.");
-    if (const std::string open = open_text(replicas); !open.empty())
-        page.box("warn", "Note", open);
+    if (const std::optional<std::string> open = open_text(replicas))
+        page.box("warn", "Note", *open);
     page.paragraph(
         fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
                     lost_text(replicas)));

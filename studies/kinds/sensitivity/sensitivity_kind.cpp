@@ -94,11 +94,12 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows, const 
 constexpr double widest = 0.2;
 
 /// Whether the rows were too few, and how many would do: the width falls as one over their root.
-std::string too_few_rows(const SensitivityTable& table)
+std::optional<std::string> too_few_rows(const SensitivityTable& table)
 {
     const std::size_t n = table.factors.size();
     double width = 0;
-    std::string widest_one, impossible;
+    std::string widest_one;
+    std::optional<std::string> impossible;
     const auto known = [&](const SensitivityTable::Index& index, std::size_t o) { // of any factor of the outcome
         for (std::size_t k = 0; k < n; ++k)
             if (!std::isnan(index.of.value[o * n + k]))
@@ -114,22 +115,22 @@ std::string too_few_rows(const SensitivityTable& table)
                     continue;
                 const std::string which = fmt::format("the {} of {} ({})", heading(name), spoken(table.factors[k]),
                                                       spoken(table.outcomes[o]));
-                if (std::isnan(index->of.value[i]) && impossible.empty())
+                if (std::isnan(index->of.value[i]) && !impossible)
                     impossible = which;
                 if (index->of.upper[i] - index->of.lower[i] > width) {
                     width = index->of.upper[i] - index->of.lower[i];
                     widest_one = which;
                 }
             }
-    if (impossible.empty() && width <= widest)
-        return "";
+    if (!impossible && width <= widest)
+        return std::nullopt;
     // where nothing of an interval is possible, half its width is asked for
-    const double times = std::max(std::pow(width / widest, 2), impossible.empty() ? 1.0 : 4.0);
+    const double times = std::max(std::pow(width / widest, 2), impossible ? 4.0 : 1.0);
     const double wanted = times * static_cast<double>(table.rows + table.invalid_rows);
     const double unit = std::pow(10, std::floor(std::log10(wanted)) - 1);
     std::string text = "Too few samples: ";
-    if (!impossible.empty())
-        text += fmt::format("the interval of {} lies outside 0 to 1, so it is not determined; ", impossible);
+    if (impossible)
+        text += fmt::format("the interval of {} lies outside 0 to 1, so it is not determined; ", *impossible);
     if (width > 0)
         text += fmt::format("the widest interval, of {}, is {:.2g} wide. ", widest_one, width);
     return text + fmt::format("Raise sensitivity.samples to about {:.0f}.", std::ceil(wanted / unit) * unit);
@@ -171,8 +172,8 @@ std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
                                           spoken(table.outcomes[o]),
                                           table.inner > 1 ? "mean's variance is" : "variance is"));
     }
-    if (const std::string few = too_few_rows(table); !few.empty())
-        remarks.push_back(few);
+    if (const std::optional<std::string> few = too_few_rows(table))
+        remarks.push_back(*few);
     if (table.invalid_rows > 0)
         remarks.push_back(
             fmt::format("{} rows were omitted because they contain an invalid realization.", table.invalid_rows));

@@ -14,7 +14,8 @@ struct KeptTrajectories {
     std::uint64_t count = 0; ///< number of realizations, the first ones
     double each_mb = 0; ///< at most, of one [1e6 bytes]: until the end of the shaking and of what is watched after it
     double mb = 0;      ///< of all that are kept
-    std::string words;  ///< what was chosen and how to choose otherwise; empty where all are kept and small
+    /// What was chosen and how to choose otherwise; nullopt where all are kept and small.
+    std::optional<std::string> words;
 };
 
 /// Bytes of a trajectory in a results file: in a sample the time, the base and the pose of each block.
@@ -31,15 +32,15 @@ public:
     using Kind::Kind;
 
     static bool fits(const Study& study) { return study.kind == StudyKind::single; }
-    std::string needs_processor() const override
+    std::optional<std::string> needs_processor() const override
     {
         return "is of kind \"single\", whose realizations are followed step by step on the processor";
     }
-    std::string why_no_ranks() const override
+    std::optional<std::string> why_no_ranks() const override
     {
         return "is of kind \"single\", whose realizations are followed step by step in one process";
     }
-    std::string prepare(const Experiment& experiment, const std::string& file) override
+    std::optional<std::string> prepare(const Experiment& experiment, const std::string& file) override
     {
         kept_ = plan_trajectories(experiment, file);
         return kept_.words;

@@ -202,7 +202,7 @@ void SurfaceKind::take(const Tally& tally)
 
 ChosenCells SurfaceKind::choose(const CellChoice& choice, const std::string& results) const
 {
-    if (!choice.motion.empty() || choice.intensity)
+    if (choice.motion || choice.intensity)
         return Kind::choose(choice, results);
     std::optional<std::uint64_t> f, p;
     ChosenCells cells;
@@ -212,7 +212,7 @@ ChosenCells SurfaceKind::choose(const CellChoice& choice, const std::string& res
     }
     if (choice.pga_m_s2) {
         p = nearest_on_axis(header_.pga_m_s2, *choice.pga_m_s2, "--pga", "m/s2", results);
-        cells.words += fmt::format("{}{:.4g} m/s2", f ? ", " : "at ", header_.pga_m_s2[*p]);
+        cells.words = fmt::format("{}{:.4g} m/s2", f ? *cells.words + ", " : "at ", header_.pga_m_s2[*p]);
     }
     cells.has = [f, p, np = header_.pga_m_s2.size()](std::uint64_t cell) {
         return (!f || cell / np == *f) && (!p || cell % np == *p);
@@ -224,18 +224,18 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
                              const PictureRequest& request) const
 {
     const std::vector<std::string>& known = limit_state_names();
-    if (!request.limit.empty() && std::find(known.begin(), known.end(), request.limit) == known.end())
+    if (request.limit && std::find(known.begin(), known.end(), *request.limit) == known.end())
         throw InputError(
-            fmt::format("--limit {}: the limit states of a surface are {}", request.limit, fmt::join(known, ", ")));
-    const LimitState limit = request.limit.empty() ? LimitState::collapse : limit_state_of(request.limit);
+            fmt::format("--limit {}: the limit states of a surface are {}", *request.limit, fmt::join(known, ", ")));
+    const LimitState limit = request.limit ? limit_state_of(*request.limit) : LimitState::collapse;
     const SurfaceTable surface = surface_so_far(reader, study_, results, limit);
     Picture picture;
     picture.name = request.name;
     if (!request.frequencies_hz.empty())
         for (const std::size_t row : slice_rows(surface, request.frequencies_hz))
             picture.name += fmt::format("_{:.4g}Hz", surface.frequency_hz[row]);
-    if (!request.limit.empty())
-        picture.name += "_" + request.limit;
+    if (request.limit)
+        picture.name += "_" + *request.limit;
     picture.title = "Probability of " + std::string(describe(limit));
     picture.partial = partial_words(reader, study_, surface);
     if (request.name == "slice")
@@ -261,8 +261,8 @@ void SurfaceKind::sections(PageWriter& writer) const
         writer.page.figure(figure_svg(slice_figure(table)),
                            "The probability at some frequencies; bands: the intervals of the cells.");
     writer.page.table(cell_table(table));
-    if (const std::string more = remark(table); !more.empty())
-        writer.page.note(more);
+    if (const std::optional<std::string> more = remark(table))
+        writer.page.note(*more);
     writer.page.note(describe_realizations(table) + "; " + describe_interval(table.interval) +
                      (table.frequency_hz.size() <= most_with_intervals
                           ? "."

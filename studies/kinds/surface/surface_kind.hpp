@@ -34,7 +34,7 @@ public:
     std::optional<SurfaceTable> surface() const override { return counts_by_cell_.table(); }
 
     ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
-    std::string chosen_by() const override { return "--frequency and --pga"; }
+    std::optional<std::string> chosen_by() const override { return "--frequency and --pga"; }
 
     static constexpr PictureKind own_pictures[] = {{"surface", "a surface", true}, {"slice", "a surface", true, true}};
     std::span<const PictureKind> pictures() const override { return own_pictures; }
@@ -51,7 +51,7 @@ protected:
     void take(const ResultRow& row) override;
     void take(const Tally& tally) override;
     /// Below the table of the cells.
-    virtual std::string remark(const SurfaceTable&) const { return {}; }
+    virtual std::optional<std::string> remark(const SurfaceTable&) const { return std::nullopt; }
 
 private:
     SurfaceCounts counts_by_cell_;
@@ -64,7 +64,8 @@ private:
 SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, const std::string& results,
                             LimitState limit);
 
-/// What the title of a surface adds where the run is not complete: of how many realizations it is; else empty.
+/// What the title of a surface adds where the run is not complete: of how many realizations it is. A complete run adds
+/// no text.
 std::string partial_words(const ResultReader& reader, const Study& study, const SurfaceTable& surface);
 
 } // namespace stylobate

@@ -101,7 +101,7 @@ struct Survival {
     std::vector<Exclusion> by_frequency;         ///< of one event
     std::uint64_t built = 1, standing_alike = 1; ///< of those that were built alike
     std::optional<PastAnswer> alike;             ///< given that so many of them stand; none: it is alone
-    std::vector<ExclusionCoverage> coverage;     ///< (ni) of the exclusion by one event; empty: not calibrated
+    std::vector<ExclusionCoverage> coverage;     ///< (ni) of the exclusion by one event; none: not calibrated
     std::optional<MonumentTest> monuments;
     // with a hazard and a time
     std::optional<HazardUpdate> rates;

@@ -271,14 +271,14 @@ void search_and_keep(Calibration& result, Begin begin, const CalibrationOptions&
         return serve_evidence(*run.ranks, *evidence, run, observer);
     if (run.ranks)
         evidence = std::make_unique<SharedEvidence>(std::move(evidence), *run.ranks);
-    if (options.kept.empty()) {
+    if (!options.kept) {
         search_forms(result, std::move(begin), options, *evidence, all, run, observer);
         return;
     }
     std::string runs;
     for (const std::size_t r : options.runs)
         runs += fmt::format(" {}", r);
-    KeptEvidence kept(std::move(evidence), options.kept,
+    KeptEvidence kept(std::move(evidence), *options.kept,
                       fmt::format("{} {} {} windows {} ensemble {} runs{}", code_version(), options.kept_key,
                                   result.from_outcomes ? "outcomes" : "histories", options.window_s, options.ensemble,
                                   runs));

@@ -43,8 +43,9 @@ struct CalibrationOptions {
     bool held_out = true;           ///< cross-validation over motions
     std::uint64_t ensemble = 24;    ///< outcomes: realizations of each run
     double window_s = 0;            ///< histories: 0: by the size of the drums
-    /// File that keeps what was predicted until the calibration is complete (`calibration_evidence.hpp`); empty: none.
-    std::filesystem::path kept;
+    /// File that keeps what was predicted until the calibration is complete (`calibration_evidence.hpp`); nullopt:
+    /// none.
+    std::optional<std::filesystem::path> kept;
     std::string kept_key;                          ///< what the measured data are known by
     std::function<void(const std::string&)> stage; ///< called with a description of each stage; may be empty
 };

@@ -73,8 +73,8 @@ StoredCalibration stored_from(const Table& table, std::uint64_t version)
         table.refuse("its best form '" + stored.best_form + "' is not there");
     if (const Table* motion = find_table(table.tables(), "motion")) {
         stored.motion = std::move(items_of<WindowMotions>(*motion, 1, version).front());
-        if (const std::string fault = stored.motion->fault(); !fault.empty())
-            table.refuse(fault);
+        if (const std::optional<std::string> fault = stored.motion->fault())
+            table.refuse(*fault);
     }
     return stored;
 }

@@ -176,10 +176,11 @@ std::string gain_text(const PairedGain& gain)
 
 class CalibrationPage {
 public:
-    CalibrationPage(const StoredCalibration& calibration, const std::string& file, const std::string& title)
+    CalibrationPage(const StoredCalibration& calibration, const std::string& file,
+                    const std::optional<std::string>& title)
         : c_(calibration), best_(calibration.best()), unit_(c_.evidence == "outcomes" ? "runs" : "windows"),
           file_(file),
-          page_(title.empty() ? "Calibration: " + name_of(c_.measured) : title,
+          page_(title.value_or("Calibration: " + name_of(c_.measured)),
                 fmt::format("With the {} of {}. Made by stylobate {}.", c_.evidence, c_.measured, c_.code_version))
     {
     }
@@ -418,7 +419,8 @@ private:
 
 } // namespace
 
-HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file, const std::string& title)
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file,
+                          const std::optional<std::string>& title)
 {
     return CalibrationPage(calibration, std::filesystem::path(file).filename().string(), title).page();
 }

@@ -6,6 +6,7 @@
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -30,7 +31,8 @@ std::string calibrated_text(const Calibration& calibration, const std::string& m
 
 /// The parameters with their intervals, what is not determined and why, the contact forms, what it gains.
 /// @param file for names
-/// @param title of the page; empty: by what was measured
-HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file, const std::string& title = "");
+/// @param title of the page; nullopt: by what was measured
+HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file,
+                          const std::optional<std::string>& title = std::nullopt);
 
 } // namespace stylobate

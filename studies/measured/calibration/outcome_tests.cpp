@@ -63,7 +63,7 @@ public:
     TestShaking of(const MeasuredOutcome& row)
     {
         TestShaking s;
-        if (!row.motion_file.empty())
+        if (row.motion_file)
             s = of_file(row);
         else if (row.amplitude_m && row.frequency_hz)
             s = of_amplitude(row);
@@ -113,7 +113,7 @@ private:
         s.excitation.tail_s = study_.tail_s;
         if (!is_sampled(study_.kind))
             s.excitation.kind = ExcitationKind::record;
-        const std::filesystem::path file = std::filesystem::path(table_.source).parent_path() / row.motion_file;
+        const std::filesystem::path file = std::filesystem::path(table_.source).parent_path() / *row.motion_file;
         s.motion = read(row, file.string(), s.excitation.kind == ExcitationKind::table);
         s.excitation.file = file.string();
         s.excitation.pga_m_s2 = row.pga_m_s2.value_or(0);

@@ -208,7 +208,7 @@ bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict
         best.why_not = "its size is within the scatter between specimens";
     else if (more_friction_without_forces(balance, best.fit))
         best.why_not = "more friction is named only where forces in the joint show it";
-    best.considered = best.why_not.empty();
+    best.considered = !best.why_not;
     return best.considered;
 }
 

@@ -68,7 +68,8 @@ struct JudgedCause {
     /// Named by the statistics and by the balance of forces: the p-value of the latter. `fit` has its place and size,
     /// and the gain of the statistics.
     std::optional<double> forces_too;
-    std::string why_not;
+    std::optional<std::string>
+        why_not; ///< why the best candidate is not named; nullopt: it is named, or another is better
 };
 
 struct Decided {

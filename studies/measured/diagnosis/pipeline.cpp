@@ -456,7 +456,8 @@ void Pipeline::tell_method_and_cost()
 
 void check_cache(const DiagnosisOptions& options)
 {
-    refuse_foreign_cache(options.cache);
+    if (options.cache)
+        refuse_foreign_cache(*options.cache);
 }
 
 std::optional<Diagnosis> diagnose(const Campaign& measured, const Study& start, const DiagnosisOptions& options,

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -20,7 +21,7 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;
     /// Simulated campaigns; no nulls: none are simulated, and only direct tests of base, sensors and rest name a cause.
     EnsemblePlan plan;
-    std::filesystem::path cache; ///< of the simulated campaigns; empty: none is kept
+    std::optional<std::filesystem::path> cache; ///< of the simulated campaigns; nullopt: none is kept
     DecisionRule rule;
     RunOptions run;
 };

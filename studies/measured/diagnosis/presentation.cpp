@@ -48,8 +48,8 @@ std::vector<std::string> names_words(std::vector<std::string> mechanisms)
 /// Why a cause is named, in the set, or neither.
 std::string reason(const JudgedCause& j, Decision decision, const Decided& decided)
 {
-    if (!j.why_not.empty())
-        return j.why_not;
+    if (j.why_not)
+        return *j.why_not;
     if (j.channel == Channel::direct)
         return "found by a direct test";
     if (j.channel == Channel::forces)
@@ -80,8 +80,8 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
     c.mechanism = cause.mechanism;
     c.place = cause.place;
     c.parameter = cause.parameter;
-    if (!cause.side.empty())
-        c.why = fmt::format("at the {} end", cause.side);
+    if (cause.side)
+        c.why = fmt::format("at the {} end", *cause.side);
     if (cause.persists)
         c.why = "it goes on from run to run";
     if (stands_for_unknown(cause))
@@ -104,7 +104,7 @@ Candidate candidate_of(const JudgedCause& j, const Campaign& campaign, Decision 
         c.probability = j.probability;
     for (std::size_t r = 0; r < j.fit.gain_by_run.size(); ++r)
         if (j.fit.gain_by_run[r] != 0)
-            c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], ""});
+            c.evidence.push_back({campaign.runs[r].name, j.fit.gain_by_run[r], std::nullopt});
     c.decision = decision;
     c.why += (c.why.empty() ? "" : "; ") + reason(j, decision, decided);
     if (j.forces_too)

@@ -11,7 +11,7 @@ std::size_t WindowMotions::free_blocks() const
         std::ranges::count_if(blocks, [](const ShownBlock& block) { return block.kind != ShownBlockKind::fixed; }));
 }
 
-std::string WindowMotions::fault() const
+std::optional<std::string> WindowMotions::fault() const
 {
     const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
     for (const ShownBlock& block : blocks)
@@ -36,7 +36,7 @@ std::string WindowMotions::fault() const
             if (track.places.size() != window.samples.size() * free)
                 return "the places of a window in motion are not as many as its samples and blocks";
     }
-    return {};
+    return std::nullopt;
 }
 
 } // namespace stylobate

@@ -76,9 +76,9 @@ struct WindowMotions {
 
     /// How many blocks the tracks have.
     std::size_t free_blocks() const;
-    /// What is wrong with it, for who reads it from a file; empty: nothing. Every track is as long as its samples and
+    /// What is wrong with it, for who reads it from a file; nullopt: nothing. Every track is as long as its samples and
     /// blocks want, sizes are positive, times ascend.
-    std::string fault() const;
+    std::optional<std::string> fault() const;
 };
 
 // ---- their words and fields in files --------------------------------------------------------------------------------

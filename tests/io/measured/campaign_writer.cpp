@@ -59,8 +59,8 @@ std::string toml_text(const Campaign& campaign)
         add("name", toml_quoted(run.name));
         add("motion_id", fmt::format("{}", run.motion_id));
         add("repeat", fmt::format("{}", run.repeat));
-        if (!run.kind.empty())
-            add("kind", toml_quoted(run.kind));
+        if (run.kind)
+            add("kind", toml_quoted(*run.kind));
         if (run.rate_hz != 0)
             add("rate_hz", toml_number(run.rate_hz));
         if (run.run_order)
@@ -69,8 +69,8 @@ std::string toml_text(const Campaign& campaign)
             add("collapsed", *run.collapsed ? "true" : "false");
         add("collapse_time_s", toml_number(run.collapse_time_s));
         add("base_source", toml_quoted(to_string(run.base_source)));
-        if (!run.base_clock.empty())
-            add("base_clock", toml_quoted(run.base_clock));
+        if (run.base_clock)
+            add("base_clock", toml_quoted(*run.base_clock));
         for (const SeriesName& series : series_names())
             if (const auto noise = series.in(run).noise_sd)
                 add(series.noise_key(), toml_number(*noise));
@@ -158,8 +158,8 @@ void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
     const hdf5::Handle group = hdf5::create_group(runs, run.name);
     write_whole(group.id(), "motion_id", run.motion_id);
     write_whole(group.id(), "repeat", run.repeat);
-    if (!run.kind.empty())
-        hdf5::write_text(group.id(), "kind", run.kind);
+    if (run.kind)
+        hdf5::write_text(group.id(), "kind", *run.kind);
     if (run.rate_hz != 0)
         hdf5::write_real(group.id(), "rate_hz", run.rate_hz);
     if (run.run_order)
@@ -184,8 +184,8 @@ void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
         if (!std::string(name.path).starts_with("base/"))
             continue;
         hdf5::write_text(object.id(), "source", to_string(run.base_source));
-        if (!run.base_clock.empty())
-            hdf5::write_text(object.id(), "clock", run.base_clock);
+        if (run.base_clock)
+            hdf5::write_text(object.id(), "clock", *run.base_clock);
     }
 }
 

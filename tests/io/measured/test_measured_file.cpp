@@ -96,7 +96,7 @@ Campaign full_campaign()
     campaign.runs[1].base_displacement_m.noise_sd.reset();
     campaign.runs[1].motion_id = -3;
     campaign.runs[2].base_acceleration_m_s2 = {};
-    campaign.runs[2].kind.clear();
+    campaign.runs[2].kind.reset();
     return campaign;
 }
 

@@ -326,7 +326,7 @@ TEST(Usc, UnevenTimesGoOntoAGridThatHasAllOfThem)
         EXPECT_EQ(record.station, "SOME WHERE");
         EXPECT_EQ(record.title, "MADE-UP EARTHQUAKE JAN 1, 2003 -1000 GMT");
         EXPECT_EQ(record.dt_s, 0.001);
-        expect_says(record.note, {"21 uneven samples", "up to 13 ms", "grid of 1 ms"});
+        expect_says(record.note.value_or(""), {"21 uneven samples", "up to 13 ms", "grid of 1 ms"});
         ASSERT_EQ(record.acceleration_m_s2.size(), static_cast<std::size_t>(usc_time_ms(n - 1)) + 1);
         for (int i = 0; i < n; ++i) // each sample at its time, to the last bit
             EXPECT_EQ(record.acceleration_m_s2[static_cast<std::size_t>(usc_time_ms(i))], 0.980665 * sample(i));
@@ -345,7 +345,7 @@ TEST(Usc, TheGridIsTheWidestThatWillDo)
     // even times stay as they are, 20 ms; steps of 20 and 30 ms have 10 ms in common, wherever the times begin
     const Record even = read(usc(21, [](int i) { return 20 * i; })).front();
     EXPECT_EQ(even.dt_s, 0.02);
-    EXPECT_EQ(even.note, "");
+    EXPECT_EQ(even.note, std::nullopt);
     expect_samples(even, 21, g / 10);
     const Record odd = read(usc(21, [](int i) { return 3 + 20 * i + 10 * (i / 2); })).front();
     EXPECT_EQ(odd.dt_s, 0.01);

@@ -232,7 +232,7 @@ TEST(RecordMakers, ColumnsThatAreNoAccelerationNeverBecomeMotions)
     // what is left out is said, and cannot be selected
     const std::string avd = named_columns("time,acc [g],vel,disp", 3);
     const Record record = read_records(avd, "record.txt", "")[0];
-    expect_says(record.note, {"\"vel\" (a velocity)", "\"disp\" (a displacement)"});
+    expect_says(record.note.value_or(""), {"\"vel\" (a velocity)", "\"disp\" (a displacement)"});
     // letters that are directions
     std::string directions;
     for (const Record& component : read_records(named_columns("time,L,T,V", 3), "record.txt", "g"))

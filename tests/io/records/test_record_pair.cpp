@@ -96,7 +96,8 @@ TEST_F(RecordPair, TheSenseIsClockwiseFromTheFirstComponent)
     ASSERT_EQ(turned.acceleration_m_s2.size(), north.acceleration_m_s2.size());
     for (std::size_t i = 0; i < north.acceleration_m_s2.size(); ++i)
         EXPECT_EQ(turned.acceleration_m_s2[i], -north.acceleration_m_s2[i]);
-    EXPECT_NE(turned.note.find("sign turned"), std::string::npos);
+    ASSERT_TRUE(turned.note);
+    EXPECT_NE(turned.note->find("sign turned"), std::string::npos);
 }
 
 TEST_F(RecordPair, TheFilesThatAreNamedLikeIt)

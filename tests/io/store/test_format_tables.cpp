@@ -56,10 +56,10 @@ std::string in_cell(std::string_view unit)
 std::string meaning(const FieldFacts& facts)
 {
     std::string text = facts.says;
-    if (const std::string none = facts.none; !none.empty())
-        text += "; " + none;
-    if (const std::string more = facts.more; !more.empty())
-        text += ". " + more;
+    if (facts.none)
+        text += "; " + std::string(*facts.none);
+    if (facts.more)
+        text += ". " + std::string(*facts.more);
     return text;
 }
 

@@ -589,7 +589,7 @@ TEST(TomlKeys, TheUnitIsPartOfTheName)
     std::set<std::string> seen;
     for_each_key([&](const std::string& path, const TomlKey& key) {
         if (const auto unit = units.find(path); unit != units.end()) {
-            EXPECT_EQ(key.unit(), unit->second) << path;
+            EXPECT_EQ(key.unit().value_or(""), unit->second) << path;
             seen.insert(path);
         }
     });

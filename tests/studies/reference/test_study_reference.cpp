@@ -53,7 +53,7 @@ TEST(StudyReference, HasEveryKey)
 TEST(StudyReference, StatesTheModelsOfAKeyThatDoesNotHoldForAll)
 {
     const NumberKey all("drift_m", Range{0, 1}, "drift"), one("drift_m", Range{0, 1}, "drift", {.models = {"spatial"}});
-    EXPECT_EQ(use_words(all), "");
+    EXPECT_EQ(use_words(all), std::nullopt);
     EXPECT_EQ(use_words(one), "structure.dimensions = 3");
     for_each_key([&](const std::string& path, const TomlKey& key) {
         EXPECT_FALSE(key.models.empty()) << path;

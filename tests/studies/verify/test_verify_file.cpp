@@ -332,7 +332,7 @@ TEST_F(VerifyFile, SaysThatAnotherVersionWroteIt)
     make_results(ready_study("small_scale_column", two_cells(2)), file);
     alter(file, folder / "old.h5", {.header = [](ResultHeader& header) {
               header.code_version = "0.0.1";
-              header.build.clear();
+              header.build.reset();
           }});
     const FileVerification v = verified(folder / "old.h5");
     EXPECT_TRUE(v.well()) << text_of(v);

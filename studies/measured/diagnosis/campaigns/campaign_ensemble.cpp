@@ -308,7 +308,7 @@ LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCam
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
                                    const EnsemblePlan& plan, const SimulatedCampaign& shown,
-                                   const std::filesystem::path& cache, const RunOptions& options,
+                                   const std::optional<std::filesystem::path>& cache, const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer)
 {
@@ -319,8 +319,8 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     const std::string key = key_of(measured, study, causes, known, plan, shown);
     const RowShape shape{shown.numbers.descriptors.size(), labels.size(), scored.size()};
     std::string kept;
-    if (options.leads() && !cache.empty()) {
-        std::ifstream in(cache, std::ios::binary);
+    if (options.leads() && cache) {
+        std::ifstream in(*cache, std::ios::binary);
         kept.assign(std::istreambuf_iterator<char>(in), {});
     }
     std::istringstream in(options.ranks ? options.ranks->of_first(kept) : std::move(kept));
@@ -377,8 +377,8 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
         for (SimulatedCampaign& row : rows)
             out.campaigns.push_back(std::move(row));
         text += lines;
-        if (options.leads() && !cache.empty())
-            write_whole(cache, text);
+        if (options.leads() && cache)
+            write_whole(*cache, text);
     }
     if (options.ranks)
         add_costs(*options.ranks, out);

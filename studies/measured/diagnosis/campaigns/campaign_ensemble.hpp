@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -125,17 +126,17 @@ using NumbersOf = std::function<std::vector<double>(const SimulatedCampaign&)>;
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
                         double kept, const std::vector<double>& least = {});
 
-/// @throws InputError if there is a file that keeps something else: it would be overwritten. Empty: no file
+/// @throws InputError if there is a file that keeps something else: it would be overwritten
 void refuse_foreign_cache(const std::filesystem::path& cache);
 
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    numbers and scores of the measured campaign
-/// @param cache    file that keeps the rows; empty: none
+/// @param cache    file that keeps the rows; nullopt: none
 /// @param progress called with (campaigns done, campaigns in all, as far as is known)
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
                                    const EnsemblePlan& plan, const SimulatedCampaign& shown,
-                                   const std::filesystem::path& cache, const RunOptions& options,
+                                   const std::optional<std::filesystem::path>& cache, const RunOptions& options,
                                    const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                    Observer& observer);
 

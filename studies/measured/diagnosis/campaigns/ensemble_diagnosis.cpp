@@ -398,7 +398,7 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
 EnsembleDiagnosis ensemble_diagnosis(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                      const std::vector<SizedCause>& known,
                                      const std::vector<std::vector<double>>& base_m, const EnsemblePlan& plan,
-                                     const std::filesystem::path& cache, const RunOptions& options,
+                                     const std::optional<std::filesystem::path>& cache, const RunOptions& options,
                                      const std::function<void(std::uint64_t, std::uint64_t)>& progress,
                                      Observer& observer)
 {

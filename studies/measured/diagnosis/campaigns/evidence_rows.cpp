@@ -24,9 +24,9 @@ constexpr double tamed_scatter = 0.5;
 /// parameters and wear that goes on are left to the test of the scores.
 std::vector<std::size_t> scores_among_statistics(const std::vector<Cause>& causes)
 {
-    std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::size_t>> of;
+    std::map<std::tuple<std::string, std::string, std::optional<std::string>>, std::vector<std::size_t>> of;
     for (std::size_t c = 0; c < causes.size(); ++c)
-        if (!causes[c].persists && !(causes[c].mechanism == "corner_loss" && causes[c].side.empty()))
+        if (!causes[c].persists && !(causes[c].mechanism == "corner_loss" && !causes[c].side))
             of[{causes[c].mechanism, causes[c].place, causes[c].side}].push_back(c);
     std::vector<std::size_t> chosen;
     for (const auto& [key, variants] : of)
@@ -54,8 +54,8 @@ EvidenceRows::EvidenceRows(const std::vector<StatisticLabel>& statistics, const 
     least_scatter.assign(labels.size(), 0);
     for (const std::size_t c : scores_) {
         const Cause& cause = scored.causes[c];
-        labels.push_back({"score of " + cause.mechanism + (cause.side.empty() ? "" : ", " + cause.side), cause.joint,
-                          cause.block, -1, 0});
+        labels.push_back(
+            {"score of " + cause.mechanism + (cause.side ? ", " + *cause.side : ""), cause.joint, cause.block, -1, 0});
     }
     for (std::size_t s = 0; s < scored.structures.size(); ++s) {
         const Structure& structure = scored.structures[s];

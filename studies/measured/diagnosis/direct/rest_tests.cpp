@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace stylobate {
 
@@ -152,7 +153,7 @@ void test_rest(const Campaign& campaign, const CampaignScales& scales, const Dir
         common += scatter[j] / static_cast<double>(s.joints.size());
     }
     // A block on two seats leans by what either of them is askew: the one over which it leans more is reported.
-    std::vector<CauseFit> wedges(n);
+    std::vector<std::optional<CauseFit>> wedges(n);
     for (std::size_t j = 0; j < s.joints.size(); ++j) {
         const auto [lower, upper] = s.joints[j];
         const auto u = static_cast<std::size_t>(upper);
@@ -163,14 +164,14 @@ void test_rest(const Campaign& campaign, const CampaignScales& scales, const Dir
             told("wedge", joint, mean, sd, limits.wedge_rad, "rad", found,
                  fmt::format("At rest block {} is tilted by {:.2e} rad relative to {}.", upper, mean,
                              lower < 0 ? "the horizontal" : fmt::format("block {}", lower))));
-        if (!found || (!wedges[u].cause.mechanism.empty() && std::fabs(wedges[u].size) >= std::fabs(mean)))
+        if (!found || (wedges[u] && std::fabs(wedges[u]->size) >= std::fabs(mean)))
             continue;
         wedges[u] = cause_of("wedge", joint, "angle_rad", "rad", 0, mean, sd, 0.5 * std::pow(mean / sd, 2));
-        wedges[u].cause.joint = static_cast<int>(j);
+        wedges[u]->cause.joint = static_cast<int>(j);
     }
-    for (const CauseFit& wedge : wedges)
-        if (!wedge.cause.mechanism.empty())
-            out.found.push_back(wedge);
+    for (const std::optional<CauseFit>& wedge : wedges)
+        if (wedge)
+            out.found.push_back(*wedge);
 
     test_places(campaign.specimen, sees_table(campaign), scales, limits, place, runs / variance, out);
 }

@@ -222,7 +222,7 @@ BalanceFit::Column BalanceFit::column(const Cause& cause) const
         if (cause.mechanism == "corner_loss")
             return sum_of(s, Law::rocking, cause.joint, [&](const LawTerm& t) {
                 const bool left = t.sign > 0;
-                const bool chipped = cause.side.empty() || (cause.side == "left") == left;
+                const bool chipped = !cause.side || (cause.side == "left") == left;
                 return chipped ? t.normal / t.half_width_m : 0;
             });
         if (cause.mechanism == "corner_wear")
@@ -505,7 +505,8 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const CampaignScales
                 causes.push_back(worn);
             }
     for (int j = 0; j < joints; ++j) {
-        for (const char* side : {"", "left", "right"}) {
+        for (const std::optional<std::string>& side :
+             std::array<std::optional<std::string>, 3>{std::nullopt, "left", "right"}) {
             Cause chip{"corner_loss", fmt::format("joint {}", j), "loss_m", "m", 0};
             chip.joint = j;
             chip.side = side;

@@ -26,17 +26,17 @@ struct Cause {
     std::string parameter;
     std::string unit;
     double neutral = 0;
-    int joint = -1;        ///< -1: all
-    int block = -1;        ///< -1: all
-    double fixed = 0;      ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel (of one
-                           ///< that yields the slip at which it does),
-                           ///< path after which friction wears no more (0: never)
-    std::string side = {}; ///< of a corner: "left" or "right"
-    bool persists = false; ///< of wear: it goes on from run to run
+    int joint = -1;   ///< -1: all
+    int block = -1;   ///< -1: all
+    double fixed = 0; ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel (of one
+                      ///< that yields the slip at which it does),
+                      ///< path after which friction wears no more (0: never)
+    std::optional<std::string> side = {}; ///< of a corner: "left" or "right"; nullopt: both, or no corner
+    bool persists = false;                ///< of wear: it goes on from run to run
     friend bool operator==(const Cause&, const Cause&) = default;
     std::string label() const
     {
-        return mechanism + " at " + place + (side.empty() ? "" : " " + side) + (persists ? " from run to run" : "");
+        return mechanism + " at " + place + (side ? " " + *side : "") + (persists ? " from run to run" : "");
     }
 };
 

@@ -68,8 +68,8 @@ Diagnosis read_diagnosis(const std::filesystem::path& file)
     const auto [table, version] = read_sealed_file(file, format);
     Diagnosis diagnosis = std::move(items_of<Diagnosis>(table, 1, version).front());
     if (diagnosis.motion)
-        if (const std::string fault = diagnosis.motion->fault(); !fault.empty())
-            table.refuse(fault);
+        if (const std::optional<std::string> fault = diagnosis.motion->fault())
+            table.refuse(*fault);
     for (Candidate& candidate : diagnosis.candidates) // 0.2.0 stored 0 where none was computed
         if (candidate.decision == Decision::not_shown && candidate.probability == 0.0)
             candidate.probability.reset();

@@ -36,7 +36,7 @@ struct DataTest {
     MaybeReal value;
     MaybeReal sd;        ///< of the value
     MaybeReal threshold; ///< beyond which it is a finding
-    std::string unit;    ///< of all three; empty: a ratio
+    std::string unit;    ///< of all three; "" for a ratio
     TestOutcome outcome = TestOutcome::not_judged;
     std::string sentence; ///< the result in words
     friend bool operator==(const DataTest&, const DataTest&) = default;
@@ -69,8 +69,8 @@ struct WrongStretch {
 /// The contribution of one run to the evidence for a candidate.
 struct Evidence {
     std::string run;
-    MaybeReal gain_nats; ///< log likelihood with the candidate less that without it
-    std::string text;    ///< empty: the number is sufficient
+    MaybeReal gain_nats;             ///< log likelihood with the candidate less that without it
+    std::optional<std::string> text; ///< nullopt: the number is sufficient
     friend bool operator==(const Evidence&, const Evidence&) = default;
 };
 
@@ -86,7 +86,7 @@ struct Candidate {
     std::string mechanism; ///< as in study files: "joint_friction"
     std::string place;     ///< "joint 0", "block 2", "base", "all joints"
     std::string parameter; ///< its parameter: "ratio", "velocity_m_s"
-    std::string unit;      ///< of the five numbers that follow; empty: a ratio
+    std::string unit;      ///< of the five numbers that follow; "" for a ratio
     MaybeReal size;        ///< best fit
     MaybeReal low;         ///< 95 % interval
     MaybeReal high;
@@ -121,9 +121,9 @@ struct RegressionFeature {
 
 /// What no candidate explains: where it is, and on what it depends.
 struct Unexplained {
-    int block = 0;          ///< -1: the base
-    std::string coordinate; ///< "x", "y" or "theta"
-    std::string depends_on; ///< name of the leading feature; empty: none found
+    int block = 0;                         ///< -1: the base
+    std::string coordinate;                ///< "x", "y" or "theta"
+    std::optional<std::string> depends_on; ///< name of the leading feature; nullopt: none found
     std::string text;
     std::vector<RegressionFeature> features; ///< most telling first
     friend bool operator==(const Unexplained&, const Unexplained&) = default;
@@ -136,7 +136,7 @@ struct CollapsePrediction {
     MaybeReal score_after;          ///< mean squared error of the extended model
     std::uint64_t right_before = 0; ///< runs whose end was predicted (probability on its side of 1/2)
     std::uint64_t right_after = 0;
-    std::string text;
+    std::optional<std::string> text;
     friend bool operator==(const CollapsePrediction&, const CollapsePrediction&) = default;
 };
 
@@ -151,7 +151,7 @@ struct ModelGain {
     MaybeReal floor; ///< error that repeats of one motion have among themselves: no model does better
     std::vector<std::string> runs_left_out;
     std::optional<CollapsePrediction> collapse;
-    std::string text;
+    std::optional<std::string> text;
     friend bool operator==(const ModelGain&, const ModelGain&) = default;
 };
 
@@ -199,11 +199,12 @@ struct DiagnosisFigure : Figure {
 struct Diagnosis {
     // what was diagnosed, with what
     std::string measured_file;
-    std::string measured_fingerprint; ///< of its content: "crc32 1a2b3c4d"
+    std::optional<std::string> measured_fingerprint; ///< of its content: "crc32 1a2b3c4d"; nullopt: not known
     std::string specimen;
     std::string study_toml; ///< the baseline, every default filled in
     std::string code_version;
-    std::string command; ///< the command line that repeats the diagnosis
+    std::optional<std::string>
+        command; ///< the command line that repeats the diagnosis; nullopt: it was made by no command
     std::uint64_t seed = 0;
     std::vector<std::string> options; ///< "threads = 2"
     std::uint64_t runs = 0;           ///< in the measured file
@@ -224,8 +225,8 @@ struct Diagnosis {
     std::vector<std::string>
         indistinguishable; ///< mechanisms that these data do not distinguish; empty, or two or more
     std::optional<Unexplained> unexplained;
-    std::string extended_study;      ///< the baseline with the cause in it (TOML); empty: none
-    std::string extended_study_file; ///< where it was written; empty: not written
+    std::optional<std::string> extended_study;      ///< the baseline with the cause in it (TOML); nullopt: none
+    std::optional<std::string> extended_study_file; ///< where it was written; nullopt: not written
     std::optional<ModelGain> gain;
     std::optional<NextTest> next_test;
     std::vector<Missing> missing;

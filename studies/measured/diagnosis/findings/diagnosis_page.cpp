@@ -40,11 +40,10 @@ std::string size_cell(const Candidate& c)
 
 class DiagnosisPage {
 public:
-    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
+    DiagnosisPage(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
         : d_(diagnosis), file_(file),
-          page_(!title.empty()
-                    ? title
-                    : "Diagnosis: " + (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen),
+          page_(title.value_or("Diagnosis: " +
+                               (diagnosis.specimen.empty() ? diagnosis.measured_file : diagnosis.specimen)),
                 fmt::format("{}, {} of {} used. Made by stylobate {}.", diagnosis.measured_file, diagnosis.runs_used,
                             counted(diagnosis.runs, "run"), diagnosis.code_version))
     {
@@ -104,8 +103,8 @@ private:
                                                     worst.to_s, worst.excess));
         }
         if (d_.gain)
-            if (const std::string words = gain_words(*d_.gain); !words.empty())
-                facts.emplace_back("Gain", words);
+            if (const std::optional<std::string> words = gain_words(*d_.gain))
+                facts.emplace_back("Gain", *words);
         if (d_.next_test)
             facts.emplace_back("Next test", d_.next_test->excitation);
         if (!d_.missing.empty())
@@ -227,7 +226,7 @@ private:
             HtmlTable table{"lrl", {"run", "gain [nats]", ""}, {}, ""};
             MaybeReal told;
             for (const Evidence& e : c.evidence) {
-                table.rows.push_back({e.run, cell(e.gain_nats), e.text});
+                table.rows.push_back({e.run, cell(e.gain_nats), e.text.value_or("")});
                 if (e.gain_nats)
                     told = told.value_or(0) + *e.gain_nats;
             }
@@ -246,7 +245,7 @@ private:
         page_.section("Unexplained error");
         page_.paragraph(u.text.empty() ? fmt::format("{}, {}", block_words(u.block), u.coordinate) : u.text);
         page_.facts({{"Where", block_words(u.block) + ", " + u.coordinate},
-                     {"Depends on", u.depends_on.empty() ? "none of the tested features" : u.depends_on}});
+                     {"Depends on", u.depends_on.value_or("none of the tested features")}});
         if (!u.features.empty()) {
             HtmlTable table{"lrr", {"feature of the motion", "share of the remaining error", "null (95 %)"}, {}, ""};
             const auto share = [](MaybeReal value) { return value ? fmt::format("{:.1f} %", 100 * *value) : "–"; };
@@ -259,26 +258,26 @@ private:
 
     void gain()
     {
-        if (!d_.gain && d_.extended_study.empty())
+        if (!d_.gain && !d_.extended_study)
             return;
         page_.section("The extended model and its gain");
         if (d_.gain) {
             const ModelGain& g = *d_.gain;
-            for (const std::string& text : {gain_words(g), collapse_words(g), g.text})
-                if (!text.empty())
-                    page_.paragraph(text);
+            for (const std::optional<std::string>& text : {gain_words(g), collapse_words(g), g.text})
+                if (text)
+                    page_.paragraph(*text);
             if (!g.runs_left_out.empty())
                 page_.note("Held-out runs: " + list_words(g.runs_left_out) + ".");
         }
         figures(FigurePlace::gain);
-        if (!d_.extended_study.empty()) {
+        if (d_.extended_study) {
             page_.heading("The extended study");
-            if (!d_.extended_study_file.empty()) {
+            if (d_.extended_study_file) {
                 Html text = "Also in ";
-                text += code(d_.extended_study_file);
+                text += code(*d_.extended_study_file);
                 page_.note(text);
             }
-            page_.block(d_.extended_study);
+            page_.block(*d_.extended_study);
         }
     }
 
@@ -341,7 +340,7 @@ private:
                 note += " ";
             note += p.note;
             table.rows.push_back({p.name, p.value ? number_words(p.value) + (p.unit.empty() ? "" : " " + p.unit) : "–",
-                                  interval_words(p.low, p.high), note});
+                                  interval_words(p.low, p.high).value_or(""), note});
         }
         page_.table(table);
         if (std::any_of(d_.baseline.begin(), d_.baseline.end(), [](const auto& p) { return !p.determined; }))
@@ -374,16 +373,15 @@ private:
     {
         page_.section("Reproduction");
         std::vector<std::pair<std::string, Html>> facts = {
-            {"Measured data",
-             d_.measured_file + (d_.measured_fingerprint.empty() ? "" : ", " + d_.measured_fingerprint)},
+            {"Measured data", d_.measured_file + (d_.measured_fingerprint ? ", " + *d_.measured_fingerprint : "")},
             {"Program", "stylobate " + d_.code_version},
             {"Seed", fmt::format("{}", d_.seed)},
             {"This diagnosis", file_}};
         if (!d_.options.empty())
             facts.emplace_back("Options", list_words(d_.options));
         page_.facts(facts);
-        if (!d_.command.empty())
-            page_.block(d_.command);
+        if (d_.command)
+            page_.block(*d_.command);
         if (!d_.study_toml.empty()) {
             page_.heading("The baseline study with all defaults");
             page_.block(d_.study_toml);
@@ -397,7 +395,7 @@ private:
 
 } // namespace
 
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title)
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
 {
     return DiagnosisPage(diagnosis, std::filesystem::path(file).filename().string(), title).page();
 }

@@ -159,9 +159,10 @@ std::string unexplained_part(const Diagnosis& d)
     if (!d.unexplained)
         return "";
     std::string out = heading("Not explained");
-    out += wrapped(d.unexplained->text.empty() ? fmt::format("{}, {}: depends on {}", block_words(d.unexplained->block),
-                                                             d.unexplained->coordinate, d.unexplained->depends_on)
-                                               : d.unexplained->text,
+    out += wrapped(d.unexplained->text.empty()
+                       ? fmt::format("{}, {}: depends on {}", block_words(d.unexplained->block),
+                                     d.unexplained->coordinate, d.unexplained->depends_on.value_or(""))
+                       : d.unexplained->text,
                    2);
     return out;
 }
@@ -171,9 +172,9 @@ std::string gain_part(const Diagnosis& d)
     if (!d.gain)
         return "";
     std::string out = heading("Gain of the extended model");
-    for (const std::string& text : {gain_words(*d.gain), collapse_words(*d.gain), d.gain->text})
-        if (!text.empty())
-            out += wrapped(text, 2);
+    for (const std::optional<std::string>& text : {gain_words(*d.gain), collapse_words(*d.gain), d.gain->text})
+        if (text)
+            out += wrapped(*text, 2);
     return out;
 }
 
@@ -216,16 +217,16 @@ std::string diagnosis_text(const Diagnosis& d)
     if (d.indistinguishable.size() > 1)
         out += wrapped("Not distinguished by these data: " + list_words(d.indistinguishable) + ".", 2);
     out += unexplained_part(d) + gain_part(d);
-    if (!d.extended_study_file.empty())
-        out += wrapped("The extended study: " + d.extended_study_file, 2);
+    if (d.extended_study_file)
+        out += wrapped("The extended study: " + *d.extended_study_file, 2);
     out += next_test_part(d) + data_part(d) + baseline_part(d);
     if (!d.missing.empty()) {
         out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)
             out += wrapped("- " + missing.what + ": " + missing.why, 2);
     }
-    if (!d.command.empty())
-        out += heading("Again") + "  " + d.command + "\n"; // in one line, to be copied
+    if (d.command)
+        out += heading("Again") + "  " + *d.command + "\n"; // in one line, to be copied
     return out + heading("Cost") + wrapped(cost_words(d.cost), 2);
 }
 

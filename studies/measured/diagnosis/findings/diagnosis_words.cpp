@@ -30,10 +30,10 @@ int digits_of(MaybeReal low, MaybeReal high)
 
 } // namespace
 
-std::string interval_words(MaybeReal low, MaybeReal high)
+std::optional<std::string> interval_words(MaybeReal low, MaybeReal high)
 {
     if (!low && !high)
-        return "";
+        return std::nullopt;
     if (!low)
         return "up to " + number_words(high);
     const int digits = digits_of(low, high);
@@ -46,8 +46,8 @@ std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const
         value && !std::isnan(*value) ? fmt::format("{:.{}g}", *value, digits_of(low, high)) : number_words(value);
     if (value && !unit.empty())
         text += " " + unit;
-    const std::string interval = interval_words(low, high);
-    return interval.empty() ? text : text + " (" + interval + ")";
+    const std::optional<std::string> interval = interval_words(low, high);
+    return interval ? text + " (" + *interval + ")" : text;
 }
 
 std::string probability_words(MaybeReal p)
@@ -158,16 +158,16 @@ std::string verdict_heading(const Diagnosis& diagnosis)
     }
 }
 
-std::string gain_words(const ModelGain& gain)
+std::optional<std::string> gain_words(const ModelGain& gain)
 {
     if (!gain.error_before || !gain.error_after)
-        return "";
+        return std::nullopt;
     const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
     std::string text = fmt::format("On {} held out from the search, the error changes from {:.3g}{} to {:.3g}{}",
                                    gain.runs_left_out.empty() ? "runs" : counted(gain.runs_left_out.size(), "run"),
                                    *gain.error_before, unit, *gain.error_after, unit);
     if (gain.low || gain.high)
-        text += fmt::format(" (95 % interval {})", interval_words(gain.low, gain.high));
+        text += fmt::format(" (95 % interval {})", *interval_words(gain.low, gain.high));
     if (gain.low && gain.high)
         text += *gain.low > *gain.error_before    ? ": worse prediction"
                 : *gain.high < *gain.error_before ? ": better prediction"
@@ -177,17 +177,17 @@ std::string gain_words(const ModelGain& gain)
     return text + ".";
 }
 
-std::string collapse_words(const ModelGain& gain)
+std::optional<std::string> collapse_words(const ModelGain& gain)
 {
     if (!gain.collapse)
-        return "";
+        return std::nullopt;
     const CollapsePrediction& c = *gain.collapse;
     std::string text =
         fmt::format("Of {} with a known outcome, the baseline predicts {} correctly and the extended model {}",
                     counted(c.runs, "run"), c.right_before, c.right_after);
     if (c.score_before && c.score_after)
         text += fmt::format("; the Brier score changes from {:.3g} to {:.3g}", *c.score_before, *c.score_after);
-    return text + "." + (c.text.empty() ? "" : " " + c.text);
+    return text + "." + (c.text ? " " + *c.text : "");
 }
 
 std::string cost_words(const DiagnosisCost& cost)
@@ -228,8 +228,10 @@ Json diagnosis_json(const Diagnosis& d)
     Json json = json_of(d, {"verdict"});
     json.member("causes", json_list(named_causes(d), cause));
     add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test"});
-    add_member(json, "extended_study",
-               d.extended_study_file.empty() ? std::nullopt : std::optional<std::string>(d.extended_study_file));
+    if (d.extended_study_file)
+        json.member("extended_study", *d.extended_study_file);
+    else
+        json.member_as_is("extended_study", "null");
     add_members(json, d.cost, {"simulations", "seconds"});
 
     json.member("heading", verdict_heading(d)).member("text", verdict_words(d));

@@ -6,14 +6,15 @@
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 
+#include <optional>
 #include <string>
 
 namespace stylobate {
 
 /// Three significant digits; "not known".
 std::string number_words(MaybeReal value);
-/// "0.49 to 0.66"; empty where neither end is known.
-std::string interval_words(MaybeReal low, MaybeReal high);
+/// "0.49 to 0.66"; nullopt where neither end is known.
+std::optional<std::string> interval_words(MaybeReal low, MaybeReal high);
 /// "0.57 m (0.49 to 0.66)".
 std::string estimate_words(MaybeReal value, MaybeReal low, MaybeReal high, const std::string& unit);
 /// "< 0.001", "0.032".
@@ -44,10 +45,10 @@ inline const std::string& verdict_words(const Diagnosis& diagnosis)
 {
     return diagnosis.verdict_text;
 }
-/// The gain on runs left out, in a sentence; empty where there is none.
-std::string gain_words(const ModelGain& gain);
-/// How well the collapses were predicted; empty where it is not known.
-std::string collapse_words(const ModelGain& gain);
+/// The gain on runs left out, in a sentence; nullopt where there is none.
+std::optional<std::string> gain_words(const ModelGain& gain);
+/// How well the collapses were predicted; nullopt where it is not known.
+std::optional<std::string> collapse_words(const ModelGain& gain);
 std::string cost_words(const DiagnosisCost& cost);
 
 /// What is printed at the end of a diagnosis: the verdict first, then what it rests on; lines of 100 characters at most
@@ -61,7 +62,8 @@ Json diagnosis_json(const Diagnosis& diagnosis);
 
 /// The verdict first, then what it rests on.
 /// @param file for names
-/// @param title of the page; empty: by the specimen
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::string& title = "");
+/// @param title of the page; nullopt: by the specimen
+HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file,
+                        const std::optional<std::string>& title = std::nullopt);
 
 } // namespace stylobate

@@ -359,7 +359,7 @@ TEST(CalibrationStatistics, TheSameCalibrationHasTheSameBits)
     EXPECT_EQ(one.forms[0].score, other.forms[0].score);
     // and so have the windows in motion, which are of the calibrated model and of the start study
     ASSERT_TRUE(one.motion && other.motion);
-    EXPECT_EQ(one.motion->fault(), "");
+    EXPECT_EQ(one.motion->fault(), std::nullopt);
     ASSERT_GE(one.motion->windows.size(), 2U);
     const std::vector<MotionTrack>&tracks = one.motion->windows[0].tracks, &same = other.motion->windows[0].tracks;
     ASSERT_EQ(tracks.size(), 3U);

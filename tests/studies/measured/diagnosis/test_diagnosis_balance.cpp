@@ -309,7 +309,7 @@ TEST(BalanceFit, FacesCarryInsideTheirCornersAndNotOutside)
     ASSERT_TRUE(outside.fit);
     // the common turning point is at its bound: scores are there, and ask for the other sign
     for (const Cause& cause : balance_causes(campaign.specimen, campaign_scales(campaign)))
-        if (cause.mechanism == "corner_loss" && cause.side.empty()) {
+        if (cause.mechanism == "corner_loss" && !cause.side) {
             EXPECT_LT(outside.fit->score(cause), 0);
         }
 }

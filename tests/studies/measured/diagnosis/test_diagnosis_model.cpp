@@ -271,7 +271,7 @@ TEST(ExtendedStudy, HasWhatTheBaseDoesAndRuns)
     for (const Missing& missing : d->missing)
         EXPECT_EQ(missing.what.find("extended study"), std::string::npos) << missing.why;
 
-    const Study extended = parse_study(d->extended_study, "extended.toml");
+    const Study extended = parse_study(d->extended_study.value(), "extended.toml");
     const auto value = [&](Mechanism mechanism, std::size_t parameter) {
         for (const MechanismSpec& spec : extended.mechanisms)
             if (spec.mechanism == mechanism)

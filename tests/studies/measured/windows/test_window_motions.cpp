@@ -173,7 +173,7 @@ TEST_F(ShownWindows, HaveTheMeasuredValuesAgainstTheBase)
 {
     const auto motion = window_motions(chosen_, {{"wrong", campaign_, wrong_}}, {}, one_thread, cost_, observer_);
     ASSERT_TRUE(motion);
-    EXPECT_EQ(motion->fault(), "");
+    EXPECT_EQ(motion->fault(), std::nullopt);
     ASSERT_EQ(motion->blocks.size(), 4U);
     EXPECT_EQ(motion->blocks[3].kind, ShownBlockKind::fixed);
     ASSERT_EQ(motion->windows.size(), chosen_.size());
