@@ -109,6 +109,7 @@ struct VerifyChoice {
 /// Options of `new`, in the words of a study file; empty: the default.
 struct NewStudyOptions {
     std::string kind, structure, excitation;
+    int dimensions = 2;
 };
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`. The options that

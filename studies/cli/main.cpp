@@ -407,6 +407,8 @@ private:
             ->check(CLI::IsMember(words_of(study_kind_names)));
         begin->add_option("--structure", new_.structure, "column or colonnade (default: column)")
             ->check(CLI::IsMember(words_of(structure_kind_names)));
+        begin->add_option("--dimensions", new_.dimensions, "2: in the plane, 3: in space (default: 2)")
+            ->check(CLI::IsMember({2, 3}));
         begin
             ->add_option("--excitation", new_.excitation,
                          fmt::format("{} (default: harmonic; for a fragility study noise)",

@@ -29,6 +29,7 @@ int new_command(const CommonOptions& options, const NewStudyOptions& wanted, std
     TemplateChoice choice;
     choice.study = value_of(study_kind_names, wanted.kind);
     choice.structure = value_of(structure_kind_names, wanted.structure);
+    choice.dimensions = wanted.dimensions;
     if (!wanted.excitation.empty())
         choice.excitation = value_of(excitation_kind_names, wanted.excitation);
     const std::string text = study_template(choice);
