@@ -288,7 +288,7 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     both(cut, "is truncated");
     both(longer, "is damaged");
     both(old,
-         "is of format version 1; this program reads version 5. Read it with the version that wrote it, or run its "
+         "is of format version 1; this program reads versions 5 and 6. Read it with the version that wrote it, or run its "
          "study again into another file.");
 
     std::string message =
