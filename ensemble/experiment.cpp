@@ -2,7 +2,6 @@
 
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/motion/motions_in_space.hpp"
-#include "ensemble/planar/structure/scales.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -73,7 +72,7 @@ double shaking_s(const Experiment& experiment, const Realization& r)
 
 double longest_s(const Experiment& experiment, const Realization& r)
 {
-    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, scales_of(r));
+    return shaking_s(experiment, r) + tail_s(experiment.study().excitation, StructureBuilder::scales(r));
 }
 
 } // namespace stylobate

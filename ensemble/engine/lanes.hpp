@@ -276,6 +276,7 @@ private:
         if (state == State::invalid)
             o.at_rest = 0;
         model_.measure(lane, of, state, o);
+        leave_out_other_models(o, study_.structure.dimensions);
         o.state = state == State::stood ? model_.motion_of(of, o) : state;
         o.invalid_reason = reason;
         of.outcome = o;

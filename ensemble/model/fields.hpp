@@ -21,6 +21,15 @@
 
 namespace stylobate {
 
+/// The models of which something is, by the dimensions of the structure: the plane has 2, space 3.
+enum class Models : std::uint8_t { all, plane, space };
+
+/// Whether a model is among them. @param dimensions of the structure, 2 or 3
+constexpr bool has_model(Models models, int dimensions)
+{
+    return models == Models::all || (models == Models::space) == (dimensions == 3);
+}
+
 struct FieldFacts {
     const char* says = "";                     ///< its meaning, in the words of files and of the documentation
     std::optional<std::string_view> unit = {}; ///< where the end of its name is not its unit
@@ -28,6 +37,7 @@ struct FieldFacts {
     std::optional<std::string_view> more = {}; ///< the rest of its meaning, for the documentation alone
     std::uint64_t since = 0;                   ///< the first version of the file that has it
     bool is_signed = false;                    ///< whether a number may be negative
+    Models models = Models::all;               ///< whose files and tables have it
 };
 
 /// The field of a member, or of a member of that.

@@ -24,7 +24,9 @@ const char* to_string(InvalidReason reason);
 /// What stands for "none" in the fields of an outcome. A time of what did not happen is -1 in memory.
 inline constexpr char it_did_not_happen[] = "NaN: it did not happen";
 inline constexpr char it_still_moved[] = "NaN: the structure still moved at the end";
+inline constexpr char nothing_fell[] = "NaN: nothing fell";
 inline constexpr char no_block[] = "-1: no block; -2: several blocks, together";
+inline constexpr char no_column[] = "-1: nothing fell, or an epistyle fell first";
 
 /// Each number has its line, with its meaning, in `outcome_fields.inc`.
 struct Outcome {
@@ -44,6 +46,21 @@ void visit_fields(std::type_identity<Outcome>, F&& f)
 {
 #define STYLOBATE_OUTCOME(type, name, value, ...) f(#name, &Outcome::name, FieldFacts{__VA_ARGS__});
 #include "include/stylobate/outcome_fields.inc"
+}
+
+/// Sets what the model does not have: NaN, of whole numbers the value before a run. What comes out of the engine and
+/// what comes out of a file thus have the same bits.
+/// @param dimensions of the structure, 2 or 3
+inline void leave_out_other_models(Outcome& outcome, int dimensions)
+{
+    visit_fields(std::type_identity<Outcome>(), [&](const char*, auto field, const FieldFacts& facts) {
+        if (has_model(facts.models, dimensions))
+            return;
+        if constexpr (std::is_same_v<decltype(field), double Outcome::*>)
+            outcome.*field = std::numeric_limits<double>::quiet_NaN();
+        else
+            outcome.*field = Outcome().*field;
+    });
 }
 
 /// Its lists: f(name, field, what they have a value of: "block" or "bed", facts).

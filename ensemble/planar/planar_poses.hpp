@@ -22,6 +22,12 @@ inline constexpr std::array planar_channels = {
     TrajectoryChannel{"half_height_m", ListOf::blocks, "half height of the block"},
 };
 
+/// Whether a trajectory is of the planar model.
+inline bool is_planar(const Trajectory& t)
+{
+    return t.channels.data() == planar_channels.data();
+}
+
 /// Positions of all blocks of one realization, in the order of `Realization::blocks`, in the frame of the base.
 struct Snapshot {
     std::vector<double> x_m, y_m, theta_rad; ///< (blocks) centres and rotations
@@ -56,10 +62,10 @@ struct Rectangle {
     bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(turned_rad); }
 };
 
-/// A block of a planar trajectory at a sample, in metres.
+/// A block of a planar trajectory at a sample, in metres. @pre is_planar(t)
 inline Rectangle rectangle_of(const Trajectory& t, std::size_t sample, std::size_t block)
 {
-    assert(t.lists.size() == planar_channels.size());
+    assert(is_planar(t));
     const std::size_t at = sample * t.blocks() + block;
     const auto& lists = t.lists; // in the order of `planar_channels`
     return {lists[0][at], lists[1][at], lists[2][at], lists[6][block], lists[7][block]};

@@ -5,7 +5,7 @@
 #include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/motion/shaking.hpp"
-#include "ensemble/planar/structure/builder.hpp"
+#include "ensemble/sampling/structure_builder.hpp"
 #include "ensemble/sampling/value_sampler.hpp"
 
 #include <cassert>
@@ -131,6 +131,6 @@ private:
     std::vector<std::shared_ptr<const OtherForm>> forms_; ///< (kinds of replicas) of another contact form, else null
 };
 
-using Sampler = SamplerOf<PlanarBuilder>;
+using Sampler = SamplerOf<StructureBuilder>;
 
 } // namespace stylobate

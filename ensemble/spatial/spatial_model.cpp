@@ -246,7 +246,6 @@ void SpatialModel::measure(int lane, const Place& place, State state, Outcome& o
     o.residual_top_displacement_m = w.quiet_top_m / checks - m.start_top_x_m;
     o.residual_top_z_m = m.quiet_top_z_m / checks - m.start_top_z_m;
     o.total_sliding_m = bundle_.at(W::slip, lane);
-    o.top_path_m = o.sliding_path_m = o.rocking_path_rad = nan; // the kernel does not follow them
     for (int j = 0; j < topology().joints; ++j) {
         const SolidJoint& joint = r.space.joints[static_cast<std::size_t>(j)];
         const std::array<double, 2> now = face_offset(j, lane), start = m.start_offset_m[static_cast<std::size_t>(j)];

@@ -32,6 +32,12 @@ inline constexpr std::array spatial_channels = {
     TrajectoryChannel{"round", ListOf::blocks, "1: the faces are discs; 0: rectangles"},
 };
 
+/// Whether a trajectory is of the spatial model.
+inline bool is_spatial(const Trajectory& t)
+{
+    return t.channels.data() == spatial_channels.data();
+}
+
 /// Number of channels of poses, the first ones of `spatial_channels`.
 inline constexpr std::size_t spatial_pose_channels = 7;
 

@@ -50,6 +50,8 @@ std::size_t finite_samples(const Trajectory& t)
 {
     const std::size_t blocks = t.blocks();
     const std::size_t samples = t.time_s.size();
+    if (!is_planar(t))
+        throw InputError(fmt::format("realization {}: {}.", t.index, no_motion_in_space));
     if (!lists_fit(t))
         throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
                                      "  Replay the realization into a new file.",

@@ -36,6 +36,8 @@ ResultHeader read_header(hid_t file)
         header.build = hdf5::read_text(file, names::build);
     if (hdf5::has_attribute(file, names::study_crc32))
         header.study_crc32 = static_cast<std::uint32_t>(hdf5::read_number(file, names::study_crc32));
+    if (hdf5::has_attribute(file, names::dimensions))
+        header.dimensions = static_cast<int>(hdf5::read_number(file, names::dimensions));
     header.total = hdf5::read_number(file, "realizations");
     header.first = hdf5::read_number(file, "first_realization");
     header.selected = hdf5::has_attribute(file, names::selected);
@@ -134,7 +136,9 @@ std::string joined_inputs(const ResultHeader& header)
 void write_header(hid_t file, const ResultHeader& header, bool complete)
 {
     hdf5::write_text(file, "format", names::format);
-    hdf5::write_number(file, "format_version", H5T_STD_U32LE, result_format_version);
+    hdf5::write_number(file, "format_version", H5T_STD_U32LE, format_version_of(header.dimensions));
+    if (header.dimensions != 2)
+        hdf5::write_number(file, names::dimensions, H5T_STD_U8LE, static_cast<std::uint64_t>(header.dimensions));
     hdf5::write_text(file, "kind", header.kind);
     hdf5::write_text(file, "study_toml", header.study_toml);
     hdf5::write_number(file, "seed", H5T_STD_U64LE, header.seed);
@@ -441,7 +445,8 @@ std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool wr
     if (writable && !result.handle.try_lock())
         throw InputError(path.string(), 0,
                          "is being written by another run; wait for its end, or choose another output");
-    const std::vector<Extent> extents = check_seal(result.handle, path.string());
+    const Seal seal = check_seal(result.handle, path.string());
+    const std::vector<Extent>& extents = seal.extents;
     try {
         try {
             result.hdf5 = hdf5::open_file(path, false);
@@ -454,9 +459,11 @@ std::optional<ResultFile> try_to_open(const std::filesystem::path& path, bool wr
         const hid_t file = result.hdf5.id();
         if (hdf5::read_text(file, "format") != names::format)
             result.refuse_damaged("its format has another name");
-        if (hdf5::read_number(file, "format_version") != result_format_version)
+        if (hdf5::read_number(file, "format_version") != seal.version)
             result.refuse_damaged("its two format versions differ");
         result.header = read_header(file);
+        if (format_version_of(result.header.dimensions) != seal.version)
+            result.refuse_damaged("its structure has other dimensions than its format version says");
         result.complete = hdf5::read_number(file, "complete") != 0;
         if (!result.header.has_rows()) {
             if (!extents.empty())

@@ -33,16 +33,20 @@ void check_table(const ResultHeader& header, const SurfaceTable& table);
 /// has been written.
 void write_labels(hid_t file);
 
-/// @throws std::invalid_argument if the arrays of the trajectory do not fit together
-void check_trajectory(const Trajectory& trajectory);
+/// @param dimensions of the structure, 2 or 3
+/// @throws std::invalid_argument if the arrays of the trajectory do not fit together, or its channels are not those of
+///         the model
+void check_trajectory(const Trajectory& trajectory, int dimensions);
 /// Below /trajectories, which is there.
 void write_trajectory(hid_t file, const Trajectory& trajectory);
+/// @param dimensions of the structure, 2 or 3
 /// @throws hdf5::Error or std::invalid_argument if it is not there as it was written
-Trajectory read_trajectory(hid_t file, std::uint64_t index);
+Trajectory read_trajectory(hid_t file, int dimensions, std::uint64_t index);
 /// A trajectory as a record of the journal: its index first, then every list with its length in front.
 std::vector<std::byte> bytes_of(const Trajectory& trajectory);
+/// @param dimensions of the structure, 2 or 3
 /// @throws std::invalid_argument if the bytes are not those of a trajectory
-Trajectory trajectory_of(std::span<const std::byte> bytes);
+Trajectory trajectory_of(int dimensions, std::span<const std::byte> bytes);
 
 /// What a file has that holds counts instead of rows.
 struct TallyFile {

@@ -1,4 +1,3 @@
-#include "ensemble/planar/planar_poses.hpp"
 #include "io/files/hdf5_scales.hpp"
 #include "io/files/toml_key.hpp"
 #include "io/store/result_file.hpp"
@@ -26,7 +25,7 @@ struct Label {
 
 /// By path; '*' is any one name. Inputs and intervals (NAME_lower, NAME_upper) follow rules below.
 // long: a line for each data set
-std::map<std::string, Label> all_labels()
+std::map<std::string, Label> all_labels(int dimensions)
 {
     std::map<std::string, Label> labels = {
         {"realizations/chunk_checksum", {"chunk_checksum", "checksum of each 256 rows"}},
@@ -123,6 +122,7 @@ std::map<std::string, Label> all_labels()
         {"trajectories/*/column", {"block", "column of a drum, from the left; -1 of all others"}},
     };
     visit_numbers(
+        dimensions,
         [&](const std::string& group, const char* name, const FieldFacts& facts, auto) {
             labels["realizations/" + group + name] = {"index", facts.says};
         },
@@ -131,8 +131,8 @@ std::map<std::string, Label> all_labels()
                 [&](const std::string& name, auto, const std::string& of, const FieldFacts& facts) {
                     labels["realizations/outcome/" + name] = {"index " + of, facts.says};
                 });
-    const Trajectory planar(planar_channels);
-    visit_lists(planar, [&](const TrajectoryChannel& channel, const auto&) {
+    const Trajectory of_model(trajectory_channels(dimensions));
+    visit_lists(of_model, [&](const TrajectoryChannel& channel, const auto&) {
         labels[std::string("trajectories/*/") + channel.name] = {channel.of == ListOf::times    ? "time_s"
                                                                  : channel.of == ListOf::blocks ? "block"
                                                                                                 : "time_s block",
@@ -174,10 +174,11 @@ std::string as_listed(const std::string& path)
     return path.starts_with(in) && slash != std::string::npos ? in + "*" + path.substr(slash) : path;
 }
 
-/// @param rank how many dimensions the data set has
-std::optional<Label> label_of(const std::string& path, std::size_t rank)
+/// @param dimensions of the structure, 2 or 3   @param rank how many dimensions the data set has
+std::optional<Label> label_of(int dimensions, const std::string& path, std::size_t rank)
 {
-    static const std::map<std::string, Label> labels = all_labels();
+    static const std::map<std::string, Label> planar = all_labels(2), spatial = all_labels(3);
+    const std::map<std::string, Label>& labels = dimensions == 3 ? spatial : planar;
     const std::string listed = as_listed(path), inputs = std::string(names::input) + "/";
     if (path.starts_with(inputs)) {
         const std::string name = path.substr(inputs.size());
@@ -189,7 +190,7 @@ std::optional<Label> label_of(const std::string& path, std::size_t rank)
         return found->second;
     for (const std::string end : {"lower", "upper"})
         if (listed.ends_with("_" + end))
-            if (auto of = label_of(path.substr(0, path.size() - end.size() - 1), rank)) {
+            if (auto of = label_of(dimensions, path.substr(0, path.size() - end.size() - 1), rank)) {
                 of->long_name = end + " end of the interval: " + of->long_name;
                 return of;
             }
@@ -198,7 +199,13 @@ std::optional<Label> label_of(const std::string& path, std::size_t rank)
 
 class Labels {
 public:
-    explicit Labels(hid_t file) : file_(file) { find(""); }
+    explicit Labels(hid_t file)
+        : file_(file), dimensions_(hdf5::has_attribute(file, names::dimensions)
+                                       ? static_cast<int>(hdf5::read_number(file, names::dimensions))
+                                       : 2)
+    {
+        find("");
+    }
 
     void write()
     {
@@ -225,7 +232,7 @@ private:
     void write(const std::string& path)
     {
         const hdf5::Dims dims = hdf5::dims_of(file_, path);
-        const std::optional<Label> label = label_of(path, dims.size());
+        const std::optional<Label> label = label_of(dimensions_, path, dims.size());
         if (!label)
             return;
         std::istringstream words(label->dimensions);
@@ -281,7 +288,7 @@ private:
         hdf5::write_texts(file_, path, texts);
         datasets_.insert(path);
         const hdf5::Handle made = hdf5::open_object(file_, path);
-        const auto label = label_of(path, 1);
+        const auto label = label_of(dimensions_, path, 1);
         hdf5::write_text(made.id(), "long_name", label ? label->long_name : name);
         scales_.attach(path, {path});
         return path;
@@ -304,6 +311,7 @@ private:
     }
 
     hid_t file_;
+    int dimensions_; ///< of the structure
     std::set<std::string> datasets_;
     hdf5::DimensionScales scales_;
 };

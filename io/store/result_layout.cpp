@@ -1,6 +1,8 @@
 #include "io/store/result_layout.hpp"
 
 #include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/spatial/spatial_poses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -109,9 +111,18 @@ std::vector<std::string> split_names(const std::string& text)
     return names;
 }
 
-ResultLayout::ResultLayout(const ResultHeader& header)
-    : first_index_(header.first), selected_(header.selected), rows_(header.total)
+std::span<const TrajectoryChannel> trajectory_channels(int dimensions)
 {
+    if (dimensions == 3)
+        return spatial_channels;
+    return planar_channels;
+}
+
+ResultLayout::ResultLayout(const ResultHeader& header)
+    : first_index_(header.first), selected_(header.selected), dimensions_(header.dimensions), rows_(header.total)
+{
+    if (dimensions_ != 2 && dimensions_ != 3)
+        throw std::invalid_argument("a structure has 2 or 3 dimensions");
     if (rows_ == 0)
         throw std::invalid_argument("a results file has at least one row");
     if (first_index_ + rows_ < rows_)
@@ -122,7 +133,7 @@ ResultLayout::ResultLayout(const ResultHeader& header)
             std::string_view(name) == "cell" ? Stored::i64 : stored_as<std::remove_cvref_t<decltype(value)>>();
         columns_.push_back({group + name, std::string(unit_of(name)), facts.none, stored, false, 1, 0});
     };
-    visit_numbers(add_column, ResultRow{});
+    visit_numbers(dimensions_, add_column, ResultRow{});
     if (header.block_names.empty())
         throw std::invalid_argument("a results file has at least one block");
     joined_names(header.block_names); // for its refusals
@@ -175,6 +186,7 @@ void ResultLayout::encode(std::uint64_t k, const ResultRow& row, std::span<std::
     };
     std::size_t column = 0;
     visit_numbers(
+        dimensions_,
         [&](auto, auto, const FieldFacts& facts, const auto& value) { put(column++, 0, without_none(facts, value)); },
         row);
     for (const List& list : lists_)
@@ -196,7 +208,9 @@ ResultRow ResultLayout::decode(std::uint64_t k, std::span<const std::byte> bytes
     };
     ResultRow row;
     std::size_t column = 0;
-    visit_numbers([&](auto, auto, const FieldFacts& facts, auto& value) { take(column++, 0, value, facts); }, row);
+    visit_numbers(
+        dimensions_, [&](auto, auto, const FieldFacts& facts, auto& value) { take(column++, 0, value, facts); }, row);
+    leave_out_other_models(row.outcome, dimensions_);
     for (const List& list : lists_) {
         (row.outcome.*list.field).resize(columns_[list.column].width);
         for (std::size_t i = 0; i < columns_[list.column].width; ++i)
@@ -221,7 +235,8 @@ bool same_bits(const ResultRow& a, const ResultRow& b)
             add(list.size());
             std::ranges::for_each(list, add);
         };
-        visit_numbers([&](auto, auto, auto, const auto& value) { add(value); }, row);
+        visit_fields(std::type_identity<ResultRow>(), [&](auto, auto field, auto) { add(row.*field); });
+        visit_fields(std::type_identity<Outcome>(), [&](auto, auto field, auto) { add(row.outcome.*field); });
         visit_lists(std::type_identity<Outcome>(), [&](auto, auto field, auto, auto) { add_list(row.outcome.*field); });
         add_list(row.inputs);
         return all;

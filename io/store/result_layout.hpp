@@ -15,7 +15,13 @@
 
 namespace stylobate {
 
-inline constexpr std::uint64_t result_format_version = 5;
+inline constexpr std::uint64_t result_format_version = 5;         ///< of a structure in the plane
+inline constexpr std::uint64_t spatial_result_format_version = 6; ///< of one in space
+/// @param dimensions of the structure, 2 or 3
+constexpr std::uint64_t format_version_of(int dimensions)
+{
+    return dimensions == 3 ? spatial_result_format_version : result_format_version;
+}
 inline constexpr std::uint8_t state_not_run = 255; ///< state of a row that is not written yet
 
 /// Names in the file. Those of the columns follow from `visit_fields` below.
@@ -31,6 +37,7 @@ inline constexpr char checksum[] = "realizations/chunk_checksum";
 inline constexpr char rows_per_chunk[] = "rows_per_chunk"; ///< attribute of the checksums
 inline constexpr char selected[] = "selected";       ///< attribute of / where the rows are some of the realizations
 inline constexpr char shard[] = "shard";             ///< attribute of / of an unfinished file that is meant for a part
+inline constexpr char dimensions[] = "dimensions";   ///< attribute of / of a structure in space: 3
 inline constexpr char build[] = "build";             ///< attribute of /: `ResultHeader::build`
 inline constexpr char study_crc32[] = "study_crc32"; ///< attribute of /: `ResultHeader::study_crc32`
 inline constexpr char warnings[] = "warnings";       ///< attribute of / where there are any: one on each line
@@ -53,14 +60,19 @@ inline constexpr char limit_states[] = "limit_states"; ///< attribute of the gro
 std::string joined_names(const std::vector<std::string>& names);
 std::vector<std::string> split_names(const std::string& text);
 
-/// The numbers of rows, in the order of the file: f(group below /realizations, name, facts, value of each row...).
+/// The channels of the trajectories of a model. @param dimensions of the structure, 2 or 3
+std::span<const TrajectoryChannel> trajectory_channels(int dimensions);
+
+/// The numbers of rows that a model has, in the order of the file: f(group below /realizations, name, facts, value of
+/// each row...). @param dimensions of the structure, 2 or 3
 template <class F, class... Row>
-void visit_numbers(F&& f, Row&&... row)
+void visit_numbers(int dimensions, F&& f, Row&&... row)
 {
     visit_fields(std::type_identity<ResultRow>(),
                  [&](const char* name, auto field, const FieldFacts& facts) { f("", name, facts, row.*field...); });
     visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
-        f("outcome/", name, facts, row.outcome.*field...);
+        if (has_model(facts.models, dimensions))
+            f("outcome/", name, facts, row.outcome.*field...);
     });
 }
 
@@ -116,7 +128,7 @@ class ResultLayout {
 public:
     ResultLayout() = default;
     /// @throws std::invalid_argument if there is no row or no block, if a block's name is malformed, or if an input
-    /// name is malformed, comes twice or lacks a neighbour
+    /// name is malformed, comes twice or lacks a neighbour, or if the structure is neither in the plane nor in space
     explicit ResultLayout(const ResultHeader& header);
 
     const std::vector<Column>& columns() const { return columns_; }
@@ -162,6 +174,7 @@ private:
     };
     std::uint64_t first_index_ = 0;
     bool selected_ = false;
+    int dimensions_ = 2;
     std::uint64_t rows_ = 0;
     std::uint64_t row_bytes_ = 0;
     std::vector<Column> columns_;

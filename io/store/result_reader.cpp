@@ -66,7 +66,7 @@ struct ResultReader::Impl {
             },
             [&](const RowJournal::Record& record, std::span<const std::byte> content) {
                 try {
-                    trajectories[trajectory_of(content).index] = record;
+                    trajectories[trajectory_of(file.header.dimensions, content).index] = record;
                 } catch (const std::invalid_argument& error) {
                     file.refuse_damaged(error.what());
                 }
@@ -253,8 +253,9 @@ Trajectory ResultReader::trajectory(std::uint64_t index) const
         throw InputError(impl_->file.path.string(), 0,
                          "has no trajectory of realization " + std::to_string(index) + "; 'replay' computes one");
     if (!complete())
-        return trajectory_of(RowJournal::content(impl_->file.handle, impl_->trajectories.at(index)));
-    return impl_->guarded([index](hid_t file) { return read_trajectory(file, index); });
+        return trajectory_of(header().dimensions,
+                             RowJournal::content(impl_->file.handle, impl_->trajectories.at(index)));
+    return impl_->guarded([&](hid_t file) { return read_trajectory(file, header().dimensions, index); });
 }
 
 } // namespace stylobate

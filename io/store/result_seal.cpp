@@ -85,12 +85,16 @@ std::vector<Extent> joined(std::vector<Extent> extents)
     return result;
 }
 
-void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents)
+void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents,
+                std::optional<std::uint64_t> version)
 {
     const std::uint64_t size = file.size();
-    const SealHead head = {
-        magic, static_cast<std::uint32_t>(result_format_version), static_cast<std::uint32_t>(block),
-        size,  static_cast<std::uint32_t>(extents.size()),        crc_outside(file, block, size, extents)};
+    const SealHead head = {magic,
+                           static_cast<std::uint32_t>(version.value_or(result_format_version)),
+                           static_cast<std::uint32_t>(block),
+                           size,
+                           static_cast<std::uint32_t>(extents.size()),
+                           crc_outside(file, block, size, extents)};
     std::vector<std::byte> bytes(block);
     std::memcpy(bytes.data(), &head, sizeof head);
     std::ranges::copy(std::as_bytes(std::span(extents)), bytes.begin() + sizeof head);
@@ -99,12 +103,12 @@ void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>
     file.write(0, bytes);
 }
 
-void write_open_seal(FileHandle& file, std::uint64_t block)
+void write_open_seal(FileHandle& file, std::uint64_t block, std::optional<std::uint64_t> version)
 {
-    write_seal(file, block, {{file.size(), 0}});
+    write_seal(file, block, {{file.size(), 0}}, version);
 }
 
-std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
+Seal check_seal(const FileHandle& file, const std::string& name)
 {
     const auto refuse = [&](const std::string& text) { throw InputError(name, 0, text); };
 
@@ -133,9 +137,9 @@ std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
     std::memcpy(&crc, block.data() + block.size() - sizeof crc, sizeof crc);
     if (crc != crc32_of(std::span(block).first(block.size() - sizeof crc)))
         refuse(damaged);
-    if (head.version != result_format_version)
-        refuse("is of format version " + std::to_string(head.version) + "; this program reads version " +
-               std::to_string(result_format_version) +
+    if (head.version != result_format_version && head.version != spatial_result_format_version)
+        refuse("is of format version " + std::to_string(head.version) + "; this program reads versions " +
+               std::to_string(result_format_version) + " and " + std::to_string(spatial_result_format_version) +
                ". Read it with the version that wrote it, or run its study again into another file.");
     if (size < head.file_size)
         refuse("is truncated: " + std::to_string(size) + " bytes of " + std::to_string(head.file_size));
@@ -156,7 +160,7 @@ std::vector<Extent> check_seal(const FileHandle& file, const std::string& name)
     }
     if (crc_outside(file, head.block, head.file_size, extents) != head.crc)
         refuse(damaged);
-    return extents;
+    return {std::move(extents), head.version};
 }
 
 void write_sealed_file(const std::filesystem::path& file, const SealedFormat& format, const std::string& code_version,

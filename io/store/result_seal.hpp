@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,15 +32,23 @@ std::vector<Extent> joined(std::vector<Extent> extents);
 
 /// Checks the whole file outside `extents` (joined), and writes the seal.
 /// @param block the result of `seal_bytes` when the file was created
-void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents);
+/// @param version of its format; not given: that of a planar study, which other sealed files have too
+void write_seal(FileHandle& file, std::uint64_t block, const std::vector<Extent>& extents,
+                std::optional<std::uint64_t> version = std::nullopt);
 
 /// Checks and seals a file that goes on behind its end, with bytes that the seal does not cover (`RowJournal`).
-void write_open_seal(FileHandle& file, std::uint64_t block);
+void write_open_seal(FileHandle& file, std::uint64_t block, std::optional<std::uint64_t> version = std::nullopt);
 
-/// Verifies the seal. @returns the extents; of a file that may go on behind its end a single one of no size, there
+/// What a seal says.
+struct Seal {
+    std::vector<Extent> extents; ///< of a file that may go on behind its end a single one of no size, there
+    std::uint64_t version = 0;   ///< of the file's format: one that this program reads
+};
+
+/// Verifies the seal.
 /// @param name of the file, for messages
 /// @throws InputError if the file is none of ours, of another format version, truncated or damaged
-std::vector<Extent> check_seal(const FileHandle& file, const std::string& name);
+Seal check_seal(const FileHandle& file, const std::string& name);
 
 /// The format of a file of one kind that is written whole or not at all.
 struct SealedFormat {

@@ -36,6 +36,7 @@ struct ResultHeader {
     std::string code_version;
     std::optional<std::string> build; ///< compiler, processor, type and flags of the program; nullopt: not known
     std::optional<std::uint32_t> study_crc32; ///< of `study_toml`, as the file states it; the writer computes it anew
+    int dimensions = 2;                       ///< of the structure: 2 in the plane, 3 in space
     std::uint64_t first = 0;                  ///< index of the first row: 0 but for a replay
     std::uint64_t total = 0;                  ///< rows
     bool selected =

@@ -1,4 +1,3 @@
-#include "ensemble/planar/planar_poses.hpp"
 #include "io/store/result_file.hpp"
 
 #include <cstring>
@@ -9,8 +8,10 @@ namespace stylobate {
 
 namespace names = result_names;
 
-void check_trajectory(const Trajectory& trajectory)
+void check_trajectory(const Trajectory& trajectory, int dimensions)
 {
+    if (trajectory.channels.data() != trajectory_channels(dimensions).data())
+        throw std::invalid_argument("a trajectory is of another model than its file");
     if (!lists_fit(trajectory))
         throw std::invalid_argument("the arrays of a trajectory have inconsistent sizes");
     joined_names(trajectory.name); // for its refusals
@@ -53,10 +54,10 @@ void write_trajectory(hid_t file, const Trajectory& trajectory)
     hdf5::write_array(file, group + "column", trajectory.column, {trajectory.blocks()}, "");
 }
 
-Trajectory read_trajectory(hid_t file, std::uint64_t index)
+Trajectory read_trajectory(hid_t file, int dimensions, std::uint64_t index)
 {
     const std::string group = group_of(index);
-    Trajectory trajectory(planar_channels);
+    Trajectory trajectory(trajectory_channels(dimensions));
     trajectory.index = index;
     const hdf5::Dims both = hdf5::dims_of(file, group + "x_m");
     if (both.size() != 2)
@@ -73,7 +74,7 @@ Trajectory read_trajectory(hid_t file, std::uint64_t index)
     trajectory.column = hdf5::read_integers(file, group + "column", {both[1]});
     const hdf5::Handle opened = hdf5::open_group(file, group);
     trajectory.name = split_names(hdf5::read_text(opened.id(), names::blocks));
-    check_trajectory(trajectory);
+    check_trajectory(trajectory, dimensions);
     return trajectory;
 }
 
@@ -99,7 +100,7 @@ std::vector<std::byte> bytes_of(const Trajectory& trajectory)
     return bytes;
 }
 
-Trajectory trajectory_of(std::span<const std::byte> bytes)
+Trajectory trajectory_of(int dimensions, std::span<const std::byte> bytes)
 {
     const auto take = [&](void* to, std::size_t size) {
         if (size > bytes.size())
@@ -116,7 +117,7 @@ Trajectory trajectory_of(std::span<const std::byte> bytes)
         list.resize(n);
         take(list.data(), n * sizeof(list[0]));
     };
-    Trajectory trajectory(planar_channels);
+    Trajectory trajectory(trajectory_channels(dimensions));
     take(&trajectory.index, sizeof trajectory.index);
     visit_lists(trajectory, [&](const TrajectoryChannel&, std::vector<double>& list) { take_list(list); });
     take_list(trajectory.role);
@@ -124,7 +125,7 @@ Trajectory trajectory_of(std::span<const std::byte> bytes)
     std::string text;
     take_list(text);
     trajectory.name = split_names(text);
-    check_trajectory(trajectory);
+    check_trajectory(trajectory, dimensions);
     return trajectory;
 }
 

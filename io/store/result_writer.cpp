@@ -127,7 +127,7 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
         write_beginning(made.id(), header);
         write_labels(made.id());
         made.close();
-        write_open_seal(result.handle, block);
+        write_open_seal(result.handle, block, format_version_of(header.dimensions));
         result.journal = RowJournal(result.handle.size());
         if (!header.selected) // otherwise their number is not known in advance
             result.handle.reserve(RunOrder(header.total).places(header.shard).size() *
@@ -162,7 +162,7 @@ std::unique_ptr<ResultWriter> ResultWriter::resume(const std::filesystem::path& 
     auto impl = std::make_unique<Impl>(std::move(opened));
     impl->file.read_journal([&](const ResultRow& row, const RowJournal::Record& record) { impl->count(row, record); },
                             [&](const RowJournal::Record& record, std::span<const std::byte> content) {
-                                impl->trajectories[trajectory_of(content).index] = record;
+                                impl->trajectories[trajectory_of(header.dimensions, content).index] = record;
                             });
     return std::unique_ptr<ResultWriter>(new ResultWriter(std::move(impl)));
 }
@@ -209,8 +209,8 @@ void ResultWriter::add(const ResultRow& row)
 void ResultWriter::add(const Trajectory& trajectory)
 {
     impl_->check_open();
-    check_trajectory(trajectory);
     ResultFile& file = impl_->file;
+    check_trajectory(trajectory, file.header.dimensions);
     impl_->trajectories[trajectory.index] =
         file.journal.append(file.handle, RowJournal::Kind::trajectory, bytes_of(trajectory));
 }
@@ -246,12 +246,13 @@ void ResultWriter::finish(const SurfaceTable* surface, const std::vector<Table>&
     if (!impl_->trajectories.empty())
         hdf5::create_group(opened.id(), names::trajectories);
     for (const auto& [index, record] : impl_->trajectories)
-        write_trajectory(opened.id(), trajectory_of(RowJournal::content(file.handle, record)));
+        write_trajectory(opened.id(), trajectory_of(file.header.dimensions, RowJournal::content(file.handle, record)));
     write_labels(opened.id());
     hdf5::change_number(opened.id(), "complete", 1);
     made.places = find_rows(opened.id(), made.layout);
     opened.close();
-    write_seal(made.handle, seal_bytes(made.layout.columns().size() + 1), made.places.extents(made.layout));
+    write_seal(made.handle, seal_bytes(made.layout.columns().size() + 1), made.places.extents(made.layout),
+               format_version_of(made.header.dimensions));
     made.handle.sync();
     rename_over(unready, file.path, file.handle);
     temporary.keep();

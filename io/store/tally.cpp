@@ -256,7 +256,7 @@ struct TallyWriter::Impl {
             write_surface(file.id(), *surface);
         write_labels(file.id());
         file.close();
-        write_seal(made, block, {});
+        write_seal(made, block, {}, format_version_of(header.dimensions));
         made.sync();
         if (fresh)
             rename_new(unready, path);

@@ -525,6 +525,15 @@ void demand_double(const Study& study, const std::string& file, const std::strin
                                      what));
 }
 
+void demand_plane(const Study& study, const std::string& file, const std::string& what)
+{
+    if (study.structure.spatial())
+        throw InputError(file, 0,
+                         fmt::format("structure.dimensions = 3 is not available for {}, which compares poses in the "
+                                     "plane.\n  Give a study with structure.dimensions = 2.",
+                                     what));
+}
+
 double SearchedKey::value(double place) const
 {
     if (place <= 0)

@@ -63,4 +63,8 @@ std::string study_text(const Study& study);
 /// @throws InputError if the study requests single precision
 void demand_double(const Study& study, const std::string& file, const std::string& what);
 
+/// For what compares motions in the plane. Parameters as above.
+/// @throws InputError if the structure is in space
+void demand_plane(const Study& study, const std::string& file, const std::string& what);
+
 } // namespace stylobate

@@ -131,7 +131,7 @@ std::optional<RockingDecay> rocking_decay(const Study& study)
 FreeMotion free_motion(const Study& study)
 {
     FreeMotion free;
-    if (study.contact.form == ContactForm::rigid)
+    if (study.contact.form == ContactForm::rigid || study.structure.spatial())
         return free;
     free.mode = first_mode(still_realization(study));
     free.decay = rocking_decay(study);

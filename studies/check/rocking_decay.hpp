@@ -26,7 +26,7 @@ struct RockingDecay {
 /// @throws InputError as `lay_out`
 std::optional<RockingDecay> rocking_decay(const Study& study);
 
-/// How a structure moves without shaking: the nominal one, without mechanisms.
+/// How a structure moves without shaking: the nominal one, without mechanisms. Nothing of a structure in space.
 struct FreeMotion {
     std::optional<FirstMode> mode; ///< of compliant contacts, with the damping of the study
     std::optional<RockingDecay> decay;

@@ -138,8 +138,9 @@ RunSize size_of_run(const LoadedStudy& loaded, const Kind& kind, const Trial* tr
                             static_cast<double>(size.free_blocks);
     size.trajectories = kind.trajectories();
     const auto trajectories = static_cast<double>(size.trajectories);
-    size.trajectory_bytes = trajectories * samples_of(study, trial, longest) *
-                            static_cast<double>(trajectory_bytes(1, static_cast<std::uint64_t>(size.blocks)));
+    size.trajectory_bytes =
+        trajectories * samples_of(study, trial, longest) *
+        static_cast<double>(trajectory_bytes(study.structure.dimensions, 1, static_cast<std::uint64_t>(size.blocks)));
     size.file_bytes =
         file_bytes(study, header, kind, trial) + size.trajectory_bytes + trajectory_frame_bytes * trajectories;
     if (header.has_rows())

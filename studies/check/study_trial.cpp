@@ -2,8 +2,8 @@
 
 #include "ensemble/experiment.hpp"
 #include "ensemble/planar/planar_model.hpp"
-#include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/replicas/replicas.hpp"
+#include "ensemble/sampling/structure_builder.hpp"
 #include "studies/check/run_cost.hpp"
 #include "studies/experiment/trajectory.hpp"
 
@@ -97,7 +97,7 @@ private:
                              .end_s = outcome.end_time_s,
                              .cut_off = shaken && ended_upright &&
                                         outcome.end_time_s >= longest_s(experiment_, realization) &&
-                                        energy_j >= scales_of(realization).barrier_j,
+                                        energy_j >= StructureBuilder::scales(realization).barrier_j,
                              .at_rest = outcome.at_rest != 0});
     }
 

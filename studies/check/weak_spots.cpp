@@ -141,9 +141,9 @@ Found one_outcome(const Subject& s)
 Found soft_contacts(const Subject& s)
 {
     const Study& study = s.study();
-    if (study.contact.form == ContactForm::rigid || study.chose("contact.normal_stiffness_n_m2") ||
-        study.names(Mechanism::hertz) || s.implausible_by("sinkage") || s.implausible_by("first_frequency") ||
-        s.implausible_by("stiffness"))
+    if (study.contact.form == ContactForm::rigid || study.structure.spatial() ||
+        study.chose("contact.normal_stiffness_n_m2") || study.names(Mechanism::hertz) || s.implausible_by("sinkage") ||
+        s.implausible_by("first_frequency") || s.implausible_by("stiffness"))
         return std::nullopt;
     const std::string todo = "For stiff joints give contact.form = \"rigid\" or a larger normal_stiffness_n_m2, or "
                              "leave it out and give run.accuracy. For joints that do yield so, perturb it "
@@ -449,7 +449,7 @@ std::vector<WeakSpot> weak_spots(const LoadedStudy& loaded, const std::vector<Im
                                  const Trial* trial, const FreeMotion* free)
 {
     const Subject subject{loaded, implausibilities, is_fair(trial) ? trial : nullptr, free,
-                          static_limit(loaded.study())};
+                          loaded.study().structure.spatial() ? std::nullopt : static_limit(loaded.study())};
     std::vector<WeakSpot> all;
     for (const Look& look : looks)
         if (Found found = look.find(subject)) {

@@ -107,6 +107,7 @@ struct VerifyChoice {
 struct NewStudyOptions {
     std::string kind;
     std::optional<std::string> structure, excitation;
+    int dimensions = 2;
 };
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`. The options that

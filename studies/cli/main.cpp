@@ -404,6 +404,8 @@ private:
             ->check(CLI::IsMember(words_of(study_kind_names)));
         add_word(*begin, "--structure", new_.structure, "column or colonnade (default: column)")
             ->check(CLI::IsMember(words_of(structure_kind_names)));
+        begin->add_option("--dimensions", new_.dimensions, "2: in the plane, 3: in space (default: 2)")
+            ->check(CLI::IsMember({2, 3}));
         add_word(*begin, "--excitation", new_.excitation,
                  fmt::format("{} (default: harmonic; for a fragility study noise)",
                              fmt::join(words_of(excitation_kind_names), ", ")))

@@ -33,6 +33,7 @@ int new_command(const CommonOptions& options, const NewStudyOptions& wanted,
         choice.structure = value_of(structure_kind_names, *wanted.structure);
     if (wanted.excitation)
         choice.excitation = value_of(excitation_kind_names, *wanted.excitation);
+    choice.dimensions = wanted.dimensions;
     const std::string text = study_template(choice);
     const std::string output = wanted_file.value_or(wanted.kind + ".toml");
     check_output(std::nullopt, output, options.force);

@@ -146,8 +146,8 @@ std::string falls_text(const std::vector<std::size_t>& sequence, const std::vect
 /// nothing else was there to fall.
 double total_collapse_s(const Study& study, const TracedRealization& f)
 {
-    const auto free = std::count_if(f.realization.blocks.begin(), f.realization.blocks.end(),
-                                    [](const Block& block) { return !block.fixed && block.role != BlockRole::ground; });
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    const auto free = std::ranges::count_if(blocks, [](const PlacedBlock& block) { return !block.fixed; });
     const bool known =
         study.outcome.follow == Follow::rest || f.outcome.fallen_blocks == 0 || f.outcome.fallen_blocks == free;
     return known ? f.outcome.total_collapse_time_s : std::numeric_limits<double>::quiet_NaN();
@@ -181,6 +181,7 @@ struct Replayed {
     bool complete = true;                  ///< the results
     bool known = false;                    ///< whether they have a row of it
     bool same = false;                     ///< whether that row has the same bits
+    bool spatial = false;                  ///< whether the structure is in space
 };
 
 void print_json(const Replayed& r)
@@ -203,8 +204,13 @@ void print_json(const Replayed& r)
         .member("peak_top_displacement_m", o.peak_top_displacement_m)
         .member("residual_top_displacement_m", o.residual_top_displacement_m)
         .member("total_sliding_m", o.total_sliding_m)
-        .member("total_rocking_rad", o.total_rocking_rad)
-        .member("energy_residual", o.energy_residual)
+        .member("total_rocking_rad", o.total_rocking_rad);
+    visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
+        if constexpr (!std::is_enum_v<std::remove_cvref_t<decltype(o.*field)>>)
+            if (r.spatial && facts.models == Models::space)
+                json.member(name, o.*field);
+    });
+    json.member("energy_residual", o.energy_residual)
         .member("end_time_s", o.end_time_s)
         .member("step_s", o.step_s)
         .member("in_results", r.known)
@@ -238,6 +244,13 @@ void print_text(const Replayed& r)
                                                 : "residual not known (it still moved at the end)";
     fmt::print("\n  centre of the top block: peak displacement {:.4g} m, {}; sliding {:.4g} m, rocking {:.4g} rad\n",
                o.peak_top_displacement_m, residual, o.total_sliding_m, o.total_rocking_rad);
+    if (r.spatial) {
+        fmt::print("  across the shaking {:.3g} of the peak; largest twist {:.4g} rad", o.out_of_plane_share,
+                   o.max_twist_rad);
+        if (std::isfinite(o.fall_azimuth_rad))
+            fmt::print("; fell at {:.0f} degrees from x towards z", o.fall_azimuth_rad * 180 / std::acos(-1.0));
+        fmt::print("\n");
+    }
     if (falls.size() > 1) {
         fmt::print("  {} of {} blocks fell: {}\n", falls.size(), r.names.size(),
                    falls_text(falls, r.names, o.fall_time_s));
@@ -295,7 +308,8 @@ int replay_command(const CommonOptions& options, const std::string& results, con
                             header.has_rows(),
                             reader.complete(),
                             known,
-                            same};
+                            same,
+                            f.realization.spatial()};
     if (options.json)
         print_json(replayed);
     else

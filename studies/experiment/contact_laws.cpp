@@ -70,9 +70,13 @@ Study scaled(Study study, double factor)
     };
     study.contact.normal_stiffness_n_m2 *= factor;
     study.contact.tangential_stiffness_n_m *= factor;
+    study.contact.normal_stiffness_n_m3 *= factor;
+    study.contact.tangential_stiffness_n_m3 *= factor;
     for_each_bed(study.structure, [&](BedSpec& bed) {
         scale(bed.normal_stiffness_n_m2);
         scale(bed.tangential_stiffness_n_m);
+        scale(bed.normal_stiffness_n_m3);
+        scale(bed.tangential_stiffness_n_m3);
     });
     for (Perturbation& spread : study.perturbations)
         if (spread.quantity == Quantity::normal_stiffness || spread.quantity == Quantity::tangential_stiffness) {
@@ -173,6 +177,10 @@ std::vector<ContactLaw> contact_laws(const Study& study)
     }
     complete(softer, scaled(study, 1 / stiffness_factor));
     complete(stiffer, scaled(study, stiffness_factor));
+    if (study.structure.spatial()) {
+        hard.why_not = damped.why_not = "structures in space have one contact law";
+        return {softer, stiffer, hard, damped};
+    }
     const bool spread = std::ranges::any_of(study.perturbations, is_compliant);
     if (spread && study.sampling == Sampling::sobol) {
         hard.why_not = "without the spreads of stiffness and damping the points of study.sampling = \"sobol\" are "

@@ -36,12 +36,22 @@ std::string value_text(double nominal, const char* unit, const Perturbation* spr
     }
 }
 
+std::string ratio_words(const Study& study)
+{
+    const Perturbation* spread = drawn(study, Quantity::damping_ratio);
+    return "a ratio " + std::string(spread ? "" : "of ") + value_text(study.contact.normal_damping_ratio, "", spread);
+}
+
 std::string contact_words(const Study& study)
 {
     const ContactSpec& contact = study.contact;
     if (contact.form == ContactForm::rigid)
         return fmt::format("rigid contacts with restitution {:.3g} ({})", contact.restitution,
                            contact.restitution_law == RestitutionLaw::newton ? "Newton" : "Poisson");
+    if (study.structure.spatial())
+        return fmt::format("plane faces that press on each other by {}, dashpots spread over the contact with {}",
+                           value_text(contact.normal_stiffness_n_m3, " N/m³", drawn(study, Quantity::normal_stiffness)),
+                           ratio_words(study));
     const bool area = contact.form == ContactForm::area;
     const char* form = area                                      ? "contact by area"
                        : contact.form == ContactForm::two_corner ? "contact at two corners"
@@ -49,11 +59,9 @@ std::string contact_words(const Study& study)
     const char* where = !area                                ? "its points"
                         : contact.damping == DampingAt::ends ? "the ends of the contact"
                                                              : "the centroid of the contact";
-    const std::string coefficient =
-        contact.normal_damping_n_s_m
-            ? fmt::format("C_N {:.3g} N s/m", *contact.normal_damping_n_s_m)
-            : "a ratio " + std::string(drawn(study, Quantity::damping_ratio) ? "" : "of ") +
-                  value_text(contact.normal_damping_ratio, "", drawn(study, Quantity::damping_ratio));
+    const std::string coefficient = contact.normal_damping_n_s_m
+                                        ? fmt::format("C_N {:.3g} N s/m", *contact.normal_damping_n_s_m)
+                                        : ratio_words(study);
     return fmt::format("{}, K_N {}, dashpots at {} with {}", form,
                        value_text(contact.normal_stiffness_n_m2, " N/m²", drawn(study, Quantity::normal_stiffness)),
                        where, coefficient);

@@ -310,6 +310,7 @@ ResultHeader LoadedStudy::plain_header() const
     header.seed = study().seed;
     header.code_version = code_version();
     header.build = code_build();
+    header.dimensions = study().structure.dimensions;
     const StudyDesign design = study().design();
     header.total = design.most;
     header.selected = design.selected;

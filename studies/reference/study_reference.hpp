@@ -28,6 +28,7 @@ struct TemplateChoice {
     StudyKind study = StudyKind::surface;
     StructureKind structure = StructureKind::column;
     std::optional<ExcitationKind> excitation = {}; ///< none: the usual one of the kind (`usual_excitation`)
+    int dimensions = 2;                            ///< of `StructureSpec`
 };
 
 /// "harmonic", and of a fragility study "noise".

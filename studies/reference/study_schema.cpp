@@ -48,6 +48,31 @@ struct Consequence {
     std::vector<std::string> unused, needed;
 };
 
+/// How many conditions a key has. The models that use it are one, if they are not all.
+std::size_t conditions(const TomlKey& key)
+{
+    return key.used.size() + (key.models.size() < model_names.size());
+}
+
+bool depends_on(const TomlKey& key, const std::string& path)
+{
+    if (path == model_key)
+        return key.models.size() < model_names.size();
+    return std::any_of(key.used.begin(), key.used.end(),
+                       [&](const Condition& condition) { return condition.key == path; });
+}
+
+/// A value of a key on which others depend: a word, or a whole number.
+Json is_value(const std::string& path, const std::string& value)
+{
+    Json schema = Json::object();
+    if (path == model_key)
+        schema.member_as_is("const", value);
+    else
+        schema.member("const", value);
+    return schema;
+}
+
 /// By key on which others depend, and by its value. @param paths of all keys on which some key depends
 std::map<std::string, std::map<std::string, Consequence>>
 consequences(const TomlKey& table, const std::map<std::string, std::vector<std::string>>& paths)
@@ -57,13 +82,11 @@ consequences(const TomlKey& table, const std::map<std::string, std::vector<std::
         for (const std::string& value : deciding.second)
             for (const TomlKey* key : table.keys) {
                 const std::string& path = deciding.first;
-                const bool depends = std::any_of(key->used.begin(), key->used.end(),
-                                                 [&](const Condition& condition) { return condition.key == path; });
-                if (!depends)
+                if (!depends_on(*key, path))
                     continue;
                 if (!key->used_where(path, value))
                     all[path][value].unused.push_back(key->name);
-                else if (key->needed() && key->used.size() == 1)
+                else if (key->needed() && conditions(*key) == 1)
                     all[path][value].needed.push_back(key->name);
             }
     return all;
@@ -82,6 +105,7 @@ std::map<std::string, std::vector<std::string>> deciding_keys()
         if (paths.contains(path))
             all[path] = key.words;
     });
+    all[model_key] = {"2", "3"};
     return all;
 }
 
@@ -178,7 +202,7 @@ private:
                 continue;
             }
             properties.member(key->name, described);
-            if (key->needed() && key->used.empty())
+            if (key->needed() && conditions(*key) == 0)
                 required.push_back(key->name);
         }
         if (path.empty())
@@ -221,12 +245,12 @@ private:
                 continue;
             const std::string name = deciding.substr(path.size() + 1);
             for (const auto& [value, consequence] : values) {
-                Json condition = has_property(name, Json::object().member("const", value));
+                Json condition = has_property(name, is_value(deciding, value));
                 const auto key = std::find_if(table.keys.begin(), table.keys.end(),
                                               [&name = name](const TomlKey* k) { return k->name == name; });
-                if ((*key)->absent == toml_quoted(value)) // it holds without the key, too
-                    condition = Json::object().member(
-                        "properties", Json::object().member(name, Json::object().member("const", value)));
+                if ((*key)->absent == toml_quoted(value) || (*key)->absent == value) // it holds without the key, too
+                    condition =
+                        Json::object().member("properties", Json::object().member(name, is_value(deciding, value)));
                 list.item(Json::object().member("if", condition).member("then", consequence_of(consequence)));
             }
         }
@@ -243,7 +267,7 @@ private:
                 if (deciding.substr(0, dot) == table->name && table->name != "study")
                     continue; // its own
                 for (const auto& [value, consequence] : values) {
-                    const Json kind = has_property(deciding.substr(dot + 1), Json::object().member("const", value));
+                    const Json kind = has_property(deciding.substr(dot + 1), is_value(deciding, value));
                     const Json then = Json::object().member(
                         "properties", Json::object().member(table->name, consequence_of(consequence)));
                     list.item(
@@ -254,7 +278,7 @@ private:
         for (const auto& [deciding, values] : consequences(study_file_keys(), deciding_))
             for (const auto& [value, consequence] : values) {
                 const std::size_t dot = deciding.find('.');
-                const Json kind = has_property(deciding.substr(dot + 1), Json::object().member("const", value));
+                const Json kind = has_property(deciding.substr(dot + 1), is_value(deciding, value));
                 list.item(Json::object()
                               .member("if", has_property(deciding.substr(0, dot), kind))
                               .member("then", consequence_of(consequence)));

@@ -131,9 +131,14 @@ std::string study_template(const TemplateChoice& choice)
         refuse("--excitation record, noise, pulse or tapered");
     if (choice.study == StudyKind::rare && kind == Motion::noise)
         refuse("another --excitation: each synthetic earthquake draws thousands of numbers");
+    if (choice.study == StudyKind::survival && choice.dimensions == 3)
+        throw InputError(fmt::format("a study of kind \"{}\" cannot have structure.dimensions = 3.\n  Give another "
+                                     "kind, or --dimensions 2.",
+                                     study));
     Study kinds;
     kinds.kind = choice.study;
     kinds.structure.kind = choice.structure;
+    kinds.structure.dimensions = choice.dimensions;
     kinds.excitation.kind = kind;
     kinds.fragility.emplace();
     return fmt::format(

@@ -5,6 +5,7 @@
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/run_order.hpp"
 #include "io/files/suggest.hpp"
+#include "io/plots/plot_strip.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
@@ -228,6 +229,8 @@ std::optional<std::string> why_none(const Results& results)
         return why;
     if (!results.header().has_rows())
         return "has no rows of realizations (output.realizations = \"none\"), of which some could be chosen";
+    if (results.study().structure.spatial())
+        return fmt::format("has none: {}", no_motion_in_space);
     return std::nullopt;
 }
 

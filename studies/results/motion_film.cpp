@@ -202,6 +202,7 @@ bool is_motion_format(std::string_view format)
 bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::optional<std::string>& title,
                   const std::string& format, const fs::path& file, Observer& observer)
 {
+    check_motion_is_drawn(results);
     AtomicFile::check(file); // this and the search before the realization is run
     const bool page = format == "html";
     const fs::path ffmpeg =

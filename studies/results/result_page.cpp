@@ -485,11 +485,13 @@ private:
     {
         try {
             const TracedMotion f = traced_motion(results_, isa_, row.index);
-            picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
-                    [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
-            page_.figure(
-                figure_svg(history_figure(results_, f), 220),
-                fmt::format("Realization {}: displacement of the base, and of blocks against the base.", row.index));
+            if (!study_.structure.spatial())
+                picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
+                        [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
+            for (const Figure& figure : history_figures(results_, f))
+                page_.figure(figure_svg(figure, 220),
+                             fmt::format("Realization {}: displacement of the base, and of blocks against the base.",
+                                         row.index));
         } catch (const InputError& error) {
             missing(fmt::format("Realization {}.", row.index), error);
         }

@@ -67,21 +67,38 @@ TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index)
             f.realization.pga_m_s2};
 }
 
-Figure history_figure(const Results& results, const TracedMotion& motion)
+void check_motion_is_drawn(const Results& results)
+{
+    if (results.study().structure.spatial())
+        throw InputError(fmt::format("{}: {}.", results.file(), no_motion_in_space));
+}
+
+std::vector<Figure> history_figures(const Results& results, const TracedMotion& motion)
 {
     const Trajectory& t = motion.trajectory;
-    Figure figure;
-    figure.title = fmt::format("Displacements of realization {} over time", t.index);
-    figure.x_label = "time [s]";
-    figure.y_label = "displacement [m]";
-    figure.series.push_back({"base", SeriesKind::line, t.time_s, t["base_x_m"], {}, {}});
-    for (const std::size_t block : told_blocks(lay_out(results.study().structure).blocks)) {
-        FigureSeries series{t.name[block], SeriesKind::line, t.time_s, {}, {}, {}};
-        for (std::size_t k = 0; k < t.time_s.size(); ++k)
-            series.y.push_back(t["x_m"][k * t.blocks() + block] - t["rest_x_m"][block]);
-        figure.series.push_back(std::move(series));
+    const StructureSpec& structure = results.study().structure;
+    const std::vector<std::size_t> told = told_blocks(lay_out(structure).blocks);
+    std::vector<Figure> figures;
+    for (const std::string along : {"x", "z"}) {
+        if (along == "z" && !structure.spatial())
+            break;
+        Figure figure;
+        figure.title = fmt::format("Displacements of realization {} over time", t.index);
+        if (structure.spatial())
+            figure.title += ", along " + along;
+        figure.x_label = "time [s]";
+        figure.y_label = "displacement [m]";
+        const std::vector<double>&place = t[along + "_m"], &rest = t["rest_" + along + "_m"];
+        figure.series.push_back({"base", SeriesKind::line, t.time_s, t["base_" + along + "_m"], {}, {}});
+        for (const std::size_t block : told) {
+            FigureSeries series{t.name[block], SeriesKind::line, t.time_s, {}, {}, {}};
+            for (std::size_t k = 0; k < t.time_s.size(); ++k)
+                series.y.push_back(place[k * t.blocks() + block] - rest[block]);
+            figure.series.push_back(std::move(series));
+        }
+        figures.push_back(std::move(figure));
     }
-    return figure;
+    return figures;
 }
 
 void strip_picture(const Results& results, const TracedMotion& motion, const std::optional<std::string>& title,
@@ -151,8 +168,9 @@ void order_picture(const Results& results, long long cell, const std::optional<s
     }
     const Study& study = results.study();
     FallOrder falls = fall_order(header.block_names, rows, motion_groups(study, header.motions));
-    for (const PlacedBlock& block : lay_out(study.structure).blocks)
-        falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
+    if (!study.structure.spatial()) // there, columns hide each other as seen from one side
+        for (const PlacedBlock& block : lay_out(study.structure).blocks)
+            falls.places.push_back({block.left(), block.right(), block.bottom(), block.top()});
     std::string note =
         study.outcome.follow == Follow::rest ? "" : "each realization was computed only until its first fall";
     if (falls.together > 0)

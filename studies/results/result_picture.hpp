@@ -27,6 +27,9 @@ struct TracedMotion {
 /// @throws InputError if there is no such realization, or if none can be run again
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index);
 
+/// @throws InputError if the realizations of these results have no picture in motion: the structure is in space
+void check_motion_is_drawn(const Results& results);
+
 /// One realization over time.
 /// @param title nullopt: from the results, the realization and its outcome
 /// @throws InputError as `plot_strip` does
@@ -35,8 +38,8 @@ void strip_picture(const Results& results, const TracedMotion& motion, const std
 
 /// One realization over time as curves of a page: displacement of the base, and of blocks against the base and their
 /// place in the reference stack. Of a structure of many blocks: the top of each column, and the epistyles, as many as
-/// have colours.
-Figure history_figure(const Results& results, const TracedMotion& motion);
+/// have colours. One figure for each horizontal direction of the model: x, and in space z.
+std::vector<Figure> history_figures(const Results& results, const TracedMotion& motion);
 
 /// Which blocks fell, in which order and when, for its picture.
 /// @param names of the blocks, as many as each row has fall times

@@ -51,6 +51,8 @@ std::string structure_text(const Study& study, const Layout& layout)
           blocks_text(layout.blocks, "epistyle")})
         if (part)
             text += "; " + *part;
+    if (study.structure.spatial())
+        return text + "; in space";
     return text + fmt::format("; depth {:.4g} m", study.structure.depth_m);
 }
 
@@ -59,6 +61,11 @@ std::string contact_text(const ContactSpec& contact)
     if (contact.form == ContactForm::rigid)
         return fmt::format("rigid contacts, friction {:.3g}, restitution {:.3g}", contact.friction,
                            contact.restitution);
+    if (contact.normal_stiffness_n_m3 > 0)
+        return fmt::format("friction {:.3g}, stiffness {:.3g} N/m³, tangentially {:.3g} N/m³, damping ratio {:.3g}, "
+                           "tangentially {:.3g}",
+                           contact.friction, contact.normal_stiffness_n_m3, contact.tangential_stiffness_n_m3,
+                           contact.normal_damping_ratio, contact.tangential_damping_ratio);
     std::string text =
         fmt::format("{} contacts, friction {:.3g}, K_N {:.3g} N/m² (for the whole depth), K_T {:.3g} N/m",
                     word_for(contact_form_names, contact.form), contact.friction, contact.normal_stiffness_n_m2,

@@ -67,7 +67,10 @@ void compare_values(const std::string& where, const Value& stored, const Value& 
 /// What is wrong with one row, value by value.
 class RowLook {
 public:
-    RowLook(const ResultRow& row, FileCheck& check) : row_(row), check_(check) {}
+    /// @param dimensions of the structure, 2 or 3
+    RowLook(const ResultRow& row, int dimensions, FileCheck& check) : row_(row), dimensions_(dimensions), check_(check)
+    {
+    }
 
     template <class Value>
     void expect(const char* where, const Value& stored, const Value& expected)
@@ -88,12 +91,14 @@ public:
             if constexpr (std::is_same_v<decltype(value), const double&>) {
                 if (facts.none == it_still_moved && row_.outcome.at_rest == 0)
                     return require(group + name, value, std::isnan(value), "NaN of what still moved");
+                if (facts.none == std::string_view(nothing_fell) && row_.outcome.fallen_blocks == 0)
+                    return require(group + name, value, std::isnan(value), "NaN where nothing fell");
                 require(group + name, value, std::isfinite(value), "a finite number");
                 const bool none = value == -1 && is_event_time(facts);
                 require(group + name, value, none || facts.is_signed || !(value < 0), "a number that is not negative");
             }
         };
-        visit_numbers(check, row_);
+        visit_numbers(dimensions_, check, row_);
         const Outcome& o = row_.outcome;
         require("outcome/at_rest", o.at_rest, o.at_rest == 0 || o.at_rest == 1, "0 or 1");
         require("outcome/step_s", o.step_s, o.step_s > 0, "a number above 0");
@@ -148,6 +153,7 @@ public:
 
 private:
     const ResultRow& row_;
+    const int dimensions_;
     FileCheck& check_;
 };
 
@@ -161,7 +167,7 @@ RowChecks check_rows(const Study& study, const ResultReader& reader)
     std::uint64_t rows = 0;
     reader.for_each_row([&](const ResultRow& row) {
         ++rows;
-        RowLook look(row, check);
+        RowLook look(row, reader.header().dimensions, check);
         if (row.index >= study.total())
             check.add({"index", row.index, shown(row.index), fmt::format("an index below {}", study.total())});
         checks.wrong_cell = checks.wrong_cell || row.index >= study.total() || row.cell != study.cell(row.index);
@@ -189,6 +195,7 @@ void compare_rows(const ResultHeader& header, const ResultRow& stored, const Res
     if (same_bits(stored, again))
         return;
     visit_numbers(
+        header.dimensions,
         [&](const std::string& group, const char* name, auto, const auto& a, const auto& b) {
             if (!same_value(a, b))
                 check.add({group + name, stored.index, shown(a), shown(b)});

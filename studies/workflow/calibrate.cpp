@@ -88,6 +88,7 @@ CalibrationEnd calibrate_measured(const CalibrationRequest& request, const Machi
         measured = measured_in(request.measured);
         end.start = request.start ? *request.start : default_start(measured, request);
         demand_double(end.start, request.start_name, "a calibration");
+        demand_plane(end.start, request.start_name, "a calibration");
         search.keys = fitted_keys(end.start, request.fit, request.hold);
         search.forms = fitted_forms(request.forms);
         run = machine.run_options();

@@ -25,6 +25,7 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
                               : parse_study(default_study(campaign).text, "the default start study of a diagnosis",
                                             request.settings);
         demand_double(study, request.start_name, "a diagnosis");
+        demand_plane(study, request.start_name, "a diagnosis");
         how.run = machine.run_options();
         campaign_scales(campaign); // refuses data that cannot be diagnosed
         if (!how.run.leads())

@@ -48,6 +48,14 @@ void check_is_part(const ResultReader& reader, const std::string& file)
         throw InputError(file, 0, "is already complete: nothing is to be merged with it.");
 }
 
+/// Why a study cannot run on a device; empty: it can.
+std::optional<std::string> needs_processor(const Study& study, const Kind& kind)
+{
+    if (study.structure.spatial())
+        return "has structure.dimensions = 3, whose steps are computed on the processor";
+    return kind.needs_processor();
+}
+
 } // namespace
 
 Json run_json(const RunReport& r)
@@ -150,7 +158,7 @@ std::optional<std::string> too_many_invalid(const StudyRuns& studies)
 void check_can_run(const StudyRuns& studies, const std::string& backend)
 {
     for (const auto& study : studies)
-        if (const auto why = study->kind().needs_processor(); backend == "cuda" && why)
+        if (const auto why = needs_processor(study->study(), study->kind()); backend == "cuda" && why)
             throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study->name(), *why));
     for (const auto& study : studies)
         try {
@@ -203,7 +211,7 @@ void check_can_run(const LoadedStudy& loaded, const std::string& study, const Sh
         throw InputError(fmt::format("--shard {}: {} {}. Run it without --shard.", shard.text(), study, *why));
     if (const auto why = kind->why_no_ranks(); machine.ranks && why)
         throw InputError(fmt::format("--mpi: {} {}. Run it without --mpi.", study, *why));
-    if (const auto why = kind->needs_processor(); machine.backend == "cuda" && why)
+    if (const auto why = needs_processor(loaded.study(), *kind); machine.backend == "cuda" && why)
         throw InputError(fmt::format("--backend cuda: {} {}. Leave --backend out.", study, *why));
 }
 

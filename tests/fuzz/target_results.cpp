@@ -98,7 +98,7 @@ Original taken_apart(const std::filesystem::path& file)
         original.rows[row.index] = row;
     if (opened.complete)
         return original;
-    original.head.resize(check_seal(opened.handle, "original").front().offset);
+    original.head.resize(check_seal(opened.handle, "original").extents.front().offset);
     RowJournal(original.head.size()).read(opened.handle, [&](const RowJournal::Record& record, auto content) {
         original.journal.push_back({record.kind, {reinterpret_cast<const char*>(content.data()), content.size()}});
     });

@@ -34,7 +34,9 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/realization", {"ensemble/model"}},
     {"ensemble/engine", {"ensemble/model", "ensemble/motion", "ensemble/numerics"}},
     {"ensemble/planar", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/realization"}},
-    {"ensemble/sampling", {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/planar"}},
+    {"ensemble/spatial", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/realization"}},
+    {"ensemble/sampling",
+     {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/planar", "ensemble/spatial"}},
     {"ensemble", {"ensemble/model", "ensemble/motion", "ensemble/planar", "ensemble/sampling"}},
     {"ensemble/run", {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar"}},
     {"ensemble/tracking",
@@ -102,9 +104,12 @@ const std::string list_for_all = "include/stylobate/outcome_fields.inc";
 
 /// What `io` may include besides: plain data, and the mathematics that both need.
 const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics"};
-const std::set<std::string> headers_for_io = {
-    "ensemble/estimators/past/agreeing_states.hpp", "ensemble/estimators/risk/hazard_curve.hpp",
-    "ensemble/motion/noise_duration.hpp", "ensemble/planar/planar_poses.hpp", "ensemble/sampling/plausible.hpp"};
+const std::set<std::string> headers_for_io = {"ensemble/estimators/past/agreeing_states.hpp",
+                                              "ensemble/estimators/risk/hazard_curve.hpp",
+                                              "ensemble/motion/noise_duration.hpp",
+                                              "ensemble/planar/planar_poses.hpp",
+                                              "ensemble/sampling/plausible.hpp",
+                                              "ensemble/spatial/spatial_poses.hpp"};
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
 const std::map<std::string, std::set<std::string>> library_folders = {

@@ -76,7 +76,8 @@ TEST_F(Single, RateAndBlockStepsAreCounted)
 
 TEST_F(Single, TheFirstTrajectoriesThatFitAreKept)
 {
-    EXPECT_EQ(trajectory_bytes(6001, 7), 6001U * 23 * 8);
+    EXPECT_EQ(trajectory_bytes(2, 6001, 7), 6001U * 23 * 8);
+    EXPECT_EQ(trajectory_bytes(3, 6001, 7), 6001U * 53 * 8); // time, base, and places and attitudes of seven blocks
     const Ended ended = run(run_words(mechanisms, seven_blocks(6, {"output.most_mb=2.5"}), {"-o", "a.h5"}));
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     for (const char* part :

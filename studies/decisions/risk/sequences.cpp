@@ -5,8 +5,8 @@
 #include "ensemble/motion/base_motion.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/random.hpp"
-#include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
+#include "ensemble/sampling/structure_builder.hpp"
 #include "studies/decisions/risk/risk.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 
@@ -113,7 +113,7 @@ private:
     double pause_s(const Realization& r) const
     {
         return options_.pause_s.value_or(
-            std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(scales_of(r))));
+            std::max(study().design().motions->pause_s.value_or(0), pause_until_rest(StructureBuilder::scales(r))));
     }
     const MotionSet& motions() const { return *experiment_.motions().drawn; }
 

@@ -2,7 +2,7 @@
 
 #include "ensemble/experiment.hpp"
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/planar/planar_poses.hpp"
+#include "io/store/result_layout.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 
 namespace stylobate {
 
-std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks)
+std::uint64_t trajectory_bytes(int dimensions, std::uint64_t samples, std::uint64_t blocks)
 {
     std::uint64_t values = 1; // the time
-    for (const TrajectoryChannel& channel : planar_channels)
+    for (const TrajectoryChannel& channel : trajectory_channels(dimensions))
         values += channel.of == ListOf::times ? 1 : channel.of == ListOf::poses ? blocks : 0;
     return samples * values * sizeof(double);
 }
@@ -30,11 +30,11 @@ KeptTrajectories plan_trajectories(const Experiment& experiment, const std::stri
     for (std::uint64_t index = 0; index < std::min(total, looked_at); ++index) {
         const Realization r = experiment.sampler().realization(index);
         end_s = std::max(end_s, longest_s(experiment, r));
-        blocks = static_cast<std::uint64_t>(r.drums);
+        blocks = static_cast<std::uint64_t>(r.spatial() ? r.space.drums : r.drums);
     }
     KeptTrajectories kept;
     const auto samples = static_cast<std::uint64_t>(std::ceil(end_s * output.trajectory_rate_hz)) + 1;
-    kept.each_mb = static_cast<double>(trajectory_bytes(samples, blocks)) / 1e6;
+    kept.each_mb = static_cast<double>(trajectory_bytes(study.structure.dimensions, samples, blocks)) / 1e6;
     const auto size = [&](std::uint64_t count) { return static_cast<double>(count) * kept.each_mb; };
     const auto refuse = [&](std::uint64_t count, const std::string& otherwise) {
         throw InputError(

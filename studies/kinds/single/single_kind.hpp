@@ -19,7 +19,8 @@ struct KeptTrajectories {
 };
 
 /// Bytes of a trajectory in a results file: in a sample the time, the base and the pose of each block.
-std::uint64_t trajectory_bytes(std::uint64_t samples, std::uint64_t blocks);
+/// @param dimensions of the structure, 2 or 3
+std::uint64_t trajectory_bytes(int dimensions, std::uint64_t samples, std::uint64_t blocks);
 
 /// By `output.trajectories` and `output.most_mb`. Realizations differ in length; the longest of the first 32 stands for
 /// all, and those that fall earlier take less.

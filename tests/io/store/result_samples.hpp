@@ -3,6 +3,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/spatial/spatial_poses.hpp"
 #include "io/store/result_store.hpp"
 #include "tests/ensemble/engine/outcome_bits.hpp"
 
@@ -39,9 +40,11 @@ protected:
     fs::path file;
 };
 
-inline ResultHeader sample_header(std::uint64_t total)
+/// @param dimensions of the structure
+inline ResultHeader sample_header(std::uint64_t total, int dimensions = 2)
 {
     ResultHeader header;
+    header.dimensions = dimensions;
     header.kind = "surface";
     header.study_toml = "[study]\nkind = \"surface\"\nseed = 7\n\n[contact]\nfriction = 0.68 # \xc2\xb5\n";
     header.seed = 0xfedcba9876543210;
@@ -55,7 +58,8 @@ inline ResultHeader sample_header(std::uint64_t total)
 }
 
 /// Any bits, NaN, infinities, denormals and negative zero among them; a function of the index alone.
-inline ResultRow sample_row(std::uint64_t index)
+/// @param dimensions of the structure
+inline ResultRow sample_row(std::uint64_t index, int dimensions = 2)
 {
     std::mt19937_64 random(index * 0x9e3779b97f4a7c15 + 1);
     const auto any = [&] {
@@ -90,6 +94,7 @@ inline ResultRow sample_row(std::uint64_t index)
         else
             o.*field = static_cast<Number>(random());
     });
+    leave_out_other_models(o, dimensions);
     o.fall_time_s = {any(), any(), any()};
     // of times that may never come NaN is the file's word for none, which is -1 in memory
     for (double* time : {&o.collapse_time_s, &o.unseating_time_s, &o.total_collapse_time_s, &o.fall_time_s[0],
@@ -162,6 +167,26 @@ inline Trajectory sample_trajectory(std::uint64_t index, std::size_t times)
     t.role = {BlockRole::drum, BlockRole::epistyle, BlockRole::ground};
     t.column = {-2147483647, 2147483647, static_cast<std::int32_t>(index)};
     t.name = {"drum 0", "the second, \"epistyle\"", std::to_string(index)};
+    return t;
+}
+
+/// The same of a structure in space.
+inline Trajectory sample_spatial_trajectory(std::uint64_t index, std::size_t times)
+{
+    std::mt19937_64 random(index + 7);
+    Trajectory t(spatial_channels);
+    t.index = index;
+    const Trajectory planar = sample_trajectory(index, times);
+    t.role = planar.role;
+    t.column = planar.column;
+    t.name = planar.name;
+    t.time_s = planar.time_s;
+    for (std::size_t c = 0; c < t.channels.size(); ++c) {
+        const ListOf of = t.channels[c].of;
+        t.lists[c].resize((of == ListOf::blocks ? 1 : times) * (of == ListOf::times ? 1 : t.blocks()));
+        for (double& value : t.lists[c])
+            value = std::bit_cast<double>(random());
+    }
     return t;
 }
 

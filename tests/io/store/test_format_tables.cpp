@@ -1,13 +1,15 @@
 /// The tables of io/FORMAT.md that are made from lists of fields. STYLOBATE_UPDATE_TABLES=1 writes them anew.
 
-#include "ensemble/planar/planar_poses.hpp"
+#include "io/store/result_layout.hpp"
 #include "io/store/result_store.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -63,35 +65,53 @@ std::string meaning(const FieldFacts& facts)
     return text;
 }
 
+constexpr char head[] = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
+
+std::string line(const char* name, const std::string& type, const char* shape, const FieldFacts& facts)
+{
+    const std::string alone = facts.models == Models::plane ? ". In the plane alone." : "";
+    std::string text = meaning(facts);
+    if (!alone.empty())
+        text += text.ends_with('.') ? alone.substr(1) : alone;
+    return fmt::format("| `{}` | {} | {} |{} | {} |\n", name, type, shape, in_cell(unit_of(name)), text);
+}
+
+/// The numbers that have one of these models, in their order.
+std::string numbers_of(std::initializer_list<Models> models)
+{
+    std::string table;
+    visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
+        if (std::ranges::find(models, facts.models) != models.end())
+            table += line(name, type_in_file<std::remove_cvref_t<decltype(Outcome().*field)>>(), "n", facts);
+    });
+    return table;
+}
+
 TEST(FormatTables, OfOutcomesAreMadeFromTheirList)
 {
-    std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
-    const auto add = [&](const char* name, const std::string& type, const char* shape, const FieldFacts& facts) {
-        table +=
-            fmt::format("| `{}` | {} | {} |{} | {} |\n", name, type, shape, in_cell(unit_of(name)), meaning(facts));
-    };
-    visit_fields(std::type_identity<Outcome>(), [&](const char* name, auto field, const FieldFacts& facts) {
-        add(name, type_in_file<std::remove_cvref_t<decltype(Outcome().*field)>>(), "n", facts);
-    });
+    std::string table = head + numbers_of({Models::all, Models::plane});
     visit_lists(std::type_identity<Outcome>(),
                 [&](const char* name, auto, std::string_view of, const FieldFacts& facts) {
-                    add(name, "float64", of == "bed" ? "n x joints" : "n x nb", facts);
+                    table += line(name, "float64", of == "bed" ? "n x joints" : "n x nb", facts);
                 });
     expect_table("outcomes", table);
+    expect_table("outcomes in space", head + numbers_of({Models::space}));
 }
 
 TEST(FormatTables, OfTrajectoriesAreMadeFromTheirList)
 {
-    std::string table = "| data set | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
-    const Trajectory planar(planar_channels);
-    visit_lists(planar, [&](const TrajectoryChannel& channel, const auto&) {
-        const char* shape = channel.of == ListOf::times ? "nt" : channel.of == ListOf::blocks ? "nb" : "nt x nb";
-        table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", channel.name, shape, in_cell(unit_of(channel.name)),
-                             channel.meaning);
-    });
-    table += "| `role` | enumeration of uint8 | nb | | drum = 0, epistyle = 1, ground = 2 |\n"
-             "| `column` | int32 | nb | | for a drum: its column, from the left, from 0; -1 for all others |\n";
-    expect_table("trajectories", table);
+    for (const int dimensions : {2, 3}) {
+        std::string table = head;
+        const Trajectory of_model(trajectory_channels(dimensions));
+        visit_lists(of_model, [&](const TrajectoryChannel& channel, const auto&) {
+            const char* shape = channel.of == ListOf::times ? "nt" : channel.of == ListOf::blocks ? "nb" : "nt x nb";
+            table += fmt::format("| `{}` | float64 | {} |{} | {} |\n", channel.name, shape,
+                                 in_cell(unit_of(channel.name)), channel.meaning);
+        });
+        table += "| `role` | enumeration of uint8 | nb | | drum = 0, epistyle = 1, ground = 2 |\n"
+                 "| `column` | int32 | nb | | for a drum: its column, from the left, from 0; -1 for all others |\n";
+        expect_table(dimensions == 3 ? "trajectories in space" : "trajectories", table);
+    }
 }
 
 } // namespace

@@ -287,9 +287,9 @@ TEST_F(ResultStore, RefusesAndChangesNothing)
     both(empty, "is empty");
     both(cut, "is truncated");
     both(longer, "is damaged");
-    both(old,
-         "is of format version 1; this program reads version 5. Read it with the version that wrote it, or run its "
-         "study again into another file.");
+    both(old, "is of format version 1; this program reads versions 5 and 6. Read it with the version that wrote it, or "
+              "run its "
+              "study again into another file.");
 
     std::string message =
         resume(file, [](ResultHeader& h) { h.study_toml.replace(h.study_toml.find("0.68"), 4, "0.7"); });

@@ -40,6 +40,17 @@ const std::string bays =
     "blocks = 2\ndrum_width_m = 1\ndrum_height_m = 2\nepistyle_height_m = 0.5\nepistyle_bays = 1\n";
 const std::string contact = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n";
 
+// in space
+const std::string solid_drums =
+    "[structure]\ndimensions = 3\nshape = \"rectangle\"\nblocks = 3\ndrum_width_m = 1\ndrum_depth_m = 1\n"
+    "drum_height_m = 1\ndensity_kg_m3 = 2700\n"
+    "capital = { width_m = 1.2, height_m = 0.3, shape = \"rectangle\", depth_m = 1.2 }\n";
+const std::string solid_bays =
+    "[structure]\ndimensions = 3\nkind = \"colonnade\"\ndensity_kg_m3 = 2700\ncolumns = 3\ncolumn_spacing_m = 3\n"
+    "blocks = 2\ndrum_width_m = 1\ndrum_height_m = 2\ncapital = { width_m = 1.2, height_m = 0.3 }\n"
+    "epistyle_height_m = 0.5\nepistyle_width_m = 1\n";
+const std::string area_contact = "[contact]\nnormal_stiffness_n_m3 = 3e9\nfriction = 0.7\n";
+
 const std::string rigid = "[contact]\nform = \"rigid\"\nfriction = 0.7\n";
 
 std::string single(const std::string& excitation, const std::string& structure = drums,
@@ -48,12 +59,18 @@ std::string single(const std::string& excitation, const std::string& structure =
     return "[study]\nkind = \"single\"\n" + structure + contacts + "[excitation]\n" + excitation;
 }
 
+bool has(MechanismModels models, bool spatial)
+{
+    return models == MechanismModels::both || models == (spatial ? MechanismModels::spatial : MechanismModels::planar);
+}
+
 /// A mechanism with all of its parameters.
-std::string whole(const MechanismRule& rule)
+std::string whole(const MechanismRule& rule, bool spatial = false)
 {
     std::string text = std::string(rule.name) + " = {";
     for (const MechanismParameter& parameter : rule.parameters)
-        text += (text.ends_with('{') ? " " : ", ") + parameter.key() + " = 0.1";
+        if (has(parameter.models, spatial))
+            text += (text.ends_with('{') ? " " : ", ") + parameter.key() + " = 0.1";
     // hertz has no exponent that small, and a ratio of friction may be any
     const std::size_t exponent = text.find("exponent = 0.1");
     if (exponent != std::string::npos)
@@ -65,11 +82,12 @@ std::string whole(const MechanismRule& rule)
     return text + " }\n";
 }
 
-std::string every_mechanism()
+std::string every_mechanism(bool spatial = false)
 {
     std::string text = "[mechanisms]\n";
     for (const MechanismRule& rule : mechanism_rules())
-        text += whole(rule);
+        if (has(rule.models, spatial))
+            text += whole(rule, spatial);
     return text;
 }
 
@@ -136,6 +154,12 @@ std::vector<std::string> samples()
                   "observed = { joints = [0, 2], joint_offset_m = [0.01, -0.02], tolerance_m = 0.01, "
                   "rotation_rad = [0, 0, 0], rotation_tolerance_rad = 0.1 }\nhazard = { intensity_m_s2 = [1, "
                   "2], rate_per_year = [0.1, 0.01], sigma_ln = 1 }\n");
+    for (const std::string& structure : {solid_drums, solid_bays})
+        for (const std::string& shaking :
+             {"kind = \"harmonic" + motion + "second_ratio = 0.5\n", "kind = \"noise" + motion + "second_ratio = 0.5\n",
+              std::string("kind = \"record\"\nfile = \"a\"\nsecond = { }\nvertical = { }\n")})
+            all.push_back(single(shaking, structure, area_contact));
+    all.push_back(single(harmonic, solid_bays, area_contact) + every_mechanism(true));
     all.push_back(single(harmonic) + "[mechanisms]\nvertical_motion = { file = \"v\" }\n");
     // each mechanism with as little as it takes
     for (const MechanismRule& rule : mechanism_rules()) {
@@ -158,15 +182,20 @@ std::vector<std::string> samples()
     for (int i = 0; i < perturbable_count; ++i) {
         const SpreadKey& key = spread_key(static_cast<Quantity>(i));
         const std::string kind = key.name.starts_with("pulse") ? "pulse" : "harmonic";
+        const bool planar = key.used_where(model_key, "2");
         for (const std::string& spread : spreads(key))
-            all.push_back(single("kind = \"" + kind + motion) + "[perturbation]\n" + key.name + " = " + spread + "\n");
+            all.push_back(
+                single("kind = \"" + kind + motion, planar ? drums : solid_drums, planar ? contact : area_contact) +
+                "[perturbation]\n" + key.name + " = " + spread + "\n");
     }
     for (const MechanismRule& rule : mechanism_rules())
         for (std::size_t i = 0; i < rule.parameters.size(); ++i) {
             const SpreadKey& key = spread_key(rule.mechanism, i);
+            const bool spatial = !key.used_where(model_key, "2");
             for (const std::string& spread : spreads(key))
-                all.push_back(single(harmonic, bays) + "[mechanisms]\n" + whole(rule) + "[perturbation.mechanisms]\n" +
-                              rule.name + "." + key.name + " = " + spread + "\n");
+                all.push_back(single(harmonic, spatial ? solid_bays : bays, spatial ? area_contact : contact) +
+                              "[mechanisms]\n" + whole(rule, spatial) + "[perturbation.mechanisms]\n" + rule.name +
+                              "." + key.name + " = " + spread + "\n");
         }
     return all;
 }
@@ -393,9 +422,9 @@ TEST_F(StudyKeys, TheReaderKnowsEachByItsType)
 /// size of a block.
 bool narrower_in_a_study(const std::string& path)
 {
-    static const std::set<std::string> names = {"block",        "blocks",          "joint",    "joints",
-                                                "fixed_blocks", "contacts",        "offset_m", "moves_m",
-                                                "followed",     "tilt_from_block", "minimum",  "first_column"};
+    static const std::set<std::string> names = {
+        "block",   "blocks",     "joint",    "joints",          "fixed_blocks", "contacts",    "offset_m",
+        "moves_m", "offset_z_m", "followed", "tilt_from_block", "minimum",      "first_column"};
     static const std::set<std::string> paths = {"structure.epistyle_bays", "surface.adaptive.budget", "fragility.twins",
                                                 "sensitivity.samples", "mechanisms.clamp.height_m"};
     return names.contains(path.substr(path.rfind('.') + 1)) || paths.contains(path) ||
@@ -552,7 +581,8 @@ TEST_F(StudyKeys, EachIsNeededWhereItsDescriptionSaysSo)
             const std::size_t section = text.find("[" + table + "]\n");
             const std::size_t begin =
                 section == std::string::npos ? section : text.find("\n" + key.name + " = ", section);
-            if (begin == std::string::npos)
+            const bool spatial = text.find("\ndimensions = 3\n") != std::string::npos;
+            if (begin == std::string::npos || !key.used_where(model_key, spatial ? "3" : "2"))
                 continue;
             std::string without = text;
             without.erase(begin, text.find('\n', begin + 1) - begin);
@@ -585,7 +615,10 @@ TEST(TomlKeys, TheUnitIsPartOfTheName)
                                                       {"structure.columns", ""},
                                                       {"mechanisms.dowel.yield_n", "N"},
                                                       {"mechanisms.tie.turning_dashpot_n_m_s", "N m s"},
-                                                      {"contact.normal_damping_n_s_m", "N s/m"}};
+                                                      {"contact.normal_damping_n_s_m", "N s/m"},
+                                                      {"contact.normal_stiffness_n_m3", "N/m3"},
+                                                      {"excitation.direction_deg", "degrees"},
+                                                      {"mechanisms.adhesion.strength_pa", "Pa"}};
     std::set<std::string> seen;
     for_each_key([&](const std::string& path, const TomlKey& key) {
         if (const auto unit = units.find(path); unit != units.end()) {

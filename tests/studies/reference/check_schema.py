@@ -59,9 +59,11 @@ for name, study in studies.items():
 with tempfile.TemporaryDirectory() as folder:
     for kind in ("single", "surface", "fragility", "sensitivity", "rare"):
         for structure in ("column", "colonnade"):
-            file = pathlib.Path(folder) / f"{kind}_{structure}.toml"
-            subprocess.run([program, "new", kind, "--structure", structure, "-o", file, "--quiet"], check=True)
-            accept(file.name, tomllib.loads(file.read_text()))
+            for dimensions in ("2", "3"):
+                file = pathlib.Path(folder) / f"{kind}_{structure}_{dimensions}.toml"
+                made = ["new", kind, "--structure", structure, "--dimensions", dimensions, "-o", file, "--quiet"]
+                subprocess.run([program, *made], check=True)
+                accept(file.name, tomllib.loads(file.read_text()))
 
 column = studies["small_scale_column.toml"]
 for path, value in [
@@ -94,6 +96,20 @@ for path, value in [
     (("fragility",), None),
 ]:
     refuse(fragility, path, value)
+
+spatial = studies["round_column.toml"]
+for path, value in [
+    (("structure", "depth_m"), 1.0),  # of the plane
+    (("structure", "shape"), "hexagon"),
+    (("structure", "dimensions"), 2),  # then it needs depth_m, and the keys of space are not used
+    (("structure", "dimensions"), None),
+    (("contact", "normal_stiffness_n_m2"), 3e9),
+    (("contact", "normal_stiffness_n_m3"), None),
+    (("run", "precision"), "single"),
+    (("twins",), {}),
+]:
+    refuse(spatial, path, value)
+refuse(column, ("structure", "depth_m"), None)
 
 for failure in failures:
     print(failure)

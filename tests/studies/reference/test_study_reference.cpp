@@ -80,14 +80,15 @@ std::vector<TemplateChoice> choices()
     std::vector<TemplateChoice> all;
     for (const auto& study : study_kind_names)
         for (const auto& structure : structure_kind_names)
-            for (const auto& excitation : excitation_kind_names) {
-                const TemplateChoice choice{study.value, structure.value, excitation.value};
-                try {
-                    study_template(choice);
-                    all.push_back(choice);
-                } catch (const InputError&) {
+            for (const auto& excitation : excitation_kind_names)
+                for (const int dimensions : {2, 3}) {
+                    const TemplateChoice choice{study.value, structure.value, excitation.value, dimensions};
+                    try {
+                        study_template(choice);
+                        all.push_back(choice);
+                    } catch (const InputError&) {
+                    }
                 }
-            }
     return all;
 }
 
@@ -95,7 +96,7 @@ std::string name_of(const TemplateChoice& choice)
 {
     return std::string(word_for(study_kind_names, choice.study)) + ", " +
            word_for(structure_kind_names, choice.structure) + ", " +
-           word_for(excitation_kind_names, *choice.excitation);
+           word_for(excitation_kind_names, *choice.excitation) + ", " + std::to_string(choice.dimensions);
 }
 
 /// With a folder of records that is there.
@@ -107,7 +108,7 @@ bool names_a_folder(const TemplateChoice& choice)
 TEST(StudyTemplate, OfEveryKindIsAStudyOfThatKind)
 {
     const std::vector<TemplateChoice> all = choices();
-    EXPECT_GE(all.size(), 5U * 2U * 4U);
+    EXPECT_GE(all.size(), 5U * 2U * 4U * 2U);
     for (const TemplateChoice& choice : all) {
         const std::string text = study_template(choice);
         if (names_a_folder(choice))
@@ -116,6 +117,7 @@ TEST(StudyTemplate, OfEveryKindIsAStudyOfThatKind)
         ASSERT_NO_THROW(study = parse_study(text, "new.toml")) << name_of(choice) << "\n" << text;
         EXPECT_EQ(study.kind, choice.study) << name_of(choice);
         EXPECT_EQ(study.structure.kind, choice.structure) << name_of(choice);
+        EXPECT_EQ(study.structure.dimensions, choice.dimensions) << name_of(choice);
         EXPECT_EQ(study.excitation.kind, choice.excitation) << name_of(choice);
         const std::vector<Implausibility> found = implausibilities(study);
         EXPECT_TRUE(found.empty()) << name_of(choice) << ": " << found.front().text;
@@ -180,6 +182,7 @@ TEST(StudyTemplate, RefusesKindsThatDoNotGoTogether)
             << error.what();
     }
     EXPECT_THROW(study_template({StudyKind::rare, StructureKind::column, ExcitationKind::noise}), InputError);
+    EXPECT_THROW(study_template({.study = StudyKind::survival, .dimensions = 3}), InputError);
     EXPECT_THROW(study_template({StudyKind::fragility, StructureKind::column, ExcitationKind::table}), InputError);
     EXPECT_THROW(study_template({StudyKind::fragility, StructureKind::column, ExcitationKind::ricker}), InputError);
 }
