@@ -192,24 +192,14 @@ inline const NumberKey vertical_ratio("vertical_ratio", &ExcitationSpec::vertica
                                       "vertical component over the first one: the same motion; of noise an independent "
                                       "one, standard deviation over standard deviation. 0: no vertical component",
                                       {.used = {moving}, .models = in_space()});
-inline const TextKey other_file("file", &ComponentSpec::file, "its file: a path relative to the study file",
-                                {.absent = "the file of the first component, or the file beside it whose name differs "
-                                           "in the direction alone"});
-inline const TextKey other_component("component", &ComponentSpec::component,
-                                     "which one, where the file has several: its name or its column",
-                                     {.absent = "by its direction"});
-inline const TextKey other_unit("unit", &ComponentSpec::unit, "unit of its acceleration",
-                                {.absent = "that of the first component, or as in the file",
-                                 .words = acceleration_units});
 inline const TableKey second(
     "second",
     "second horizontal component, which is at direction_deg + 90; {} takes the other horizontal component of the "
     "same recording",
-    {&other_file, &other_component, &other_unit},
-    {.absent = "no second component", .used = {sampled}, .models = in_space()});
+    component_keys::all, {.absent = "no second component", .used = {sampled}, .models = in_space()});
 inline const TableKey
     vertical("vertical", "vertical component, as `second`; in the time and with the factor of the first component",
-             {&other_file, &other_component, &other_unit},
+             component_keys::all,
              {.absent = "by vertical_ratio", .used = {sampled}, .excludes = {"vertical_ratio"}, .models = in_space()});
 inline const WordKey<OfPair> pga_of_pair("pga_of_pair", &ExcitationSpec::pga_of_pair, of_pair_names,
                                          "what the PGA of two horizontal components is: that of the first one, of the "

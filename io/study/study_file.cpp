@@ -250,6 +250,14 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
+/// A measure of pairs where there are none. @param keys of [fragility]
+void check_pairs(const KeyReader& keys, const Study& study)
+{
+    if (keys.has(fragility_keys::of_pair) && !study.has_pairs())
+        keys.refuse(fragility_keys::of_pair.name, "needs a second component, and there is none",
+                    "Give excitation.second (of synthetic motions excitation.second_ratio), or remove it.");
+}
+
 /// What belongs to one base motion does not go with many.
 void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 {
@@ -374,7 +382,9 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         if (!top.has("fragility"))
             top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
         study.fragility = read_fragility(top.table(fragility_keys::table), keys, study.excitation, study.realizations);
-        list_records(top.table(fragility_keys::table), folder, pga_range(study), *study.fragility);
+        list_records(top.table(fragility_keys::table), folder, pga_range(study), study.excitation.second.has_value(),
+                     *study.fragility);
+        check_pairs(top.table(fragility_keys::table), study);
         if (study.sampling != Sampling::independent)
             keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
     }
@@ -460,8 +470,14 @@ Study study_of(const TomlValue& root, const std::filesystem::path& file)
         find_beside(study.excitation.file, *root.find("excitation"));
     if (study.fragility && root.find("fragility")->find("records") != nullptr) {
         const auto& tables = root.find("fragility")->find("records")->entries;
-        for (std::size_t i = 0; i < study.fragility->records.size(); ++i)
-            find_beside(study.fragility->records[i].file, tables[i]);
+        for (std::size_t i = 0; i < study.fragility->records.size(); ++i) {
+            RecordSpec& record = study.fragility->records[i];
+            find_beside(record.file, tables[i]);
+            if (record.second && !record.second->file.empty())
+                find_beside(record.second->file, *tables[i].find("second"));
+            if (record.vertical && !record.vertical->file.empty())
+                find_beside(record.vertical->file, *tables[i].find("vertical"));
+        }
     }
     if (study.excitation.second && !study.excitation.second->file.empty())
         find_beside(study.excitation.second->file, *root.find("excitation")->find("second"));
