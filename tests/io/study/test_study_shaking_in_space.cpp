@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -137,6 +140,34 @@ TEST(ShakingInSpace, ADirectionIsDrawnInDegrees)
     expect_refused(single(noise + "direction_deg = 20") +
                        "[perturbation]\ndirection = { distribution = \"uniform\" }\n",
                    7, {"excitation.direction_deg", "give it twice"});
+}
+
+TEST(ShakingInSpace, TheTextDiffersWhereverTheShakingDoes)
+{
+    const auto up = [](double& x) { x = std::nextafter(x, 1e300); };
+    const Study pair = read(noise + "second_ratio = 0.8"), turning = read(harmonic + "second_ratio = 0.8"),
+                recorded = read(record + "second = {}\nvertical = {}");
+    const std::vector<std::pair<Study, std::function<void(Study&)>>> changes = {
+        {pair, [&](Study& s) { up(s.excitation.direction_deg); }},
+        {pair, [&](Study& s) { up(s.excitation.second_ratio); }},
+        {pair, [&](Study& s) { up(s.excitation.second_correlation); }},
+        {pair, [&](Study& s) { up(s.excitation.vertical_ratio); }},
+        {pair, [](Study& s) { s.excitation.pga_of_pair = OfPair::larger; }},
+        {turning, [&](Study& s) { up(s.excitation.second_phase_deg); }},
+        {recorded, [](Study& s) { s.excitation.second->file = "b"; }},
+        {recorded, [](Study& s) { s.excitation.second->component = "b"; }},
+        {recorded, [](Study& s) { s.excitation.second->unit = "g"; }},
+        {recorded, [](Study& s) { s.excitation.second.reset(); }},
+        {recorded, [](Study& s) { s.vertical->file = "b"; }},
+        {recorded, [](Study& s) { s.vertical->component = "b"; }},
+        {recorded, [](Study& s) { s.vertical->unit = "g"; }},
+        {recorded, [](Study& s) { s.vertical.reset(); }},
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        Study changed = changes[i].first;
+        changes[i].second(changed);
+        EXPECT_NE(study_text(changed), changes[i].first.text) << "change " << i;
+    }
 }
 
 TEST(ShakingInSpace, KeysWithoutMeaningAreRefused)
