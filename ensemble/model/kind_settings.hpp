@@ -2,6 +2,7 @@
 /// The settings of the kinds of studies as plain data, each with the names of its table in a study file. Only the files
 /// of the kinds, their keys and their reader name them; all others ask a study for its `StudyDesign`.
 
+#include "ensemble/model/motion.hpp"
 #include "kernels/planar/step_model.hpp"
 
 #include <algorithm>
@@ -67,11 +68,21 @@ enum class FragilityMethod {
 /// By which measure motions are scaled.
 enum class IntensityMeasure { pga, pgv, pgd, arias, cav, sa };
 
+/// A component of a recorded motion beside the first one.
+struct ComponentSpec {
+    std::optional<std::string> file; ///< nullopt: that of the first one, or the one beside it that is named like it
+    std::optional<std::string> component; ///< nullopt: the only one, or by its direction
+    std::optional<std::string> unit;      ///< nullopt: the file gives it
+    friend bool operator==(const ComponentSpec&, const ComponentSpec&) = default;
+};
+
 /// A ground motion of a set, as files hold it.
 struct RecordSpec {
     std::string file;
     std::optional<std::string> component; ///< nullopt: the file has one
     std::optional<std::string> unit;      ///< nullopt: the file gives it
+    /// Its other components in space, where they are not found by their names.
+    std::optional<ComponentSpec> second = {}, vertical = {};
     friend bool operator==(const RecordSpec&, const RecordSpec&) = default;
 };
 
@@ -88,6 +99,7 @@ struct MotionSetSpec {
     double period_s = 1;                         ///< of `sa`
     Axis intensity;                              ///< of `stripes`; in the measure's unit
     double scale = 1;                            ///< of `cloud`: factor on every motion
+    OfPair of_pair = OfPair::geometric_mean;     ///< what the measures of two components are
     std::vector<double> periods_s = {0.5, 1, 2}; ///< at which spectral accelerations are measured
 
     // Number of earthquakes in succession, each with the intensity of its stripe; each begins from the state that the

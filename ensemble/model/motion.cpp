@@ -15,6 +15,31 @@ double peak(const std::vector<double>& values)
     return largest;
 }
 
+double size_of_pair(OfPair definition, double first, double second, double at_once)
+{
+    switch (definition) {
+    case OfPair::first:
+        return first;
+    case OfPair::larger:
+        return std::max(first, second);
+    case OfPair::geometric_mean:
+        return std::sqrt(first * second);
+    case OfPair::at_once:
+        return at_once;
+    }
+    return first;
+}
+
+double peak_at_once(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double largest = 0;
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+        const double along = i < a.size() ? a[i] : 0, across = i < b.size() ? b[i] : 0;
+        largest = std::max(largest, along * along + across * across);
+    }
+    return std::sqrt(largest);
+}
+
 Integrated integrate(const std::vector<double>& a, double d)
 {
     Integrated motion{std::vector<double>(a.size()), std::vector<double>(a.size())};

@@ -7,6 +7,15 @@
 
 namespace stylobate {
 
+/// What one number states of the strength of two horizontal components a1 and a2 (of accelerations, and of the
+/// responses of an oscillator to them). P1 and P2 are their largest sizes.
+enum class OfPair {
+    first,          ///< P1
+    larger,         ///< the larger one of P1 and P2
+    geometric_mean, ///< sqrt(P1 P2)
+    at_once         ///< the largest length of the vector (a1, a2)
+};
+
 /// Corners of a Butterworth filter of order 4 (io/records/ground_motion.hpp) [Hz].
 struct BandPass {
     double low_hz = 0;
@@ -51,6 +60,13 @@ struct Motion {
 
 /// Largest absolute value; 0 of none.
 double peak(const std::vector<double>& values);
+
+/// By a definition, of the largest sizes of both components and the largest length of their vector.
+double size_of_pair(OfPair definition, double first, double second, double at_once);
+
+/// Largest length of the vector of two quantities that are linear between their samples: it is at a sample.
+/// @pre both have the same spacing; the shorter one is 0 after its end
+double peak_at_once(const std::vector<double>& first, const std::vector<double>& second);
 
 /// Velocity and displacement of an acceleration that is linear between its samples, from rest.
 struct Integrated {

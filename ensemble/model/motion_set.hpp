@@ -23,11 +23,23 @@ struct MotionMeasure {
 
 struct MotionSet {
     std::vector<std::shared_ptr<const Motion>> motions;
+    /// (motions) Second horizontal and vertical components in space, null of a motion without; empty: no motion has
+    /// one.
+    std::vector<std::shared_ptr<const Motion>> seconds, verticals;
     std::vector<std::string> names; ///< (motions)
     std::vector<MotionMeasure> measures;
     std::vector<std::vector<double>> ends_s; ///< (motions x shakings) of sequences: when each shaking is over
 
     std::size_t size() const { return motions.size(); }
+    /// Null: it has none.
+    std::shared_ptr<const Motion> second(std::size_t motion) const
+    {
+        return seconds.empty() ? nullptr : seconds[motion];
+    }
+    std::shared_ptr<const Motion> vertical(std::size_t motion) const
+    {
+        return verticals.empty() ? nullptr : verticals[motion];
+    }
     /// @throws std::invalid_argument if there is none of this name
     const MotionMeasure& measure(const std::string& name) const;
 };

@@ -77,23 +77,6 @@ enum class PgaOf {
     mean         ///< the mean of the peaks: one scale for all realizations of a cell, whose peaks differ
 };
 
-/// What one number states of the strength of two horizontal components a1 and a2 (of accelerations, and of the
-/// responses of an oscillator to them). P1 and P2 are their largest sizes.
-enum class OfPair {
-    first,          ///< P1
-    larger,         ///< the larger one of P1 and P2
-    geometric_mean, ///< sqrt(P1 P2)
-    at_once         ///< the largest length of the vector (a1, a2)
-};
-
-/// A component of a recorded motion beside the first one.
-struct ComponentSpec {
-    std::optional<std::string> file; ///< nullopt: that of the first one, or the one beside it that is named like it
-    std::optional<std::string> component; ///< nullopt: the only one, or by its direction
-    std::optional<std::string> unit;      ///< nullopt: the file gives it
-    friend bool operator==(const ComponentSpec&, const ComponentSpec&) = default;
-};
-
 /// How long a realization is simulated after the shaking, if it does not come to rest before.
 enum class Tail {
     structure, ///< long enough for a fall: `tail_after_shaking()`
@@ -346,6 +329,13 @@ struct Study {
     {
         return std::any_of(mechanisms.begin(), mechanisms.end(),
                            [mechanism](const MechanismSpec& spec) { return spec.mechanism == mechanism; });
+    }
+    /// Whether any of its motions has a second horizontal component.
+    bool has_pairs() const
+    {
+        return excitation.has_second() ||
+               (fragility && std::any_of(fragility->records.begin(), fragility->records.end(),
+                                         [](const RecordSpec& record) { return record.second.has_value(); }));
     }
     /// Which realizations it has and what they share. It refers to this study.
     StudyDesign design() const;

@@ -11,11 +11,6 @@ namespace stylobate {
 
 namespace {
 
-double square(double value)
-{
-    return value * value;
-}
-
 /// A motion of the same shape, `factor` times as large.
 RealizationHeader times(RealizationHeader realization, double factor)
 {
@@ -73,26 +68,11 @@ std::array<BaseMotion, 3> motions_in_space(const ExcitationSpec& excitation, con
     return motions;
 }
 
-double of_pair(OfPair definition, double first, double second, double at_once)
-{
-    switch (definition) {
-    case OfPair::first:
-        return first;
-    case OfPair::larger:
-        return std::max(first, second);
-    case OfPair::geometric_mean:
-        return std::sqrt(first * second);
-    case OfPair::at_once:
-        return at_once;
-    }
-    return first;
-}
-
 double pga_of_pair_over_first(const ExcitationSpec& excitation, const RealizationHeader& realization)
 {
     const double ratio = excitation.second_ratio, ratio2 = ratio * ratio;
     if (ratio == 0 || excitation.pga_of_pair != OfPair::at_once)
-        return of_pair(ratio == 0 ? OfPair::first : excitation.pga_of_pair, 1, ratio, 1);
+        return size_of_pair(ratio == 0 ? OfPair::first : excitation.pga_of_pair, 1, ratio, 1);
     double at_once = std::sqrt(1 + ratio2);
     if (excitation.kind == ExcitationKind::harmonic) {
         const double cosine = cosine_of(excitation.second_phase_deg / 180); // of twice the phase, in cycles
@@ -104,14 +84,6 @@ double pga_of_pair_over_first(const ExcitationSpec& excitation, const Realizatio
                                SyntheticMotion(excitation, second_component(excitation, first)));
     }
     return at_once;
-}
-
-double peak_at_once(const std::vector<double>& a, const std::vector<double>& b)
-{
-    double largest = 0;
-    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
-        largest = std::max(largest, square(i < a.size() ? a[i] : 0) + square(i < b.size() ? b[i] : 0));
-    return std::sqrt(largest);
 }
 
 } // namespace stylobate

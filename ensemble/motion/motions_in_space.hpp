@@ -24,7 +24,6 @@
 #include "ensemble/motion/base_motion.hpp"
 
 #include <array>
-#include <vector>
 
 namespace stylobate {
 
@@ -41,13 +40,6 @@ std::array<BaseMotion, 3> motions_in_space(const ExcitationSpec& excitation, con
 ///
 ///   largest length of (sin t, r sin(t + f)) = sqrt((1 + r2 + sqrt(1 + r4 + 2 r2 cos 2f)) / 2)
 double pga_of_pair_over_first(const ExcitationSpec& excitation, const RealizationHeader& realization);
-
-/// By a definition, of the largest sizes of both components and the largest length of their vector.
-double of_pair(OfPair definition, double first, double second, double at_once);
-
-/// Largest length of the vector of two accelerations, which are linear between their samples: it is at a sample.
-/// @pre both have the same spacing; the shorter one is at rest after its end
-double peak_at_once(const std::vector<double>& first, const std::vector<double>& second);
 
 /// The first component of a shaking by itself: `pga_m_s2` is its own PGA.
 RealizationHeader first_component(const RealizationHeader& realization);

@@ -1,6 +1,6 @@
 #include "ensemble/motion/noise_in_space.hpp"
 
-#include "ensemble/motion/motions_in_space.hpp"
+#include "ensemble/model/motion.hpp"
 
 #include <cmath>
 
@@ -11,7 +11,7 @@ double HorizontalNoise::peak(OfPair definition) const
     const double of_first = stylobate::peak(first);
     if (second.empty() || definition == OfPair::first)
         return of_first;
-    return of_pair(definition, of_first, stylobate::peak(second), peak_at_once(first, second));
+    return size_of_pair(definition, of_first, stylobate::peak(second), peak_at_once(first, second));
 }
 
 HorizontalNoise horizontal_noise(const SyntheticNoise& noise, const ExcitationSpec& excitation, std::uint64_t seed,

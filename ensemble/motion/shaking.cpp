@@ -83,7 +83,7 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
             if (second == nullptr || second->empty())
                 throw std::invalid_argument("a study with two components was given no second one");
             second_ = std::make_shared<const Motion>(*second);
-            record_pga_m_s2_ = of_pair(excitation.pga_of_pair, record->pga_m_s2, second->pga_m_s2,
+            record_pga_m_s2_ = size_of_pair(excitation.pga_of_pair, record->pga_m_s2, second->pga_m_s2,
                                        peak_at_once(record->acceleration_m_s2, second->acceleration_m_s2));
             first_share_ = record->pga_m_s2 / record_pga_m_s2_;
         }
@@ -210,7 +210,12 @@ void Shaking::apply_motion(const StudyDesign& design, RealizationHeader& realiza
     realization.motion_scale =
         motion_scale(*design.motions, *motions_, motion, static_cast<int>(cell % design.columns));
     realization.frequency_hz = realization.motion->predominant_frequency_hz;
-    realization.pga_m_s2 = realization.motion_scale * realization.motion->pga_m_s2;
+    realization.second = motions_->second(motion);
+    realization.pga_m_s2 = realization.motion_scale *
+                           (realization.second ? motions_->measure(measure_name(IntensityMeasure::pga, 0)).value[motion]
+                                               : realization.motion->pga_m_s2);
+    if (const auto vertical = motions_->vertical(motion))
+        realization.vertical = std::make_shared<const Motion>(scaled(*vertical, 1, realization.motion_scale));
 }
 
 /// Of a harmonic motion the formula does it (`BaseMotion`).

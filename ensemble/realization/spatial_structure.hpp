@@ -82,6 +82,8 @@ struct SpatialStructure {
     double initial_tilt_rad = 0;           ///< leaned about the rim of the bottom face of `initial_tilt_block`
     double initial_tilt_direction_rad = 0; ///< azimuth towards which it leans, from x towards z
     int initial_tilt_block = 0;            ///< of each column, from the bottom: it and what stands on it lean
+    bool with_mechanisms =
+        false; ///< run by the step with mechanisms even where every one is neutral (`model_in_space`)
 
     /// Bodies that are stepped.
     std::uint64_t free_solids() const

@@ -1,6 +1,7 @@
 #include "ensemble/sampling/drawn_motions.hpp"
 
 #include "ensemble/model/nominal.hpp"
+#include "ensemble/motion/motions_in_space.hpp"
 #include "ensemble/motion/synthetic_motion.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/sampling/sampler.hpp"
@@ -45,15 +46,19 @@ std::vector<std::size_t> shakings_of(const Study& study, std::size_t first)
 
 Succession in_succession(std::span<const ScaledMotion> shakings, double pause_s)
 {
-    double dt = shakings.front().motion->dt_s;
+    double dt = shakings.front().timing().dt_s;
     for (const ScaledMotion& shaking : shakings)
-        dt = std::min(dt, shaking.motion->dt_s);
+        dt = std::min(dt, shaking.timing().dt_s);
     std::vector<double> acceleration, ends;
-    for (const auto& [motion, scale] : shakings) {
+    for (const ScaledMotion& shaking : shakings) {
+        const Motion* motion = shaking.motion;
+        const double scale = shaking.scale;
         if (!acceleration.empty())
             acceleration.resize(acceleration.size() + static_cast<std::size_t>(std::ceil(pause_s / dt)));
-        const auto samples = static_cast<std::size_t>(std::ceil(motion->duration_s() / dt)) + 1;
-        for (std::size_t k = 0; k < samples; ++k) {
+        const auto samples = static_cast<std::size_t>(std::ceil(shaking.timing().duration_s() / dt)) + 1;
+        if (motion == nullptr)
+            acceleration.resize(acceleration.size() + samples);
+        for (std::size_t k = 0; motion != nullptr && k < samples; ++k) {
             const double at = static_cast<double>(k) * dt / motion->dt_s;
             const auto before = std::min(static_cast<std::size_t>(at), motion->acceleration_m_s2.size() - 1);
             const auto after = std::min(before + 1, motion->acceleration_m_s2.size() - 1);
@@ -73,7 +78,7 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
     MotionSet sequences;
     for (std::size_t i = 0; i < motions; ++i) {
         const std::vector<std::size_t> order = shakings_of(study, i);
-        std::vector<ScaledMotion> shakings;
+        std::vector<ScaledMotion> shakings, seconds, verticals;
         std::string name;
         for (const std::size_t shaking : order) {
             double scale = 1;
@@ -82,6 +87,8 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
                 scale = std::pow(measure.value[i] / measure.value[shaking], 1 / measure.exponent);
             }
             shakings.push_back({set.motions[shaking].get(), scale});
+            seconds.push_back({set.second(shaking).get(), scale, shakings.back().motion});
+            verticals.push_back({set.vertical(shaking).get(), scale, shakings.back().motion});
             name += (name.empty() ? "" : " + ") + set.names[shaking];
         }
         Succession succession = in_succession(shakings, shaking_pause_s(study));
@@ -90,6 +97,13 @@ MotionSet in_sequence(const Study& study, const MotionSet& set)
         sequence.pga_m_s2 = set.motions[i]->pga_m_s2; // by which it is scaled: that of its first shaking
         sequence.source = name;
         sequences.motions.push_back(std::make_shared<const Motion>(std::move(sequence)));
+        const auto other = [&](const std::vector<ScaledMotion>& components) {
+            return std::make_shared<const Motion>(in_succession(components, shaking_pause_s(study)).motion);
+        };
+        if (!set.seconds.empty())
+            sequences.seconds.push_back(other(seconds));
+        if (!set.verticals.empty())
+            sequences.verticals.push_back(other(verticals));
         sequences.names.push_back(name);
         sequences.ends_s.push_back(std::move(succession.ends_s));
     }
@@ -118,6 +132,13 @@ MotionSet drawn_motions(const Study& study)
         motion.predominant_frequency_hz = r.frequency_hz;
         motion.source = fmt::format("motion {}", i);
         set.names.push_back(motion.source);
+        if (r.second)
+            set.seconds.push_back(r.second);
+        else if (one.excitation.has_second())
+            set.seconds.push_back(std::make_shared<const Motion>(
+                sampled(SyntheticMotion(one.excitation, second_component(one.excitation, first_component(r))))));
+        if (r.vertical)
+            set.verticals.push_back(r.vertical);
         set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
     }
     return set;

@@ -20,8 +20,10 @@ MotionSet in_sequence(const Study& study, const MotionSet& set);
 
 /// A motion times a factor.
 struct ScaledMotion {
-    const Motion* motion = nullptr;
+    const Motion* motion = nullptr; ///< null: at rest
     double scale = 1;
+    const Motion* timed_by = nullptr; ///< the first component, of another one, whose length and spacing it takes
+    const Motion& timing() const { return timed_by != nullptr ? *timed_by : *motion; }
 };
 
 /// One after the other, with pauses of rest between them; sampled with the shortest of their spacings, the acceleration

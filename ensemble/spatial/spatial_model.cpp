@@ -1,6 +1,7 @@
 #include "ensemble/spatial/spatial_model.hpp"
 
 #include "ensemble/spatial/structure/settle.hpp"
+#include "ensemble/spatial/structure/solid_mechanisms.hpp"
 #include "kernels/spatial/bed.hpp"
 
 #include <algorithm>
@@ -75,6 +76,8 @@ void SpatialModel::begin(int lane, Place& place)
     const Realization& r = place.realization;
     const SpatialStructure& space = r.space;
     SpatialMeasured& m = place.measured;
+    assert((!model_in_space(space).mechanisms || topology().model.mechanisms) &&
+           "the realizations of a bundle follow the model of the pattern that it was made from");
     m.falls = fall_states(space, whole_checks(fall_time / place.scales.p_rad_s, r.step_s, check_steps()));
     m.direction_cosine = std::cos(r.direction_rad);
     m.direction_sine = std::sin(r.direction_rad);
@@ -113,6 +116,11 @@ void SpatialModel::first_increments(int lane, Watch& w)
     for (int i = topology().fixed; i < topology().bodies; ++i)
         for (const B::Field field : {B::dx, B::dy, B::dz, B::l_x, B::l_y, B::l_z})
             bundle_.at(field, i, lane) = -0.5 * one.at(field, i, 0);
+    using D = spatial::OfJointMechanisms; // dowels may be strained at rest
+    for (int j = 0; topology().model.mechanisms && j < topology().joints; ++j)
+        for (int field = D::dowel_at; field < D::count; ++field)
+            bundle_.at(static_cast<D::Field>(field), j, lane) = one.at(static_cast<D::Field>(field), j, 0);
+    w.start_dowel_j = spatial::dowel_energy(topology(), bundle_, lane);
     w.start_potential_j = one.at(W::potential, 0) / (w.step_s * w.step_s);
     w.start_spring_j = spatial::bed_energy(topology(), one, 0) + spatial::spring_energy(topology(), bundle_, lane);
 }

@@ -36,6 +36,18 @@ inline double spring_energy(const Topology& topology, const Bundle& b, int lane)
     return energy;
 }
 
+/// Of dowels.
+inline double dowel_energy(const Topology& topology, const Bundle& b, int lane)
+{
+    using J = OfJointMechanisms;
+    double energy = 0;
+    for (int j = 0; topology.model.mechanisms && j < topology.joints; ++j) {
+        const double x = b.at(J::dowel_force, j, lane), y = b.at(static_cast<J::Field>(J::dowel_force + 1), j, lane);
+        energy += 0.5 * (x * x + y * y) * b.at(J::per_dowel_stiffness, j, lane);
+    }
+    return energy;
+}
+
 /// Of the beds, after the last step of a chunk.
 inline double bed_energy(const Topology& topology, const Bundle& b, int lane)
 {
@@ -55,6 +67,12 @@ inline EnergyBalance energy_balance(const Topology& topology, const Bundle& b, i
     o.spring = bed_energy(topology, b, lane) + spring_energy(topology, b, lane) - w.start_spring_j;
     o.friction = b.at(OfRealization::friction_energy, lane);
     o.damping = b.at(OfRealization::dashpot_energy, lane);
+    if (topology.model.mechanisms) {
+        using M = OfRealizationMechanisms;
+        const double held = dowel_energy(topology, b, lane) - w.start_dowel_j;
+        o.spring += held;
+        o.damping += 0.5 * (b.at(M::joint_energy, lane) + b.at(M::tie_energy, lane) * per_dt2) - held;
+    }
     o.base_work = 0.5 * b.at(OfRealization::base_energy, lane) * per_dt2;
     const double lacks = o.kinetic + o.potential + o.spring + o.friction + o.damping - o.base_work;
     o.residual = lacks / (w.barrier_j + abs_of(o.friction) + abs_of(o.damping));

@@ -12,6 +12,21 @@ namespace stylobate {
 
 inline constexpr std::uint64_t most_realizations = 1'000'000'000; ///< of a study, in all
 
+// Of a component of a record beside the first one.
+namespace component_keys {
+
+inline const TextKey file("file", &ComponentSpec::file, "its file: a path relative to the study file",
+                          {.absent = "the file of the first component, or the file beside it whose name differs in the "
+                                     "direction alone"});
+inline const TextKey component("component", &ComponentSpec::component,
+                               "which one, where the file has several: its name or its column",
+                               {.absent = "by its direction"});
+inline const TextKey unit("unit", &ComponentSpec::unit, "unit of its acceleration",
+                          {.absent = "that of the first component, or as in the file", .words = acceleration_units});
+inline const std::vector<const TomlKey*> all = {&file, &component, &unit};
+
+} // namespace component_keys
+
 namespace adaptive_keys {
 
 inline const WholeKey budget("budget", &AdaptiveSpec::budget, {1, most_realizations},
@@ -106,8 +121,12 @@ inline const TextKey component("component", &RecordSpec::component, "which one, 
                                {.absent = "the only one"});
 inline const TextKey record_unit("unit", &RecordSpec::unit, "unit of its acceleration",
                                  {.absent = "as in the file", .words = acceleration_units});
+inline const TableKey second("second", "its second horizontal component", component_keys::all,
+                             {.absent = "by excitation.second", .models = in_space()});
+inline const TableKey vertical("vertical", "its vertical component", component_keys::all,
+                               {.absent = "by excitation.vertical", .models = in_space()});
 inline const TableKey records("records", "the records; fewer than 8 give shares without intervals; or give `folder`",
-                              {&file, &component, &record_unit},
+                              {&file, &component, &record_unit, &second, &vertical},
                               {.absent = "the files of `folder`", .used = {recorded}}, KeyType::tables);
 inline const TextKey folder("folder",
                             "folder of the records: every horizontal component of its files is a motion; files without "
@@ -133,6 +152,11 @@ inline const AxisKey intensity("intensity",
                                "arias, cav) or m (pgd)",
                                intensity_range, {"1.0", "10.0", "8", "\"log\""}, {&measure, &period},
                                {.used = {by_stripes}});
+inline const WordKey<OfPair> of_pair("of_pair", &FragilitySpec::of_pair, of_pair_names,
+                                     "what an intensity measure of two horizontal components is: that of the first "
+                                     "one, the larger one, the geometric mean of both, or that of their vector at once "
+                                     "(of spectral accelerations RotD100)",
+                                     {.models = in_space()});
 inline const NumberKey scale("scale", &FragilitySpec::scale, {0, 100, true, "The scale factor of every motion."},
                              "factor on every motion", {.used = {by_cloud}});
 inline const WholeKey shakings("shakings", &FragilitySpec::shakings, {1, 100, "Shakings in a sequence."},
@@ -160,8 +184,8 @@ inline const ListKey residual_limits("residual_limits", &FragilitySpec::residual
 inline const ListKey periods("periods_s", &FragilitySpec::periods_s, period_range,
                              "periods at which spectral accelerations are measured, ascending");
 inline const TableKey table("fragility", "the motions, their intensities and the limit states of a fragility study",
-                            {&method, &records, &folder, &pattern, &unit, &motions, &intensity, &scale, &shakings,
-                             &pause, &contacts, &twins, &twin, &peak_limits, &residual_limits, &periods},
+                            {&method, &records, &folder, &pattern, &unit, &motions, &intensity, &of_pair, &scale,
+                             &shakings, &pause, &contacts, &twins, &twin, &peak_limits, &residual_limits, &periods},
                             {.used = {in_studies({StudyKind::fragility})}});
 
 } // namespace fragility_keys

@@ -75,6 +75,11 @@ IntensityMeasures intensity_measures(const Record& record);
 /// All of the motion as it drives a structure.
 IntensityMeasures intensity_measures(const Motion& motion);
 
+/// Of two horizontal components of one recording with equal spacing, by a definition: PGA, PGV, PGD, Arias intensity
+/// and CAV. Of their vector at once the Arias intensity is the sum of both, the CAV the integral of its length by the
+/// trapezium rule. The others (duration, frequencies) are those of the first component; PGV / PGA is of both.
+IntensityMeasures intensity_of_pair(const Motion& first, const Motion& second, OfPair definition);
+
 /// Peak of the Fourier amplitude, smoothed with a Konno-Ohmachi window (b = 40), of the samples less their mean.
 /// Looked for from two cycles in the record up to the Nyquist frequency, in steps of 0.25 %.
 /// @return 0 if the samples are all equal
@@ -89,6 +94,13 @@ std::vector<double> spectral_acceleration(const Record& record, const std::vecto
                                           double damping_ratio = 0.05);
 std::vector<double> spectral_acceleration(const std::vector<double>& acceleration_m_s2, double dt_s,
                                           const std::vector<double>& periods_s, double damping_ratio = 0.05);
+
+/// Pseudo-acceleration of two components by a definition; at once it is w2 times the largest length of the vector of
+/// both displacements: RotD100 of Boore, "Orientation-independent, nongeometric-mean measures of seismic intensity from
+/// two horizontal components of motion", Bulletin of the Seismological Society of America 100 (2010) 1830.
+/// @pre equal spacing; period > 0
+double spectral_acceleration_of_pair(const Motion& first, const Motion& second, double period_s, OfPair definition,
+                                     double damping_ratio = 0.05);
 
 /// Amplitude of what passes at a frequency: a high-pass and a low-pass of Butterworth, each of order 4,
 ///

@@ -183,6 +183,8 @@ public:
     }
 
     double largest_displacement() const { return largest_; }
+    double displacement() const { return u_; }
+    double velocity() const { return v_; }
 
 private:
     double w_, z_, w_d_, h_;
@@ -190,12 +192,18 @@ private:
     double u_ = 0, v_ = 0, largest_ = 0;
 };
 
+/// Parts of a sample in which an oscillator is stepped.
+double parts_of_sample(double dt_s, double period_s)
+{
+    constexpr double looks_per_period = 50, looks_per_sample = 4;
+    return std::max(looks_per_sample, std::ceil(dt_s * looks_per_period / period_s));
+}
+
 double spectral_acceleration(const std::vector<double>& a, double dt_s, double period_s, double damping_ratio)
 {
     if (period_s == 0)
         return peak(a);
-    constexpr double looks_per_period = 50, looks_per_sample = 4;
-    const double parts = std::max(looks_per_sample, std::ceil(dt_s * looks_per_period / period_s));
+    const double parts = parts_of_sample(dt_s, period_s);
     const double omega = 2 * pi / period_s;
     Oscillator oscillator(omega, damping_ratio, dt_s / parts);
     const auto follow = [&](double a0, double a1) {
@@ -209,6 +217,37 @@ double spectral_acceleration(const std::vector<double>& a, double dt_s, double p
     for (double t = 0; t < period_s / 2; t += dt_s)
         follow(0, 0);
     return omega * omega * oscillator.largest_displacement();
+}
+
+/// Largest length of the vector of the displacements of two equal oscillators, times w2.
+double spectral_acceleration_at_once(const std::vector<double>& a, const std::vector<double>& b, double dt_s,
+                                     double period_s, double damping_ratio)
+{
+    const double parts = parts_of_sample(dt_s, period_s), step = dt_s / parts, omega = 2 * pi / period_s;
+    Oscillator first(omega, damping_ratio, step), second = first;
+    double largest2 = 0, length2 = 0, rate = 0; // of the length squared
+    const auto follow = [&](double a0, double a1, double b0, double b1) {
+        for (double j = 0; j < parts; ++j) {
+            const double of_a = (a1 - a0) / parts, of_b = (b1 - b0) / parts;
+            first.advance(a0 + of_a * j, a0 + of_a * (j + 1));
+            second.advance(b0 + of_b * j, b0 + of_b * (j + 1));
+            const double before = length2, leaving = rate;
+            const double u = first.displacement(), v = second.displacement();
+            length2 = u * u + v * v;
+            rate = 2 * (u * first.velocity() + v * second.velocity());
+            largest2 = std::max(largest2, length2);
+            if (leaving > 0 && rate < 0) // as one oscillator: a parabola
+                largest2 = std::max(largest2, before + leaving * leaving / (leaving - rate) * step / 2);
+        }
+    };
+    const auto at = [](const std::vector<double>& samples, std::size_t i) {
+        return i < samples.size() ? samples[i] : 0;
+    };
+    for (std::size_t i = 0; i + 1 < std::max(a.size(), b.size()); ++i)
+        follow(at(a, i), at(a, i + 1), at(b, i), at(b, i + 1));
+    for (double t = 0; t < period_s / 2; t += dt_s)
+        follow(0, 0, 0, 0);
+    return omega * omega * std::sqrt(largest2);
 }
 
 } // namespace
@@ -270,6 +309,40 @@ IntensityMeasures intensity_measures(const Record& record)
 IntensityMeasures intensity_measures(const Motion& motion)
 {
     return measures_of(motion.acceleration_m_s2, motion.dt_s, motion);
+}
+
+IntensityMeasures intensity_of_pair(const Motion& first, const Motion& second, OfPair definition)
+{
+    IntensityMeasures pair = intensity_measures(first);
+    const IntensityMeasures other = intensity_measures(second);
+    const auto lengths = [&] {
+        const std::vector<double>&a = first.acceleration_m_s2, &b = second.acceleration_m_s2;
+        double sum = 0;
+        for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+            sum += std::hypot(i < a.size() ? a[i] : 0, i < b.size() ? b[i] : 0) *
+                   (i == 0 || i + 1 == std::max(a.size(), b.size()) ? 0.5 : 1);
+        return first.dt_s * sum;
+    };
+    const auto take = [&](double IntensityMeasures::*member, double at_once) {
+        pair.*member = size_of_pair(definition, pair.*member, other.*member, at_once);
+    };
+    take(&IntensityMeasures::pga_m_s2, peak_at_once(first.acceleration_m_s2, second.acceleration_m_s2));
+    take(&IntensityMeasures::pgv_m_s, peak_at_once(first.velocity_m_s, second.velocity_m_s));
+    take(&IntensityMeasures::pgd_m, peak_at_once(first.displacement_m, second.displacement_m));
+    take(&IntensityMeasures::arias_m_s, pair.arias_m_s + other.arias_m_s);
+    take(&IntensityMeasures::cav_m_s, lengths());
+    pair.pgv_per_pga_s = pair.pgv_m_s / pair.pga_m_s2;
+    return pair;
+}
+
+double spectral_acceleration_of_pair(const Motion& first, const Motion& second, double period_s, OfPair definition,
+                                     double damping_ratio)
+{
+    const std::vector<double>&a = first.acceleration_m_s2, &b = second.acceleration_m_s2;
+    if (definition == OfPair::at_once)
+        return spectral_acceleration_at_once(a, b, first.dt_s, period_s, damping_ratio);
+    return size_of_pair(definition, spectral_acceleration(a, first.dt_s, period_s, damping_ratio),
+                   spectral_acceleration(b, second.dt_s, period_s, damping_ratio), 0);
 }
 
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,

@@ -250,6 +250,28 @@ void check_precision(const KeyReader& keys, const Study& study)
         refuse("contact.damping = \"ends\"", "it");
 }
 
+/// A measure of pairs where there are none. @param keys of [fragility]
+void check_pairs(const KeyReader& keys, const Study& study)
+{
+    if (keys.has(fragility_keys::of_pair) && !study.has_pairs())
+        keys.refuse(fragility_keys::of_pair.name, "needs a second component, and there is none",
+                    "Give excitation.second (of synthetic motions excitation.second_ratio), or remove it.");
+}
+
+/// The motions of a fragility study and how strong they are. @param folder of the study
+void read_motions(const KeyReader& top, const std::filesystem::path& folder, Study& study)
+{
+    const KeyReader keys = top.table(study_keys::table);
+    if (!top.has("fragility"))
+        top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
+    const KeyReader fragility = top.table(fragility_keys::table);
+    study.fragility = read_fragility(fragility, keys, study.excitation, study.realizations);
+    list_records(fragility, folder, pga_range(study), study.excitation.second.has_value(), *study.fragility);
+    check_pairs(fragility, study);
+    if (study.sampling != Sampling::independent)
+        keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
+}
+
 /// What belongs to one base motion does not go with many.
 void check_mechanisms_of_fragility(const KeyReader& keys, const Study& study)
 {
@@ -370,14 +392,8 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
         study.surface = read_surface(top.table(surface_keys::table), study.realizations);
         check_axes(top.table(surface_keys::table), study.excitation, *study.surface);
     }
-    if (is_fragility) {
-        if (!top.has("fragility"))
-            top.missing("fragility", "study.kind = \"fragility\" needs its motions and intensities in [fragility].");
-        study.fragility = read_fragility(top.table(fragility_keys::table), keys, study.excitation, study.realizations);
-        list_records(top.table(fragility_keys::table), folder, pga_range(study), *study.fragility);
-        if (study.sampling != Sampling::independent)
-            keys.refuse("sampling", "is not used by study.kind = \"fragility\"", "Remove it.");
-    }
+    if (is_fragility)
+        read_motions(top, folder, study);
     if (study.cells() > most_realizations / study.realizations)
         keys.refuse("realizations",
                     fmt::format("in each of {} cells is {:.0f} in all, more than {}", study.cells(),
@@ -460,8 +476,14 @@ Study study_of(const TomlValue& root, const std::filesystem::path& file)
         find_beside(study.excitation.file, *root.find("excitation"));
     if (study.fragility && root.find("fragility")->find("records") != nullptr) {
         const auto& tables = root.find("fragility")->find("records")->entries;
-        for (std::size_t i = 0; i < study.fragility->records.size(); ++i)
-            find_beside(study.fragility->records[i].file, tables[i]);
+        for (std::size_t i = 0; i < study.fragility->records.size(); ++i) {
+            RecordSpec& record = study.fragility->records[i];
+            find_beside(record.file, tables[i]);
+            if (record.second && record.second->file)
+                find_beside(*record.second->file, *tables[i].find("second"));
+            if (record.vertical && record.vertical->file)
+                find_beside(*record.vertical->file, *tables[i].find("vertical"));
+        }
     }
     if (study.excitation.second && study.excitation.second->file)
         find_beside(*study.excitation.second->file, *root.find("excitation")->find("second"));

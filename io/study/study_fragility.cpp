@@ -1,6 +1,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/keys/kind_keys.hpp"
 #include "io/records/record.hpp"
+#include "io/records/record_pair.hpp"
 #include "io/study/study_parts.hpp"
 
 #include <fmt/format.h>
@@ -107,6 +108,49 @@ void check_refused(const std::string& pattern, const ReadFolder& folder)
     }
 }
 
+/// Of a record; none where it has no such table.
+std::optional<ComponentSpec> read_component(const KeyReader& record, const TableKey& key)
+{
+    if (!record.has(key))
+        return std::nullopt;
+    ComponentSpec component;
+    record.table(key).read_fields(key, component);
+    component.unit = acceleration_unit(component.unit);
+    return component;
+}
+
+/// The horizontal components of a folder as pairs: each one that is not part of a pair yet is the first of one.
+/// @throws InputError for one that no other belongs to
+std::vector<RecordSpec> pairs_of(const std::vector<ReadFolder::Component>& components,
+                                 const std::optional<std::string>& unit, PgaRange pga)
+{
+    std::vector<RecordSpec> pairs;
+    std::vector<bool> taken(components.size());
+    std::vector<std::optional<InputError>> refused(components.size());
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        if (taken[i] || components[i].vertical)
+            continue;
+        try {
+            const Record first = read_record(components[i].file, components[i].name, unit, pga);
+            const Record second = other_component(first, {"fragility.folder", {}, Direction::horizontal, unit}, pga);
+            const auto other = std::ranges::find_if(components, [&](const ReadFolder::Component& each) {
+                return each.file == second.file && (!each.name || each.name == second.component);
+            });
+            if (other != components.end())
+                taken[static_cast<std::size_t>(other - components.begin())] = true;
+            taken[i] = true;
+            pairs.push_back(
+                {components[i].file, components[i].name, unit, ComponentSpec{second.file, second.component, unit}});
+        } catch (const InputError& error) { // it may be the second one of a shorter component
+            refused[i] = error;
+        }
+    }
+    for (std::size_t i = 0; i < components.size(); ++i)
+        if (!taken[i] && refused[i])
+            throw InputError(*refused[i]);
+    return pairs;
+}
+
 } // namespace
 
 FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, const ExcitationSpec& excitation,
@@ -119,8 +163,11 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     keys.refuse_unused(table, "excitation.kind", motion);
     if (excitation.kind == ExcitationKind::record) {
         for (const KeyReader& each : keys.tables(records)) {
-            each.read_fields(records, f.records.emplace_back());
-            f.records.back().unit = acceleration_unit(f.records.back().unit);
+            RecordSpec& record = f.records.emplace_back();
+            each.read_fields(records, record);
+            record.unit = acceleration_unit(record.unit);
+            record.second = read_component(each, second);
+            record.vertical = read_component(each, vertical);
         }
         if (f.records.empty() == !keys.has(folder))
             keys.refuse_all(f.records.empty()
@@ -170,7 +217,8 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
     return f;
 }
 
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, FragilitySpec& fragility)
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, bool pairs,
+                  FragilitySpec& fragility)
 {
     if (!keys.has(fragility_keys::folder))
         return;
@@ -199,9 +247,11 @@ void list_records(const KeyReader& keys, const std::filesystem::path& beside, Pg
         if (component.vertical)
             fragility.left_out.push_back(fmt::format("{}{} (vertical)", fs::path(component.file).filename().string(),
                                                      component.name ? " " + *component.name : ""));
-        else
+        else if (!pairs)
             fragility.records.push_back({component.file, component.name, unit});
     }
+    if (pairs)
+        fragility.records = pairs_of(read.components, unit, pga);
     fragility.motions = static_cast<int>(fragility.records.size());
     if (fragility.records.empty())
         keys.refuse("folder", "has no horizontal component", "Give a folder with horizontal components of records.");

@@ -59,9 +59,6 @@ private:
         const ExcitationKind kind = study_.excitation.kind;
         if (rule.place != MechanismPlace::base)
             return;
-        if (rule.mechanism == Mechanism::vertical_motion && study_.structure.spatial())
-            section_.refuse(rule.name, "is a component of the excitation in space",
-                            "Give excitation.vertical_ratio, or excitation.vertical of a record.");
         const std::string unused =
             fmt::format("is not used by excitation.kind = \"{}\"", word_for(excitation_kind_names, kind));
         if (kind == ExcitationKind::none)

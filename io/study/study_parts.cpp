@@ -108,7 +108,7 @@ ComponentSpec read_component(const KeyReader& keys, const TableKey& key, Excitat
 {
     using namespace excitation_keys;
     const KeyReader table = keys.table(key);
-    for (const TextKey* each : {&other_file, &other_component, &other_unit})
+    for (const TextKey* each : {&component_keys::file, &component_keys::component, &component_keys::unit})
         if (study == StudyKind::fragility && table.has(*each))
             table.refuse(each->name, "belongs to one record, and a fragility study has many",
                          fmt::format("Give {0} = {{}}: every record then has its own; or give {0} in "
@@ -119,12 +119,13 @@ ComponentSpec read_component(const KeyReader& keys, const TableKey& key, Excitat
     component.unit = acceleration_unit(component.unit);
     if (kind != ExcitationKind::table)
         return component;
-    for (const TextKey* each : {&other_component, &other_unit})
+    for (const TextKey* each : {&component_keys::component, &component_keys::unit})
         if (table.has(*each))
             table.refuse(each->name, "is not used by excitation.kind = \"table\"",
                          "Remove it: the names of a table's columns have its unit.");
     if (!component.file)
-        table.missing(other_file.name, "A table of samples has one component: give the file of the other one.");
+        table.missing(component_keys::file.name,
+                      "A table of samples has one component: give the file of the other one.");
     return component;
 }
 

@@ -94,7 +94,9 @@ FragilitySpec read_fragility(const KeyReader& keys, const KeyReader& study, cons
 /// without accelerations and vertical components are listed in `FragilitySpec::left_out`.
 /// @param beside a relative folder is looked for here first, then in the working folder
 /// @param pga    as of `read_records`
-void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, FragilitySpec& fragility);
+/// @param pairs  the horizontal components are put together in pairs (`other_component`)
+void list_records(const KeyReader& keys, const std::filesystem::path& beside, PgaRange pga, bool pairs,
+                  FragilitySpec& fragility);
 
 /// @param study with its perturbations
 FactorDesign read_sensitivity(const KeyReader& keys, const Study& study);

@@ -268,15 +268,23 @@ std::string spread(const SpreadKey& key, const Spread& p)
     return entries.inline_table();
 }
 
-Entries entries_of(const FragilitySpec& f, const KeyUse& use)
+Entries entries_of(const FragilitySpec& f, bool pairs, const KeyUse& use)
 {
     using namespace fragility_keys;
     Entries out(table);
-    out.add_fields<MotionSetSpec>(table, f, f.records.empty() ? use : use.without({&motions}));
+    const KeyUse of_motions = f.records.empty() ? use : use.without({&motions});
+    out.add_fields<MotionSetSpec>(table, f, pairs ? of_motions : of_motions.without({&of_pair}));
     out.add_fields(table, f, use);
     std::vector<std::string> lines;
-    for (const RecordSpec& record : f.records)
-        lines.push_back(inline_fields(records, record));
+    for (const RecordSpec& record : f.records) {
+        Entries entries(records);
+        entries.add_fields(records, record);
+        if (record.second)
+            entries.add_text(second.name, inline_fields(second, *record.second));
+        if (record.vertical)
+            entries.add_text(vertical.name, inline_fields(vertical, *record.vertical));
+        lines.push_back(entries.inline_table());
+    }
     if (!lines.empty())
         out.add_text(records.name, list(lines));
     if (f.method == FragilityMethod::stripes) {
@@ -422,7 +430,7 @@ std::string study_text(const Study& study)
     if (study.replicas)
         table(twins_keys::table.name, entries_of(*study.replicas));
     if (study.fragility)
-        table(fragility_keys::table.name, entries_of(*study.fragility, use));
+        table(fragility_keys::table.name, entries_of(*study.fragility, study.has_pairs(), use));
     if (study.sensitivity)
         fields(sensitivity_keys::table, *study.sensitivity);
     if (study.rare)

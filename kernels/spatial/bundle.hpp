@@ -104,7 +104,50 @@ struct OfRealization {
         peak_radial,     ///< largest x2 + z2 of the top body's centre [m2]; step
         peak_across,     ///< largest |across . (x, z)| of the top body's centre [m]; step
         kinetic,         ///< 2 dt2 x the kinetic energy at the last step of a chunk [J s2]; step
-        potential,       ///< dt2 x the potential energy at the last step of a chunk [J s2]; step
+        potential,       ///< dt2 x the energy of gravity and ties at the last step of a chunk [J s2]; step
+        count
+    };
+};
+
+/// Fields of a body's mechanisms (`spatial/mechanisms/`); present only with a model with mechanisms. All zero is
+/// neutral.
+struct OfBodyMechanisms {
+    enum Field : int {
+        tie_spring,  ///< tie: dt2 k / m
+        tie_dashpot, ///< tie: dt c / m
+        tie_pull,    ///< tie: dt2 f / m [m]
+        tie_turning, ///< tie: dt c_r [kg m2]
+        count
+    };
+};
+
+/// Fields of a joint's mechanisms, in the joint's axes; as `OfBodyMechanisms`.
+struct OfJointMechanisms {
+    enum Field : int {
+        friction_drop,              ///< stribeck: 1 - mu_d / mu_s
+        per_stribeck_step,          ///< stribeck: 1 / (v_s dt) [1/m]
+        wear,                       ///< friction_wear: k [1/m]
+        adhesion,                   ///< adhesion: c [Pa]
+        dowel_stiffness,            ///< dowel: k_d [N/m]
+        per_dowel_stiffness,        ///< 1 / k_d, 0 without a dowel [m/N]
+        dowel_yield,                ///< dowel: F_d [N]
+        dowel_gap,                  ///< dowel: [m]
+        wedge,                      ///< wedge: vector part of the face's rotation, along the face (2)
+        wedge_at = wedge + 2,       ///< the point about which it is turned, from the anchor (2) [m]
+        broken = wedge_at + 2,      ///< adhesion: 1 once it has slipped or opened; step
+        dowel_set,                  ///< where the dowel's play is centred (2) [m]; step
+        dowel_at = dowel_set + 2,   ///< offset of the faces at the last step; 0 without a dowel (2) [m]; step
+        dowel_force = dowel_at + 2, ///< on the upper body, against its offset, at the last step (2) [N]; step
+        count = dowel_force + 2
+    };
+};
+
+/// Fields of the mechanisms of a realization as a whole.
+struct OfRealizationMechanisms {
+    enum Field : int {
+        joint_energy, ///< 2 x the work against dowels [J]; step
+        tie_energy,   ///< 2 dt2 x the work against the dashpots of ties [J s2]; step
+        tie_pending,  ///< what the last step's dashpots of ties add to it with the next step [J s2]; step
         count
     };
 };
@@ -122,11 +165,22 @@ struct OfBaseZ {
 
 namespace detail {
 
+struct WithMechanisms {
+    template <class Number>
+    static constexpr bool in(const Topology& topology)
+    {
+        return topology.model.mechanisms;
+    }
+};
+
 /// The lists of the spatial model; the tables of the base's motion are the last of them.
 template <class Number>
-using SpatialRows = RowList<Number, FieldList<OfBody, RowOf::block>, FieldList<OfJoint, RowOf::joint>,
-                            FieldList<OfRealization, RowOf::realization>, FieldList<OfBaseX, RowOf::step>,
-                            FieldList<OfBaseY, RowOf::step>, FieldList<OfBaseZ, RowOf::step>>;
+using SpatialRows =
+    RowList<Number, FieldList<OfBody, RowOf::block>, FieldList<OfJoint, RowOf::joint>,
+            FieldList<OfRealization, RowOf::realization>, FieldList<OfBodyMechanisms, RowOf::block, WithMechanisms>,
+            FieldList<OfJointMechanisms, RowOf::joint, WithMechanisms>,
+            FieldList<OfRealizationMechanisms, RowOf::realization, WithMechanisms>, FieldList<OfBaseX, RowOf::step>,
+            FieldList<OfBaseY, RowOf::step>, FieldList<OfBaseZ, RowOf::step>>;
 
 } // namespace detail
 

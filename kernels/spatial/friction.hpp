@@ -113,12 +113,22 @@ STYLOBATE_INLINE void normal_dashpot(const BedLoad<Real>& load, Real C_n, const 
 
 } // namespace detail
 
+/// The velocity of friction: sliding at the centre of the pressure, with the torsion as a path at the friction radius.
+/// @return its size in this step, > 0 [m]
+template <class Real>
+STYLOBATE_INLINE Real sliding_of(const BedComponents<Real>& rates)
+{
+    return detail::length_of(rates.x, rates.y, rates.twist);
+}
+
 /// All of what a pressed bed does to the upper body. Where the faces are apart (`load.force` is 0), everything is 0 and
 /// the springs are lost.
 /// @param springs as the last step left them
-template <class Real>
+/// @param limit_of (normal, rates) -> largest force of friction; 0 where `load.force` is 0 [N]
+template <class Real, class Limit>
 STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const FrictionLaw<Real>& law,
-                                          const BedMotion<Real>& motion, const FrictionSprings<Real>& springs)
+                                          const BedMotion<Real>& motion, const FrictionSprings<Real>& springs,
+                                          const Limit& limit_of)
 {
     const Real zero(0.0), one(1.0);
     const Real per_N = one / select(load.force > zero, load.force, one);
@@ -132,7 +142,7 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
     bed.normal = max_of(load.force - resistance.normal, zero);
 
     // friction: elastic trial, then return to the limit
-    const Real limit = law.mu * bed.normal;
+    const Real limit = limit_of(bed.normal, bed.rates);
     const Real sx = fma(law.K_t, bed.rates.x, springs.x), sy = fma(law.K_t, bed.rates.y, springs.y);
     const Real st = fma(torsion_ratio<Real>() * law.K_t, bed.rates.twist, springs.twist);
     const Real trial = detail::length_of(sx, sy, st);
@@ -156,6 +166,15 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
     bed.torque = {load.torque.x - Ky + centre.z * Fy, load.torque.y + Kx - centre.z * Fx,
                   load.torque.z + fms(centre.y, Fx, centre.x * Fy) - load.friction_radius * Ft};
     return bed;
+}
+
+/// The same with Coulomb's limit.
+template <class Real>
+STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const FrictionLaw<Real>& law,
+                                          const BedMotion<Real>& motion, const FrictionSprings<Real>& springs)
+{
+    return bed_force(load, law, motion, springs,
+                     [&law](Real normal, const BedComponents<Real>&) { return law.mu * normal; });
 }
 
 /// Energy of the springs of friction [J].

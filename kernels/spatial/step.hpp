@@ -8,31 +8,50 @@
 ///
 /// The phases run over all joints (in groups that fit the first-level cache) with their intermediate values in memory:
 /// joints are independent within a phase, so the processor works on several at once.
+///
+/// With a model with mechanisms (`StepModel`) the bundle has their rows, and the phases their instructions.
 
 #include "kernels/spatial/bed.hpp"
 #include "kernels/spatial/disc_bed.hpp"
 #include "kernels/spatial/friction.hpp"
+#include "kernels/spatial/mechanisms/mechanisms.hpp"
 #include "kernels/spatial/polygon_bed.hpp"
 #include "kernels/spatial/rows.hpp"
+
+#include <initializer_list>
+#include <type_traits>
 
 namespace stylobate::spatial {
 
 namespace detail {
 
 /// The intermediate values of one joint, in the order of its axes.
-template <class Real>
+template <class Real, bool mechanisms>
 struct JointScratch {
     BedPose<Real> pose;
     Vector<Real> upper_arm, lower_arm; ///< from the centres of mass to the upper anchor, frame of the base [m]
     BedMotion<Real> motion;
     BedLoad<Real> load;
 };
+template <class Real>
+struct JointScratch<Real, true> : JointScratch<Real, false> {
+    Vector<Real> place; ///< P along the axes of the lower body: `pose` is that of the face [m]
+};
+
+/// No ties: what the plain step has in their place.
+struct NoTies {
+    template <class Rows>
+    STYLOBATE_INLINE explicit NoTies(const Rows&)
+    {
+    }
+};
 
 } // namespace detail
 
-/// @tparam Layout how the rows lie, and how many joints go through the phases together (`kernels/rows.hpp`)
 /// @tparam Here see `kernel_table`
-template <class Real, class Here = void, class Layout = Packed>
+/// @tparam mechanisms `StepModel::mechanisms`
+/// @tparam Layout how the rows lie, and how many joints go through the phases together (`kernels/rows.hpp`)
+template <class Real, class Here = void, bool mechanisms = false, class Layout = Packed>
 class Stepper : Rows<Real, Layout> {
     using Base = Rows<Real, Layout>;
 
@@ -68,7 +87,7 @@ public:
 
 private:
     static constexpr int joint_group = Layout::joint_group;
-    using Scratch = detail::JointScratch<Real>;
+    using Scratch = detail::JointScratch<Real, mechanisms>;
     using Base::get;
     using Base::put;
 
@@ -124,7 +143,12 @@ private:
         s.motion.rotation = rotated_back(lower.turn, upper_turn - lower_turn);
 
         const Quaternion<Real> r = relative_rotation(lower.q, upper.q);
-        put(OfJoint::most_tilt, j, max_of(get(OfJoint::most_tilt, j), Real(0.0) - s.pose.turn.m33));
+        const Real tilt = Real(0.0) - s.pose.turn.m33; // of the bodies, also where a face is turned
+        if constexpr (mechanisms) {
+            s.place = s.pose.place;
+            mechanism(j).onto_face(r, s.pose, s.motion);
+        }
+        put(OfJoint::most_tilt, j, max_of(get(OfJoint::most_tilt, j), tilt));
         put(OfJoint::most_twist, j, max_of(get(OfJoint::most_twist, j), abs_of(r.z)));
     }
 
@@ -169,6 +193,7 @@ private:
     {
         Real friction_energy = get(OfRealization::friction_energy), dashpot_energy = get(OfRealization::dashpot_energy);
         Real slip = get(OfRealization::slip);
+        [[maybe_unused]] Real joint_energy(0.0);
         for (int j = begin; j < end; ++j) {
             const Scratch& s = scratch[j - begin];
             const FrictionLaw<Real> law{get(OfJoint::K_t, j), get(OfJoint::per_K_t, j), get(OfJoint::C_n, j),
@@ -177,7 +202,14 @@ private:
             const FrictionSprings<Real> springs{kept.x, kept.y, kept.z};
             const auto memory = [&](int k) { return get(OfJoint::dashpot, j, k); };
             const BedComponents<Real> before{memory(0), memory(1), memory(2), memory(3), memory(4), memory(5)};
-            const BedForce<Real> f = bed_force(s.load, law, s.motion, springs);
+            const BedForce<Real> f = bed_force_of(j, s, law, springs);
+            Vector<Real> on_upper = f.force, torque = f.torque;
+            if constexpr (mechanisms) {
+                const JointMechanism<Real, Layout> own = mechanism(j);
+                own.off_face(on_upper, torque);
+                joint_energy = joint_energy + own.add_dowel(s.place, on_upper);
+                own.end(s.load, f.slip);
+            }
 
             friction_energy = friction_energy + slip_loss(f, springs, law.per_K_t);
             dashpot_energy = dashpot_energy + dashpot_loss(f, before);
@@ -189,20 +221,38 @@ private:
             const Real fields[] = {now.normal, now.tilt_x, now.tilt_y, now.x, now.y, now.twist};
             for (int k = 0; k < 6; ++k)
                 put(OfJoint::dashpot, j, fields[k], k);
-            topology_.joint[j].reversed ? put_forces<true>(j, s, f) : put_forces<false>(j, s, f);
+            topology_.joint[j].reversed ? put_forces<true>(j, s, on_upper, torque)
+                                        : put_forces<false>(j, s, on_upper, torque);
         }
         put(OfRealization::friction_energy, friction_energy);
         put(OfRealization::dashpot_energy, dashpot_energy);
         put(OfRealization::slip, slip);
+        if constexpr (mechanisms)
+            put(OfRealizationMechanisms::joint_energy, get(OfRealizationMechanisms::joint_energy) + joint_energy);
     }
 
+    STYLOBATE_INLINE JointMechanism<Real, Layout> mechanism(int j) const { return {*this, j}; }
+
+    STYLOBATE_INLINE BedForce<Real> bed_force_of(int j, const Scratch& s, const FrictionLaw<Real>& law,
+                                                 const FrictionSprings<Real>& springs) const
+    {
+        if constexpr (mechanisms)
+            return bed_force(s.load, law, s.motion, springs, [&](Real normal, const BedComponents<Real>& rates) {
+                return mechanism(j).friction_limit(s.load, law.mu, normal, rates);
+            });
+        else
+            return bed_force(s.load, law, s.motion, springs);
+    }
+
+    /// @param on_upper, own_torque on the upper body at P, in the joint's frame
     template <bool reversed>
-    STYLOBATE_INLINE void put_forces(int j, const Scratch& s, const BedForce<Real>& f) const
+    STYLOBATE_INLINE void put_forces(int j, const Scratch& s, const Vector<Real>& on_upper,
+                                     const Vector<Real>& own_torque) const
     {
         const TopologyJoint joint = topology_.joint[j];
         const JointAxes axes(joint.normal);
         const Matrix<Real> turn = this->template matrix_along<reversed>(axes, joint.lower);
-        const Vector<Real> force = rotated(turn, f.force), torque = rotated(turn, f.torque);
+        const Vector<Real> force = rotated(turn, on_upper), torque = rotated(turn, own_torque);
         this->template put_along<reversed>(axes, OfJoint::force, j, force);
         this->template put_along<reversed>(axes, OfJoint::upper_moment, j, torque + cross(s.upper_arm, force));
         this->template put_along<reversed>(axes, OfJoint::lower_moment, j, torque + cross(s.lower_arm, force));
@@ -241,16 +291,22 @@ private:
         const Real now(static_cast<NumberOf<Real>>(step)), dt2 = get(OfRealization::dt2);
         Real kinetic = zero, potential = zero;
         Vector<Real> momentum = zero_vector<Real>();
+        [[maybe_unused]] std::conditional_t<mechanisms, Ties<Real, Layout>, detail::NoTies> ties(*this);
         for (int i = topology_.fixed; i < topology_.bodies; ++i) {
             const Load load = sum(i);
             const Real mass = get(OfBody::mass, i);
             const Vector<Real> u = this->vector(OfBody::x, i), d = this->vector(OfBody::dx, i);
-            const Vector<Real> l = multiply_add(dt2, load.moment, this->vector(OfBody::l_x, i));
-            const Vector<Real> e = multiply_add(get(OfBody::dt2_per_mass, i), load.force, d + push);
+            Vector<Real> l = this->vector(OfBody::l_x, i), drift = d + push;
+            if constexpr (mechanisms)
+                ties.slow(i, u, d, this->vector(OfBody::turn_x, i), drift, l);
+            l = multiply_add(dt2, load.moment, l);
+            const Vector<Real> e = multiply_add(get(OfBody::dt2_per_mass, i), load.force, drift);
             momentum = multiply_add(mass, d, momentum);
             if (audit) {
                 kinetic = kinetic + fma(mass, dot(d, e), dot(l, this->vector(OfBody::turn_x, i)));
                 potential = fnma(mass, dot(gravity, u), potential);
+                if constexpr (mechanisms)
+                    potential = potential + ties.held(i, u);
             }
             const Vector<Real> next = u + e;
             const Quaternion<Real> q = turned(this->attitude(i), l, inertia(i), correction(i));
@@ -259,11 +315,15 @@ private:
             this->put_vector(OfBody::x, i, next);
             put(OfBody::q_w, i, q.w);
             this->put_vector(OfBody::q_x, i, {q.x, q.y, q.z});
-            put_rotation(i, q, l);
+            [[maybe_unused]] const Vector<Real> turn = put_rotation(i, q, l);
+            if constexpr (mechanisms)
+                ties.moved(i, e, turn);
             const Real upright = one + get(OfBody::matrix, i, 4);
             const auto out = (upright < get(OfBody::least_upright, i)) | (next.y < get(OfBody::least_y, i));
             put(OfBody::inside, i, select(out, get(OfBody::inside, i), now));
         }
+        if constexpr (mechanisms)
+            ties.end();
         const Vector<Real> both = this->vector(OfRealization::base_step_x) + base;
         put(OfRealization::base_energy, get(OfRealization::base_energy) - dot(both, momentum));
         this->put_vector(OfRealization::base_step_x, 0, base);
@@ -285,7 +345,10 @@ private:
 template <class Real, class Here = void>
 void run_steps(const Topology& topology, const BundleOf<NumberOf<Real>>& bundle, int first, int last)
 {
-    Stepper<Real, Here>(topology, bundle).run(first, last);
+    if (topology.model.mechanisms)
+        Stepper<Real, Here, true>(topology, bundle).run(first, last);
+    else
+        Stepper<Real, Here>(topology, bundle).run(first, last);
 }
 
 } // namespace stylobate::spatial

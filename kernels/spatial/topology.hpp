@@ -24,6 +24,12 @@ struct TopologyJoint {
     bool reversed = false;
 };
 
+/// Which step runs a bundle, and which rows it has.
+struct StepModel {
+    bool mechanisms = false; ///< a mechanism of a joint or a body (`mechanisms/`) may be other than neutral
+    friend bool operator==(const StepModel&, const StepModel&) = default;
+};
+
 /// Bodies are numbered with the fixed ones first: they move with the base, and are not stepped.
 /// A view: the lists belong to the caller. (No container here: what is compiled for one instruction set must not leak
 /// into functions that others share.)
@@ -35,6 +41,7 @@ struct Topology {
     const TopologyJoint* joint = nullptr; ///< (joints)
     const Axis* correction = nullptr;     ///< (bodies) `correction_axis` of each
     const int* joint_lists = nullptr;     ///< (`joint_lists_size`) what `list_joints` makes
+    StepModel model{};
     /// How many rows a list of fields has.
     constexpr int rows(RowOf of) const
     {

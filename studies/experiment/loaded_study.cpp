@@ -64,8 +64,14 @@ std::string fingerprints(const Motions& motions)
 {
     std::string text;
     if (motions.drawn)
-        for (std::size_t i = 0; i < motions.drawn->size(); ++i)
-            text += fingerprint(*motions.drawn->motions[i], ("motion " + motions.drawn->names[i]).c_str());
+        for (std::size_t i = 0; i < motions.drawn->size(); ++i) {
+            const std::string name = "motion " + motions.drawn->names[i];
+            text += fingerprint(*motions.drawn->motions[i], name.c_str());
+            if (const auto second = motions.drawn->second(i))
+                text += fingerprint(*second, (name + ", second").c_str());
+            if (const auto vertical = motions.drawn->vertical(i))
+                text += fingerprint(*vertical, (name + ", vertical").c_str());
+        }
     if (motions.record)
         text += fingerprint(*motions.record, "record");
     if (motions.second)

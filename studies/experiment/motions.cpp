@@ -5,6 +5,7 @@
 #include "io/files/utf8.hpp"
 #include "io/records/ground_motion.hpp"
 #include "io/records/record.hpp"
+#include "io/records/record_pair.hpp"
 
 #include <fmt/format.h>
 
@@ -29,16 +30,40 @@ void stretch(Motion& motion, double scale)
         u *= scale * scale;
 }
 
+/// A component of a record as it drives a structure.
+std::shared_ptr<const Motion> motion_of(const Record& component, const ExcitationSpec& excitation)
+{
+    Motion motion = make_motion(component, excitation.baseline, excitation.band_pass);
+    if (excitation.time_scale != 1)
+        stretch(motion, excitation.time_scale);
+    return std::make_shared<const Motion>(std::move(motion));
+}
+
+/// The other components of a record in space, as the record or the excitation asks for them.
+void add_components(const Study& study, const Record& first, std::size_t number, MotionSet& set)
+{
+    const MotionSetSpec& spec = *study.design().motions;
+    const RecordSpec& record = spec.records[number];
+    const auto other = [&](const std::optional<ComponentSpec>& component, const char* key, Direction direction) {
+        const OtherComponent wanted{fmt::format("fragility.records[{}].{}", number, key),
+                                    component.value_or(ComponentSpec{}), direction, record.unit};
+        return component ? motion_of(other_component(first, wanted, pga_range(study)), study.excitation) : nullptr;
+    };
+    if (study.has_pairs())
+        set.seconds.push_back(
+            other(record.second ? record.second : study.excitation.second, "second", Direction::horizontal));
+    const bool of_all = study.vertical.has_value();
+    if (of_all || std::ranges::any_of(spec.records, [](const RecordSpec& each) { return each.vertical.has_value(); }))
+        set.verticals.push_back(
+            other(record.vertical || !of_all ? record.vertical : ComponentSpec{}, "vertical", Direction::vertical));
+}
+
 MotionSet read_motions(const Study& study)
 {
-    const ExcitationSpec& excitation = study.excitation;
-    const PgaRange pga = pga_range(study);
     MotionSet set;
     for (const RecordSpec& record : study.design().motions->records) {
-        Motion motion = make_motion(read_record(record.file, record.component, record.unit, pga), excitation.baseline,
-                                    excitation.band_pass);
-        if (excitation.time_scale != 1)
-            stretch(motion, excitation.time_scale);
+        const Record first = read_record(record.file, record.component, record.unit, pga_range(study));
+        add_components(study, first, set.size(), set);
         std::string name = std::filesystem::path(record.file).filename().string();
         if (record.component)
             name += " " + *record.component;
@@ -48,7 +73,7 @@ MotionSet read_motions(const Study& study)
                             "control character or a byte that is no UTF-8.\n  Rename the file.",
                             record.file, record.component ? " with its component" : ""));
         set.names.push_back(std::move(name));
-        set.motions.push_back(std::make_shared<const Motion>(std::move(motion)));
+        set.motions.push_back(motion_of(first, study.excitation));
     }
     return set;
 }
@@ -76,8 +101,9 @@ void measure(const MotionSetSpec& spec, MotionSet& set)
         return set.measures.back().value;
     };
     std::vector<IntensityMeasures> all;
-    for (const auto& motion : set.motions)
-        all.push_back(intensity_measures(*motion));
+    for (std::size_t i = 0; i < set.size(); ++i)
+        all.push_back(set.second(i) ? intensity_of_pair(*set.motions[i], *set.second(i), spec.of_pair)
+                                    : intensity_measures(*set.motions[i]));
     const auto field = [&](const std::string& name, double exponent, double IntensityMeasures::*member) {
         std::vector<double>& values = add(name, exponent);
         for (const IntensityMeasures& im : all)
@@ -94,8 +120,12 @@ void measure(const MotionSetSpec& spec, MotionSet& set)
         periods.push_back(spec.period_s);
     for (const double period : periods) {
         std::vector<double>& values = add(measure_name(IntensityMeasure::sa, period), 1);
-        for (const auto& motion : set.motions)
-            values.push_back(spectral_acceleration(motion->acceleration_m_s2, motion->dt_s, {period}).front());
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            const Motion& motion = *set.motions[i];
+            values.push_back(set.second(i)
+                                 ? spectral_acceleration_of_pair(motion, *set.second(i), period, spec.of_pair)
+                                 : spectral_acceleration(motion.acceleration_m_s2, motion.dt_s, {period}).front());
+        }
     }
     field("d5_95_s", 0, &IntensityMeasures::d5_95_s);
     field("pgv_per_pga_s", 0, &IntensityMeasures::pgv_per_pga_s);

@@ -274,6 +274,7 @@ private:
                         Json::object().member("if", has_property(deciding.substr(0, dot), kind)).member("then", then));
                 }
             }
+        add_needs_of_models(list);
         // whole tables
         for (const auto& [deciding, values] : consequences(study_file_keys(), deciding_))
             for (const auto& [value, consequence] : values) {
@@ -284,6 +285,32 @@ private:
                               .member("then", consequence_of(consequence)));
             }
         return list;
+    }
+
+    /// Adds keys that one model needs under a condition of their own table: K_N in the plane, of contacts that yield.
+    static void add_needs_of_models(Json& list)
+    {
+        for (const TomlKey* table : study_file_keys().keys)
+            for (const TomlKey* key : table->keys) {
+                if (!key->needed() || key->models.size() != 1 || key->used.size() != 1 ||
+                    !key->used.front().key.starts_with(table->name + "."))
+                    continue;
+                const Condition& condition = key->used.front();
+                const std::string name = condition.key.substr(table->name.size() + 1);
+                Json in_space = has_property("structure", has_property("dimensions", is_value(model_key, "3")));
+                if (key->used_where(model_key, "2"))
+                    in_space = Json::object().member("not", in_space);
+                const Json where = Json::object().member(
+                    "properties",
+                    Json::object().member(name, Json::object().member("enum", Json::list(condition.values))));
+                const Json needs =
+                    Json::object()
+                        .member("if", where)
+                        .member("then",
+                                Json::object().member("required", Json::list().item(std::string_view(key->name))));
+                const Json then = Json::object().member("properties", Json::object().member(table->name, needs));
+                list.item(Json::object().member("if", in_space).member("then", then));
+            }
     }
 
     const std::map<std::string, std::vector<std::string>> deciding_ = deciding_keys();

@@ -133,6 +133,7 @@ const std::vector<ReducedStudy>& reduced_studies()
         surface("record", 1, 3, 4, 12),
         surface("restored_column", 1, 3, 4, 12),
         surface("rigid_column", 1, 4, 4, 12),
+        surface("round_column", 0.5, 1.5, 3, 6),
         {"sensitivity_column", {"sensitivity.samples=6", "sensitivity.inner=2", "excitation.pga_m_s2=7"}},
         surface("small_scale_clamped", 1, 3, 6, 16),
         surface("small_scale_colonnade", 1, 3, 6, 16),

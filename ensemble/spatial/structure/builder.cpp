@@ -70,6 +70,22 @@ void set_member(const MechanismParameter& parameter, std::size_t place, double v
         realization.change.** change = value;
 }
 
+/// Whether the step of a realization needs rows for it: the others are values of bodies, joints and the base.
+bool has_rows(Mechanism mechanism)
+{
+    switch (mechanism) {
+    case Mechanism::stribeck:
+    case Mechanism::friction_wear:
+    case Mechanism::adhesion:
+    case Mechanism::dowel:
+    case Mechanism::wedge:
+    case Mechanism::tie:
+        return true;
+    default:
+        return false;
+    }
+}
+
 } // namespace
 
 SpatialBuilder::SpatialBuilder(const Study& study)
@@ -85,6 +101,9 @@ SpatialBuilder::SpatialBuilder(const Study& study)
         if (acting.rule->models == MechanismModels::planar)
             throw InputError(fmt::format("mechanisms.{}: is not available with structure.dimensions = 3. Remove it.",
                                          acting.rule->name));
+    with_mechanisms_ = std::any_of(mechanisms_.begin(), mechanisms_.end(), [](const ActingMechanism& acting) {
+        return acting.may_act && has_rows(acting.rule->mechanism);
+    });
 }
 
 Realization SpatialBuilder::build(RealizationValues values, RealizationHeader header) const
@@ -94,6 +113,7 @@ Realization SpatialBuilder::build(RealizationValues values, RealizationHeader he
     realization.space.initial_tilt_rad = study_->initial.tilt_rad;
     realization.space.initial_tilt_direction_rad = study_->initial.tilt_direction_rad;
     realization.space.initial_tilt_block = study_->initial.tilt_from_block;
+    realization.space.with_mechanisms = with_mechanisms_;
     realization.space.base_tilt_rad = {values[Quantity::tilt][0], values[Quantity::tilt_x][0]};
     const auto moved = std::find_if(mechanisms_.begin(), mechanisms_.end(), [](const ActingMechanism& acting) {
         return acting.rule->mechanism == Mechanism::drum_offset;

@@ -58,6 +58,7 @@ private:
     RealizationValues nominal_;
     bool dressed_; ///< the topmost drum of each column takes up what the heights of others differ
     bool has_ground_;
+    bool with_mechanisms_ = false; ///< a mechanism that the plain step does not have may act
 };
 
 } // namespace stylobate

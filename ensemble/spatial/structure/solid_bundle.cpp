@@ -1,5 +1,7 @@
 #include "ensemble/spatial/structure/solid_bundle.hpp"
 
+#include "ensemble/spatial/structure/solid_mechanisms.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -145,6 +147,7 @@ SolidTopology::SolidTopology(const SpatialStructure& pattern) : place_of_(patter
     topology_.joints = static_cast<int>(joints_.size());
     topology_.joint = joints_.data();
     topology_.correction = corrections_.data();
+    topology_.model = model_in_space(pattern);
     lists_.resize(static_cast<std::size_t>(spatial::joint_lists_size(topology_)));
     spatial::list_joints(topology_, lists_.data());
 }
@@ -158,6 +161,8 @@ void store_solids(const Realization& r, const SolidTopology& topology, const spa
                    kernel.correction[k], b, k, lane);
     for (int j = 0; j < kernel.joints; ++j)
         store_joint(r.space.joints[static_cast<std::size_t>(j)], r, kernel.joint[j].reversed, b, j, lane);
+    if (kernel.model.mechanisms)
+        store_solid_mechanisms(r, topology, b, lane);
     const double about_z = r.space.base_tilt_rad[0], about_x = r.space.base_tilt_rad[1];
     b.at(W::dt2, lane) = dt2;
     b.at(W::gravity_dx, lane) = dt2 * r.gravity_m_s2 * std::sin(about_z) * std::cos(about_x);

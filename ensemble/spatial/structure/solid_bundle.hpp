@@ -32,8 +32,8 @@ private:
     spatial::Topology topology_;
 };
 
-/// Writes a realization into a lane that is all zeros: all parameters of its bodies and joints, and the reference
-/// state (upright, faces just touching).
+/// Writes a realization into a lane that is all zeros: all parameters of its bodies, joints and mechanisms, and the
+/// reference state (upright, faces just touching, but for those that a wedge turns).
 void store_solids(const Realization& realization, const SolidTopology& topology, const spatial::Bundle& bundle,
                   int lane);
 

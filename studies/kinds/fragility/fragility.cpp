@@ -34,6 +34,21 @@ Limits jackknife_limits(double value, const std::vector<double>& without)
     return {value - reach, value + reach};
 }
 
+const char* pair_words(OfPair definition)
+{
+    switch (definition) {
+    case OfPair::first:
+        return "that of the first one";
+    case OfPair::larger:
+        return "the larger one of both";
+    case OfPair::geometric_mean:
+        return "the geometric mean of both";
+    case OfPair::at_once:
+        return "that of their vector at once";
+    }
+    return "";
+}
+
 /// Where a realization stands in the design.
 struct Place {
     std::uint32_t motion = 0, stripe = 0, structure = 0;
@@ -195,6 +210,9 @@ private:
             out_.says.push_back(fmt::format("{} of the {} motions are different; equal ones (up to a factor) count as "
                                             "one in all intervals.",
                                             out_.different, out_.motions));
+        if (study_.has_pairs())
+            out_.says.push_back(fmt::format("The intensity of two horizontal components is {} (fragility.of_pair).",
+                                            pair_words(study_.fragility->of_pair)));
         if (grounds < least_records)
             out_.says.push_back(fmt::format("{} different motion{} too few for an interval over motions (at least {}): "
                                             "shares and curves are those of {}, and have no interval.",

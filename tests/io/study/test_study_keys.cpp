@@ -159,6 +159,9 @@ std::vector<std::string> samples()
              {"kind = \"harmonic" + motion + "second_ratio = 0.5\n", "kind = \"noise" + motion + "second_ratio = 0.5\n",
               std::string("kind = \"record\"\nfile = \"a\"\nsecond = { }\nvertical = { }\n")})
             all.push_back(single(shaking, structure, area_contact));
+    all.push_back("[study]\nkind = \"fragility\"\nrealizations = 4\n" + solid_drums + area_contact +
+                  "[excitation]\nkind = \"noise\"\nfrequency_hz = 1.7\nsecond_ratio = 0.5\n[fragility]\nmotions = 9\n"
+                  "intensity = { from = 1, to = 2, count = 2 }\n");
     all.push_back(single(harmonic, solid_bays, area_contact) + every_mechanism(true));
     all.push_back(single(harmonic) + "[mechanisms]\nvertical_motion = { file = \"v\" }\n");
     // each mechanism with as little as it takes

@@ -47,6 +47,8 @@ public:
     };
 
     explicit Scene(double step_s, Isa isa = Isa::scalar) : dt_(step_s), table_(&kernels(isa)) {}
+    /// From the next `build` on. All are neutral then.
+    void use_mechanisms(bool use = true) { model_.mechanisms = use; }
 
     /// @param centre in the reference state; @param height along y
     int drum(const Vec& centre, double radius, double height, double mass, bool fixed = false)
@@ -78,6 +80,7 @@ public:
         topology_.top = topology_.bodies - 1;
         topology_.joints = static_cast<int>(joints_.size());
         topology_.joint = joints_.data();
+        topology_.model = model_;
         correction_.clear();
         for (const BodySpec& b : bodies_) {
             topology_.fixed += b.fixed;
@@ -107,6 +110,11 @@ public:
     double& at(OfBody::Field field, int i) { return bundle_.at(field, i, 0); }
     double& at(OfJoint::Field field, int j) { return bundle_.at(field, j, 0); }
     double& at(OfRealization::Field field) { return bundle_.at(field, 0); }
+    double& at(OfBodyMechanisms::Field field, int i) { return bundle_.at(field, i, 0); }
+    double& at(OfJointMechanisms::Field field, int j, int k = 0)
+    {
+        return bundle_.at(static_cast<OfJointMechanisms::Field>(field + k), j, 0);
+    }
     template <class Field>
     Vec vector(Field field, int i)
     {
@@ -212,8 +220,18 @@ public:
     double friction() { return at(OfRealization::friction_energy); }
     double dashpots() { return at(OfRealization::dashpot_energy); }
     double base_work() { return at(OfRealization::base_energy) / (2 * dt_ * dt_); }
+    /// Work against dowels, and against the dashpots of ties.
+    double mechanisms()
+    {
+        using W = OfRealizationMechanisms;
+        return model_.mechanisms ? 0.5 * (bundle_.at(W::joint_energy, 0) + bundle_.at(W::tie_energy, 0) / (dt_ * dt_))
+                                 : 0;
+    }
     /// What stays constant.
-    double balance() { return kinetic() + potential() + elastic() + springs() + friction() + dashpots() - base_work(); }
+    double balance()
+    {
+        return kinetic() + potential() + elastic() + springs() + friction() + dashpots() + mechanisms() - base_work();
+    }
 
     Vec momentum()
     {
@@ -308,6 +326,7 @@ private:
     std::vector<Axis> correction_;
     std::vector<int> lists_;
     Topology topology_;
+    StepModel model_;
     SceneMemory memory_{nullptr, &std::free};
     Bundle bundle_;
     long steps_ = 0;

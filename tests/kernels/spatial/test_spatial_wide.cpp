@@ -29,8 +29,9 @@ constexpr Pose poses[] = {Pose::reference, Pose::standing, Pose::rocking, Pose::
 
 /// Two columns with beams of three directions: discs on discs of other sizes, a beam on an abacus and one on a round
 /// drum, butt joints along x and along z, bodies with three inertias.
-void build_colonnade(Scene& s)
+void build_colonnade(Scene& s, bool with_mechanisms)
 {
+    s.use_mechanisms(with_mechanisms);
     const Scene::Law law{1e9, 8e8, 0.6, 3e5, 2e5};
     const int ground_1 = s.box({0, -0.5, 0}, {3, 1, 3}, 1, true), ground_2 = s.box({3, -0.5, 0}, {3, 1, 3}, 1, true);
     const int low_1 = s.drum({0, 0.5, 0}, 0.5, 1, 1900), high_1 = s.drum({0, 1.5, 0}, 0.46, 1, 1700);
@@ -74,6 +75,8 @@ public:
             for (int f = OfJoint::spring_1; pose != Pose::reference && f < OfJoint::normal; ++f)
                 s.at(static_cast<OfJoint::Field>(f), j) = uniform(-1e4, 1e4);
         }
+        if (s.topology().model.mechanisms)
+            give_mechanisms(s);
         s.at(OfRealization::gravity_dx) = dt * dt * uniform(-0.1, 0.1);
         s.at(OfRealization::across_x) = uniform(-1, 1);
         s.at(OfRealization::across_z) = uniform(-1, 1);
@@ -87,6 +90,49 @@ public:
     }
 
 private:
+    /// Each one in a part of the realizations, in a part of the joints and bodies.
+    void give_mechanisms(Scene& s)
+    {
+        using J = OfJointMechanisms;
+        using M = OfBodyMechanisms;
+        const double dt = s.step_s();
+        const std::uint64_t some = word();
+        const auto gives = [&](int mechanism) { return (some >> mechanism & 1) && word() % 4 > 0; };
+        for (int j = 0; j < s.topology().joints; ++j) {
+            if (gives(0)) {
+                s.at(J::friction_drop, j) = uniform(0, 1);
+                s.at(J::per_stribeck_step, j) = 1 / (uniform(0.001, 0.5) * dt);
+            }
+            if (gives(1)) {
+                s.at(J::wear, j) = uniform(0, 100);
+                s.at(OfJoint::slip, j) = uniform(0, 0.01);
+            }
+            if (gives(2)) {
+                s.at(J::adhesion, j) = uniform(0, 1e5);
+                s.at(J::broken, j) = static_cast<double>(word() % 2);
+            }
+            if (gives(3)) {
+                const double k = std::pow(10, uniform(6, 9));
+                s.at(J::dowel_stiffness, j) = k;
+                s.at(J::per_dowel_stiffness, j) = 1 / k;
+                s.at(J::dowel_yield, j) = uniform(0, 1e4);
+                s.at(J::dowel_gap, j) = uniform(0, 1e-3);
+                for (int f = J::dowel_set; f < J::count; ++f)
+                    s.at(J::dowel_set, j, f - J::dowel_set) = uniform(-1e-3, 1e-3);
+            }
+            if (gives(4))
+                for (int f = J::wedge; f < J::broken; ++f)
+                    s.at(J::wedge, j, f - J::wedge) = uniform(-0.02, 0.02);
+        }
+        for (int i = s.topology().fixed; i < s.topology().bodies; ++i)
+            if (gives(5)) {
+                s.at(M::tie_spring, i) = dt * dt * uniform(-1e2, 1e3);
+                s.at(M::tie_dashpot, i) = dt * uniform(0, 10);
+                s.at(M::tie_pull, i) = dt * dt * uniform(-2, 2);
+                s.at(M::tie_turning, i) = dt * uniform(0, 1e3);
+            }
+    }
+
     Vec random_vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
 
     void move(Scene& s, int i, Pose pose)
@@ -143,14 +189,19 @@ long first_difference(const State& a, const State& b)
     return -1;
 }
 
-class SpatialWide : public ::testing::Test {
+/// @param whether the model has mechanisms
+class SpatialWide : public ::testing::TestWithParam<bool> {
 protected:
-    SpatialWide() { build_colonnade(scene); }
+    SpatialWide() { build_colonnade(scene, GetParam()); }
 
     Scene scene{1e-4};
 };
 
-TEST_F(SpatialWide, EachLaneHasTheBitsOfTheScalarKernel)
+INSTANTIATE_TEST_SUITE_P(Models, SpatialWide, ::testing::Bool(), [](const ::testing::TestParamInfo<bool>& model) {
+    return model.param ? "mechanisms" : "plain";
+});
+
+TEST_P(SpatialWide, EachLaneHasTheBitsOfTheScalarKernel)
 {
     StateMaker maker(1);
     for (int round = 0; round < 40; ++round)
@@ -167,7 +218,7 @@ TEST_F(SpatialWide, EachLaneHasTheBitsOfTheScalarKernel)
 }
 
 #if defined(__x86_64__)
-TEST_F(SpatialWide, ScalarHasTheSameBitsWithoutTheInstruction)
+TEST_P(SpatialWide, ScalarHasTheSameBitsWithoutTheInstruction)
 {
     StateMaker maker(2);
     for (int round = 0; round < 8; ++round) {
@@ -179,7 +230,7 @@ TEST_F(SpatialWide, ScalarHasTheSameBitsWithoutTheInstruction)
 }
 #endif
 
-TEST_F(SpatialWide, TheStatesAreOfEveryKind)
+TEST_P(SpatialWide, TheStatesAreOfEveryKind)
 {
     // so that the comparisons here cannot pass because nothing happens
     StateMaker maker(3);
@@ -201,7 +252,7 @@ TEST_F(SpatialWide, TheStatesAreOfEveryKind)
     }
 }
 
-TEST_F(SpatialWide, NeighboursDoNotMatter)
+TEST_P(SpatialWide, NeighboursDoNotMatter)
 {
     StateMaker maker(4);
     const double infinite = std::numeric_limits<double>::infinity();
@@ -228,7 +279,7 @@ TEST_F(SpatialWide, NeighboursDoNotMatter)
         }
 }
 
-TEST_F(SpatialWide, AChunkInPiecesHasTheSameBits)
+TEST_P(SpatialWide, AChunkInPiecesHasTheSameBits)
 {
     StateMaker maker(5);
     for (const Isa isa : usable_isas())
@@ -242,6 +293,36 @@ TEST_F(SpatialWide, AChunkInPiecesHasTheSameBits)
             got = together(scene.topology(), kernels(isa), got, 40, chunk_steps);
             for (std::size_t lane = 0; lane < starts.size(); ++lane)
                 ASSERT_EQ(first_difference(got[lane], want[lane]), -1) << to_string(isa) << ", lane " << lane;
+        }
+}
+
+TEST(SpatialWideMechanisms, NeutralOnesGiveTheBitsOfThePlainStep)
+{
+    Scene plain(1e-4), neutral(1e-4), others(1e-4);
+    build_colonnade(plain, false);
+    build_colonnade(neutral, true);
+    build_colonnade(others, true);
+    StateMaker maker(6);
+    const auto size = bundle_registers(plain.topology());
+    const auto tables = static_cast<std::size_t>(3 * chunk_steps);
+    for (const Isa isa : usable_isas())
+        for (int round = 0; round < 20; ++round) {
+            const State start = maker.make(plain, maker.any_pose());
+            const State want = alone(plain.topology(), start, 0, chunk_steps);
+            // the same with rows of mechanisms before the tables, all neutral, beside lanes that have some
+            State same(start);
+            same.insert(same.end() - static_cast<std::ptrdiff_t>(tables), bundle_registers(neutral.topology()) - size,
+                        0.0);
+            std::vector<State> starts;
+            for (int lane = 0; lane < kernels(isa).lanes; ++lane)
+                starts.push_back(maker.make(others, maker.any_pose()));
+            const std::size_t lane = maker.word() % starts.size();
+            starts[lane] = same;
+            State got = together(neutral.topology(), kernels(isa), starts, 0, chunk_steps)[lane];
+            got.resize(size - tables);
+            State rest(want);
+            rest.resize(size - tables);
+            ASSERT_EQ(first_difference(got, rest), -1) << to_string(isa) << ", lane " << lane << ", round " << round;
         }
 }
 
