@@ -3,6 +3,7 @@
 /// are counted from the code itself.
 
 #include "kernels/real.hpp"
+#include "kernels/spatial/topology.hpp"
 
 #include <cmath>
 
@@ -103,5 +104,7 @@ inline Counted exponent_of(Counted a)
 
 /// What a block costs in one step: the step counted on a bundle of one realization that rocks (`counted_step.cpp`).
 OperationCounts operations_per_block_step(int blocks);
+/// What a drum costs in one step in space, with its bed.
+OperationCounts operations_per_spatial_step(spatial::BedKind kind);
 
 } // namespace stylobate

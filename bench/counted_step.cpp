@@ -2,11 +2,24 @@
 
 #include "bench/counted.hpp"
 #include "bench/scenes.hpp"
+#include "bench/spatial_column.hpp"
 #include "kernels/planar/step.hpp"
+#include "kernels/spatial/step.hpp"
 
 #include <vector>
 
 namespace stylobate {
+
+namespace {
+
+OperationCounts counted_per(long block_steps)
+{
+    return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
+            counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,
+            counted.store / block_steps};
+}
+
+} // namespace
 
 OperationCounts operations_per_block_step(int blocks)
 {
@@ -34,10 +47,18 @@ OperationCounts operations_per_block_step(int blocks)
     }
     counted = {};
     Stepper<Counted, Baseline, false, true>(topology, b).run(0, 16);
-    const long block_steps = 16L * (blocks - 1);
-    return {counted.add / block_steps,  counted.mul / block_steps,  counted.fma / block_steps,
-            counted.div / block_steps,  counted.sqrt / block_steps, counted.load / block_steps,
-            counted.store / block_steps};
+    return counted_per(16L * (blocks - 1));
+}
+
+OperationCounts operations_per_spatial_step(spatial::BedKind kind)
+{
+    const spatial::Column column(kind);
+    std::vector<double> memory(spatial::bundle_registers(column.topology()), 0.0);
+    const spatial::Bundle b = spatial::bind_bundle(column.topology(), 1, memory.data());
+    column.load(b, 0);
+    counted = {};
+    spatial::Stepper<Counted>(column.topology(), b).run(0, chunk_steps);
+    return counted_per(static_cast<long>(chunk_steps) * spatial::Column::drums);
 }
 
 } // namespace stylobate
