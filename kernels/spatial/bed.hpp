@@ -89,7 +89,19 @@ struct BedBody {
                          ///< body's frame [m]
 };
 
-/// Where the upper face lies in the joint's frame:
+/// Where the upper face lies in the joint's frame, from what is known in the frame of the base.
+/// @param apart displacement of the upper anchor against the lower one since the reference state, where they coincide
+/// @param r     `relative_rotation` of the two bodies
+/// @param turn  R - 1 of the lower body
+template <class Real>
+STYLOBATE_INLINE BedPose<Real> bed_pose(const Vector<Real>& apart, const Quaternion<Real>& r, const Matrix<Real>& turn,
+                                        Axis normal)
+{
+    const Vector<Real> e = to_joint(Vector<Real>{r.x, r.y, r.z}, normal);
+    return {minus_identity(Quaternion<Real>{r.w, e.x, e.y, e.z}), to_joint(rotated_back(turn, apart), normal)};
+}
+
+/// The same from the two bodies:
 ///
 ///   P = R_l^T [(u_u - u_l) + (R_u - 1) a_u - (R_l - 1) a_l]
 ///
@@ -99,9 +111,7 @@ STYLOBATE_INLINE BedPose<Real> bed_pose(const BedBody<Real>& lower, const BedBod
 {
     const Vector<Real> apart = (upper.displacement - lower.displacement) +
                                (displaced(upper.turn, upper.anchor) - displaced(lower.turn, lower.anchor));
-    const Quaternion<Real> r = relative_rotation(lower.q, upper.q);
-    const Vector<Real> e = to_joint(Vector<Real>{r.x, r.y, r.z}, normal);
-    return {minus_identity(Quaternion<Real>{r.w, e.x, e.y, e.z}), to_joint(rotated_back(lower.turn, apart), normal)};
+    return bed_pose(apart, relative_rotation(lower.q, upper.q), lower.turn, normal);
 }
 
 } // namespace stylobate::spatial

@@ -129,10 +129,13 @@ private:
         };
         const BedBody<Real> lower = body(joint.lower, OfJoint::lower_anchor),
                             upper = body(joint.upper, OfJoint::upper_anchor);
-        s.pose = bed_pose(lower, upper, Axis::z);
-
-        s.upper_arm = rotated(upper.turn, upper.anchor);
-        s.lower_arm = lower.anchor + (displaced(upper.turn, upper.anchor) + (upper.displacement - lower.displacement));
+        const Vector<Real> upper_anchor = displaced(upper.turn, upper.anchor),
+                           lower_anchor = displaced(lower.turn, lower.anchor),
+                           apart = upper.displacement - lower.displacement;
+        const Quaternion<Real> r = relative_rotation(lower.q, upper.q);
+        s.pose = bed_pose(apart + (upper_anchor - lower_anchor), r, lower.turn, Axis::z);
+        s.upper_arm = upper.anchor + upper_anchor;
+        s.lower_arm = lower.anchor + (upper_anchor + apart);
         const auto moved = [&](int i, const Vector<Real>& turn, const Vector<Real>& arm) {
             return this->template vector_along<reversed>(axes, OfBody::dx, i) + cross(turn, arm);
         };
@@ -142,7 +145,6 @@ private:
                                                              moved(joint.lower, lower_turn, s.lower_arm));
         s.motion.rotation = rotated_back(lower.turn, upper_turn - lower_turn);
 
-        const Quaternion<Real> r = relative_rotation(lower.q, upper.q);
         const Real tilt = Real(0.0) - s.pose.turn.m33; // of the bodies, also where a face is turned
         if constexpr (mechanisms) {
             s.place = s.pose.place;
