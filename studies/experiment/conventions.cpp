@@ -114,11 +114,31 @@ std::string shaking_words(const Study& study)
     return "";
 }
 
+/// Direction and components of the shaking in space.
+std::string component_words(const Study& study)
+{
+    const ExcitationSpec& e = study.excitation;
+    if (!study.structure.spatial() || e.kind == ExcitationKind::none)
+        return "";
+    std::string text = drawn(study, Quantity::direction)
+                           ? ", direction drawn"
+                           : fmt::format(", along {:.4g} degrees from x", e.direction_deg);
+    if (study.has_pairs())
+        text += e.second_ratio > 0 ? fmt::format(" with {:.3g} of it across", e.second_ratio)
+                                   : std::string(" with a second component across");
+    if (study.vertical)
+        text += ", with its vertical component";
+    else if (e.vertical_ratio > 0)
+        text += fmt::format(", vertically {:.3g} of it", e.vertical_ratio);
+    return text;
+}
+
 } // namespace
 
 std::string conventions_text(const Study& study)
 {
-    return contact_words(study) + "; " + shaking_words(study) + (drawn(study, Quantity::phase) ? ", phase drawn" : "");
+    return contact_words(study) + "; " + shaking_words(study) + (drawn(study, Quantity::phase) ? ", phase drawn" : "") +
+           component_words(study);
 }
 
 std::optional<std::string> conventions_text_of(const std::string& study_toml)

@@ -81,6 +81,20 @@ TEST(Conventions, OfOtherShakings)
                  {"velocity pulse of ", "K_N 3e+09 N/m² (drawn: lognormal, sigma_ln 0.7)"});
 }
 
+TEST(Conventions, OfTheShakingInSpace)
+{
+    const std::string study = "[study]\nkind = \"single\"\n[structure]\ndimensions = 3\nblocks = 3\ndrum_width_m = 1\n"
+                              "drum_height_m = 1\ndensity_kg_m3 = 2700\n[contact]\nnormal_stiffness_n_m3 = 3e9\n"
+                              "friction = 0.7\n[excitation]\nkind = \"noise\"\nfrequency_hz = 2\npga_m_s2 = 3\n";
+    expect_parts(conventions_text(parse_study(study, "study")), {"along 0 degrees from x"});
+    expect_parts(conventions_text(
+                     parse_study(study + "direction_deg = 30\nsecond_ratio = 0.8\nvertical_ratio = 0.5\n", "study")),
+                 {"along 30 degrees from x with 0.8 of it across, vertically 0.5 of it"});
+    expect_parts(
+        conventions_text(parse_study(study + "[perturbation]\ndirection = { distribution = \"uniform\" }\n", "study")),
+        {"direction drawn"});
+}
+
 /// A text that this version cannot read has no line; one that it can has the same as the study.
 TEST(Conventions, OfTheTextOfAStudy)
 {
