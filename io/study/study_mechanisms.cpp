@@ -151,7 +151,9 @@ private:
         if (keys.has("ratio"))
             keys.refuse("ratio", "and file exclude each other", "Give one of the two.");
         VerticalSpec vertical;
-        keys.read_fields(mechanism_key(Mechanism::vertical_motion), vertical);
+        const MechanismKey& key = mechanism_key(Mechanism::vertical_motion);
+        keys.read_fields<ComponentSpec>(key, vertical);
+        keys.read_fields(key, vertical);
         vertical.unit = acceleration_unit(vertical.unit);
         study_.vertical = vertical;
     }

@@ -387,7 +387,7 @@ std::string text_of(const MechanismSpec& spec, const Study& study)
     else if (!spec.places.empty())
         out.add(*key.places, spec.places);
     if (spec.mechanism == Mechanism::vertical_motion && study.vertical)
-        return out.add_fields(key, *study.vertical).inline_table();
+        return out.add_fields<ComponentSpec>(key, *study.vertical).add_fields(key, *study.vertical).inline_table();
     const std::span<const MechanismParameter> rule = rule_of(spec.mechanism).parameters;
     for (std::size_t i = 0; i < key.parameters.size(); ++i)
         if (key_use(study).of(key.parameters[i]) &&

@@ -4,22 +4,24 @@
 
 #include "tests/io/records/record_network_files.hpp"
 
+#include <optional>
+
 namespace stylobate {
 namespace {
 
 class RecordPair : public RecordFiles {
 protected:
-    Record first(const std::filesystem::path& path, const std::string& component = "")
+    Record first(const std::filesystem::path& path, const std::optional<std::string>& component = {})
     {
-        return read_record(path, component, "");
+        return read_record(path, component, {});
     }
     Record second_of(const Record& record, const ComponentSpec& spec = {})
     {
-        return other_component(record, {"excitation.second", spec, Direction::horizontal, ""});
+        return other_component(record, {"excitation.second", spec, Direction::horizontal, {}});
     }
     Record vertical_of(const Record& record, const ComponentSpec& spec = {})
     {
-        return other_component(record, {"excitation.vertical", spec, Direction::vertical, ""});
+        return other_component(record, {"excitation.vertical", spec, Direction::vertical, {}});
     }
     /// The message with which a second component is refused.
     std::string second_refused(const Record& record, const ComponentSpec& spec = {})
@@ -67,7 +69,7 @@ TEST_F(RecordPair, AzimuthsByTheNamesOfAgencies)
 TEST_F(RecordPair, TheOtherComponentOfOneFile)
 {
     const std::filesystem::path csmip = file(csmip_v2()); // horizontal, vertical, horizontal
-    const std::vector<Record> all = read_records(csmip, "");
+    const std::vector<Record> all = read_records(csmip, {});
     ASSERT_EQ(all.size(), 3U);
     const std::size_t n = all[2].acceleration_m_s2.size(); // fewer than of the first one
     EXPECT_LT(n, all[0].acceleration_m_s2.size());
@@ -77,11 +79,11 @@ TEST_F(RecordPair, TheOtherComponentOfOneFile)
     EXPECT_EQ(vertical_of(all[0]).component, all[1].component);
     EXPECT_EQ(vertical_of(all[0]).acceleration_m_s2, all[1].acceleration_m_s2);
 
-    const std::vector<Record> nz = read_records(file(geonet(), "nz.V2A"), "");
+    const std::vector<Record> nz = read_records(file(geonet(), "nz.V2A"), {});
     EXPECT_EQ(second_of(nz[1]).component, nz[0].component); // the shorter one of both
     EXPECT_EQ(vertical_of(nz[1]).component, nz[2].component);
 
-    const std::vector<Record> mexico = read_records(file(unam(), "mx.txt"), ""); // V, N90E, N00E
+    const std::vector<Record> mexico = read_records(file(unam(), "mx.txt"), {}); // V, N90E, N00E
     EXPECT_EQ(second_of(mexico[2]).orientation, "N90E");
     EXPECT_EQ(vertical_of(mexico[2]).orientation, "V");
 }
@@ -115,7 +117,7 @@ TEST_F(RecordPair, TheFilesThatAreNamedLikeIt)
     const Record italy = first(file(esm(), "IT.ABC.00.HNE.D.1.ACC.ASC"));
     file(esm(22, {"STREAM: HNN"}), "IT.ABC.00.HNN.D.1.ACC.ASC");
     file(esm(21, {"STREAM: HNZ"}), "IT.ABC.00.HNZ.D.1.ACC.ASC");
-    EXPECT_EQ(second_of(italy, {(folder_ / "IT.ABC.00.HNN.D.1.ACC.ASC").string(), "", ""}).orientation, "HNN");
+    EXPECT_EQ(second_of(italy, {(folder_ / "IT.ABC.00.HNN.D.1.ACC.ASC").string(), {}, {}}).orientation, "HNN");
     EXPECT_EQ(vertical_of(italy).orientation, "HNZ");
 
     // KiK-net: six files, in the borehole and on the surface
@@ -148,16 +150,16 @@ TEST_F(RecordPair, WhatIsNoPairIsRefused)
     expect_says(second_refused(one), {"more than one second horizontal", "A090.AT2", "A270.AT2"});
     // two files of one component: by the axis, and by the samples
     const std::string same = at2_file("B000.AT2", "000").string();
-    expect_says(second_refused(one, {same, "", ""}),
+    expect_says(second_refused(one, {same, {}, {}}),
                 {"B000.AT2", "has the axis of", "\"180\" and \"000\"", "Two files of one component"});
-    expect_says(second_refused(one, {one.file, "", ""}), {"A180.AT2", "has the samples of"});
+    expect_says(second_refused(one, {one.file, {}, {}}), {"A180.AT2", "has the samples of"});
     // not orthogonal, vertical
     const std::string oblique = at2_file("C055.AT2", "055").string(), up = at2_file("D-UP.AT2", "UP").string();
-    expect_says(second_refused(one, {oblique, "", ""}), {"C055.AT2", "is not orthogonal to", "\"180\" and \"055\""});
-    expect_says(second_refused(one, {up, "", ""}), {"D-UP.AT2", "is the vertical one"});
-    EXPECT_THROW(vertical_of(one, {oblique, "", ""}), InputError);
+    expect_says(second_refused(one, {oblique, {}, {}}), {"C055.AT2", "is not orthogonal to", "\"180\" and \"055\""});
+    expect_says(second_refused(one, {up, {}, {}}), {"D-UP.AT2", "is the vertical one"});
+    EXPECT_THROW(vertical_of(one, {oblique, {}, {}}), InputError);
     // a degree beside the right angle is the sensor's
-    EXPECT_EQ(second_of(one, {at2_file("E091.AT2", "091").string(), "", ""}).orientation, "091");
+    EXPECT_EQ(second_of(one, {at2_file("E091.AT2", "091").string(), {}, {}}).orientation, "091");
 }
 
 } // namespace

@@ -108,7 +108,7 @@ TEST(ShakingInSpace, ReadsComponentsOfRecords)
 {
     const Study found = read(record + "second = {}\nvertical = {}");
     ASSERT_TRUE(found.excitation.second);
-    EXPECT_EQ(found.excitation.second->file, "");
+    EXPECT_FALSE(found.excitation.second->file);
     ASSERT_TRUE(found.vertical);
     EXPECT_NE(found.text.find("second = {}\n"), std::string::npos) << found.text;
     expect_same_again(found);
