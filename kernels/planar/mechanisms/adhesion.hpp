@@ -3,6 +3,8 @@
 ///
 ///   |F_T| <= mu F_N + c L,  L: contact length
 ///
+/// In space the same with the area of the patch: |F_T| <= mu F_N + c A, c [Pa].
+///
 /// Source: cohesion of the Mohr-Coulomb law; its loss at the first slip is an own choice.
 ///
 /// Parameter: c [N/m].  Neutral: 0.  Acts in the friction of a bed; there is no tension across the faces.

@@ -250,6 +250,20 @@ TEST(SpatialBuilder, Mechanisms)
     EXPECT_EQ(r.space.solids[1].mechanisms.tie_n_m, 1e5);
 }
 
+TEST(SpatialBuilder, AStudyWithMechanismsOfTheStepIsMarkedSo)
+{
+    const auto marked = [](const std::string& mechanism) {
+        return nominal(in_space(free_drums, "[mechanisms]\n" + mechanism + "\n")).space.with_mechanisms;
+    };
+    EXPECT_TRUE(marked("friction_wear = { joint = 2, rate_per_m = 0.3 }"));
+    EXPECT_TRUE(marked("wedge = { joint = 5, angle_x_rad = 0.002 }"));
+    EXPECT_TRUE(marked("tie = { block = 1, stiffness_n_m = 1e5 }"));
+    // values of the plain step
+    EXPECT_FALSE(marked("joint_friction = { joint = 1, ratio = 0.5 }"));
+    EXPECT_FALSE(marked("eccentricity = { block = 2, offset_m = 0.03 }"));
+    EXPECT_FALSE(nominal(in_space(free_drums)).space.with_mechanisms);
+}
+
 TEST(SpatialBuilder, StructuresThatCannotBeBuilt)
 {
     const auto message = [](const Study& study, const auto& change) {

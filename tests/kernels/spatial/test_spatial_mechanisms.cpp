@@ -357,6 +357,11 @@ TEST(SpatialWedge, ASlabSlidesDownItsFace)
     EXPECT_NEAR(way.x, -0.8 * path * std::cos(slope), 5e-3 * path);
     EXPECT_NEAR(way.z, 0.6 * path * std::cos(slope), 5e-3 * path);
     EXPECT_NEAR(way.y, -path * std::sin(slope), 5e-3 * path);
+    // along the face: nothing presses but the weight, and friction alone loses
+    const double W = Slab::mass * g * std::cos(slope);
+    EXPECT_NEAR(s.at(OfJoint::normal, 0), W, 1e-3 * W);
+    EXPECT_NEAR(s.friction(), mu * W * path, 5e-3 * mu * W * path);
+    EXPECT_LT(s.dashpots(), 1e-3 * s.friction());
 }
 
 // ---- tie and base ---------------------------------------------------------------------------------------------------
