@@ -8,6 +8,7 @@ namespace {
 using B = spatial::OfBody;
 using J = spatial::OfJoint;
 using W = spatial::OfRealization; // the whole
+using M = spatial::OfJointMechanisms;
 using Vector = spatial::Vector<double>;
 
 /// The rotation vector of an attitude [rad].
@@ -61,6 +62,12 @@ ForcesAtRest::ForcesAtRest(const SpatialStructure& structure, const SolidTopolog
     copy_rows<B::Field>(bundle, lane, bundle_, topology_.bodies);
     copy_rows<J::Field>(bundle, lane, bundle_, topology_.joints);
     copy_rows<W::Field>(bundle, lane, bundle_, 1);
+    if (topology_.model.mechanisms) {
+        copy_rows<M::Field>(bundle, lane, bundle_, topology_.joints);
+        for (int j = 0; j < topology_.joints; ++j) // the way from the reference state is no slide
+            for (const M::Field field : {M::friction_drop, M::wear, M::adhesion})
+                bundle_.at(field, j, 0) = 0;
+    }
     for (const int solid : topology.order()) {
         const auto& I = structure.solids[static_cast<std::size_t>(solid)].inertia_kg_m2;
         inertia_.push_back({I[0], I[1], I[2]});
@@ -100,8 +107,11 @@ void ForcesAtRest::put(const std::vector<SolidPose>& poses)
         bundle_.at(B::q_w, i, 0) = q.w;
         put_vector(bundle_, B::q_x, i, {q.x, q.y, q.z});
     }
-    for (int j = 0; j < topology_.joints; ++j)
+    for (int j = 0; j < topology_.joints; ++j) {
         put_vector(bundle_, J::spring_1, j, {0, 0, 0});
+        for (int field = M::broken; topology_.model.mechanisms && field < M::count; ++field)
+            bundle_.at(static_cast<M::Field>(field), j, 0) = 0;
+    }
     kernels(Isa::scalar).spatial.run(topology_, bundle_, 0, 1);
 }
 

@@ -37,6 +37,9 @@ struct BedForces {
 /// Friction at rest is counted from the reference state on: one step of the kernel in which the bodies move from there
 /// to their poses, without dashpots and from unstressed springs. The springs are then K_T times the sliding of the
 /// faces at the centre of the pressure, within the friction cone: a function of the poses.
+///
+/// Wedges and dowels act at rest, dowels from the reference state on. Friction has its full coefficient and no bond,
+/// and ties are not there yet.
 class ForcesAtRest {
 public:
     /// @param lane as `store_solids` has left it; it is copied

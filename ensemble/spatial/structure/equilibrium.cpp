@@ -108,28 +108,56 @@ private:
         take(evaluate(rest_.poses));
     }
 
+    /// Stacks the bodies: each on the turned faces below it, as deep as given.
     void lower_by(const std::vector<double>& depth_m)
     {
         std::vector<int> order(structure_.solids.size());
         std::iota(order.begin(), order.end(), 0);
         const auto height = [&](int i) { return structure_.solids[static_cast<std::size_t>(i)].centre_m[1]; };
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return height(a) < height(b); });
-        for (const int i : order) {
-            const int place = solids_.place_of(static_cast<std::size_t>(i));
-            if (place < topology_.fixed)
-                continue;
-            double y = 0;
-            int seats = 0;
-            for (std::size_t j = 0; j < depth_m.size(); ++j) {
-                const SolidJoint& joint = structure_.joints[j];
-                if (joint.upper != i || joint.normal != Normal::y)
-                    continue;
-                const int below = solids_.place_of(static_cast<std::size_t>(joint.lower));
-                y += rest_.poses[static_cast<std::size_t>(below)].displacement.y - depth_m[j];
-                ++seats;
-            }
-            rest_.poses[static_cast<std::size_t>(place)].displacement.y = seats > 0 ? y / seats : 0;
-        }
+        for (const int i : order)
+            if (const int place = solids_.place_of(static_cast<std::size_t>(i)); place >= topology_.fixed)
+                rest_.poses[static_cast<std::size_t>(place)] = stacked(i, depth_m);
+    }
+
+    SolidPose stacked(int upper, const std::vector<double>& depth_m) const
+    {
+        const auto each_seat = [&](const auto& take) {
+            for (std::size_t j = 0; j < depth_m.size(); ++j)
+                if (const SolidJoint& joint = structure_.joints[j]; joint.upper == upper && joint.normal == Normal::y)
+                    take(
+                        joint, depth_m[j],
+                        rest_.poses[static_cast<std::size_t>(solids_.place_of(static_cast<std::size_t>(joint.lower)))]);
+        };
+        const auto wedge = [](const SolidJoint& joint) {
+            return Vector{joint.mechanisms.wedge_x_rad, 0, joint.mechanisms.wedge_rad};
+        };
+        spatial::Quaternion<double> sum{0, 0, 0, 0};
+        int seats = 0;
+        each_seat([&](const SolidJoint& joint, double, const SolidPose& below) {
+            const Vector turn = rotated(spatial::minus_identity(below.attitude), wedge(joint));
+            const spatial::Quaternion<double> q = after_turn(below.attitude, turn);
+            sum = {sum.w + q.w, sum.x + q.x, sum.y + q.y, sum.z + q.z};
+            ++seats;
+        });
+        if (seats == 0)
+            return {{0, 0, 0}, spatial::no_rotation<double>()};
+        const double per = 1 / std::sqrt(sum.w * sum.w + sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+        SolidPose pose{{0, 0, 0}, {per * sum.w, per * sum.x, per * sum.y, per * sum.z}};
+        each_seat([&](const SolidJoint& joint, double depth, const SolidPose& below) {
+            const auto anchor = [&](int solid) {
+                const auto& c = structure_.solids[static_cast<std::size_t>(solid)].centre_m;
+                return Vector{joint.point_m[0] - c[0], joint.point_m[1] - c[1], joint.point_m[2] - c[2]};
+            };
+            const Vector from_pivot{-joint.lower_middle_m[1], 0, -joint.lower_middle_m[0]};
+            const auto face = spatial::minus_identity(after_turn(spatial::no_rotation<double>(), wedge(joint)));
+            const auto lower = spatial::minus_identity(below.attitude), own = spatial::minus_identity(pose.attitude);
+            const Vector moved = below.displacement + displaced(lower, anchor(joint.lower)) +
+                                 rotated(lower, displaced(face, from_pivot)) - displaced(own, anchor(upper)) -
+                                 Vector{0, depth, 0};
+            pose.displacement = pose.displacement + 1.0 / seats * moved;
+        });
+        return pose;
     }
 
     /// Where sides of the two faces lie exactly over each other, or the rims of equal discs do, the lateral force of

@@ -3,7 +3,7 @@
 
 #include "ensemble/spatial/spatial_watch.hpp"
 #include "ensemble/spatial/structure/solid_mechanisms.hpp"
-#include "kernels/isa.hpp"
+#include "tests/ensemble/spatial/standing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -270,6 +270,95 @@ TEST(SolidMechanisms, TheEnergyBalanceHasDowelsAndTies)
     EXPECT_GT(damping, 30);
     EXPECT_LT(most, 1e-3 * damping);
     EXPECT_GT(spatial::dowel_energy(kernel, stepped.bundle, 0), 0);
+}
+
+// ---- at rest --------------------------------------------------------------------------------------------------------
+
+/// Three round drums of 1 m and a square capital with a beam, whose beds the test changes.
+Standing column()
+{
+    Standing s;
+    const BedLaw law{3e9, 0.7, 0, 0};
+    const int ground = s.body({0, -1, 0}, 3, 3, 1, 1e4, true, true);
+    const int low = s.drum({0, 0, 0}, 0.5, 1, 2000), middle = s.drum({0, 1, 0}, 0.5, 1, 2000),
+              high = s.drum({0, 2, 0}, 0.5, 1, 2000);
+    const int beam = s.beam({0, 3, 0}, 1.5, 0.5, 0.6, 4000);
+    s.bed(ground, low, law);
+    s.bed(low, middle, law);
+    s.bed(middle, high, law);
+    s.bed(high, beam, law);
+    return s;
+}
+
+/// Largest kinetic energy in 0.05 s from rest [J].
+double unrest_j(Standing& s)
+{
+    double most = 0;
+    for (int chunk = 0; chunk < 80; ++chunk) {
+        s.run(chunk_steps);
+        most = std::max(most, s.kinetic_j());
+    }
+    return most;
+}
+
+TEST(SolidMechanisms, AColumnRestsOnItsWedges)
+{
+    Standing s = column();
+    // what is above turns by the sum of the wedges below it, in two directions; the last is under the beam
+    const double about_x[] = {0, 0.002, 0, -0.0015}, about_z[] = {0.003, 0, -0.004, 0.001};
+    for (std::size_t j = 0; j < 4; ++j) {
+        s.r.space.joints[j].mechanisms.wedge_x_rad = about_x[j];
+        s.r.space.joints[j].mechanisms.wedge_rad = about_z[j];
+    }
+    s.settle();
+    double x = 0, z = 0;
+    for (int i = 1; i <= 4; ++i) {
+        x += about_x[i - 1];
+        z += about_z[i - 1];
+        // the weight beside the middle of a bed turns it by some 1e-5
+        EXPECT_NEAR(s.turn(i).x, x, 1e-4) << i;
+        EXPECT_NEAR(s.turn(i).z, z, 1e-4) << i;
+        EXPECT_NEAR(s.turn(i).y, 0, 1e-4) << i;
+    }
+    EXPECT_LT(unrest_j(s), 1e-9);
+}
+
+TEST(SolidMechanisms, DowelsShareTheShearOfATiltedBase)
+{
+    // shear of the weight above: the springs K_t and k_d have it together
+    const double slope = 0.02, k_d = 1e9;
+    Standing s = column();
+    s.r.space.base_tilt_rad = {0.6 * slope, 0.8 * slope};
+    JointMechanisms& dowel = s.r.space.joints[1].mechanisms;
+    dowel.dowel_stiffness_n_m = k_d;
+    dowel.dowel_yield_n = 1e9;
+    s.settle();
+    const double K_t = s.r.space.joints[1].tangential_stiffness_n_m;
+    const double shear = 8000 * Standing::g * std::sqrt(1 - std::pow(std::cos(0.6 * slope) * std::cos(0.8 * slope), 2));
+    const double spring = std::hypot(s.at(spatial::OfJoint::spring_1, 1), s.at(spatial::OfJoint::spring_2, 1));
+    EXPECT_NEAR(spring, shear * K_t / (K_t + k_d), 0.02 * shear);
+    EXPECT_LT(unrest_j(s), 1e-9);
+    const double force = std::hypot(
+        s.bundle().at(spatial::OfJointMechanisms::dowel_force, 1, 0),
+        s.bundle().at(static_cast<spatial::OfJointMechanisms::Field>(spatial::OfJointMechanisms::dowel_force + 1), 1,
+                      0));
+    EXPECT_NEAR(force, shear - spring, 0.01 * shear);
+}
+
+TEST(SolidMechanisms, FrictionThatChangesWithTheSlipHoldsAtRest)
+{
+    Standing s = column();
+    s.r.space.base_tilt_rad = {0.1, 0.05};
+    for (SolidJoint& joint : s.r.space.joints) {
+        joint.mechanisms.dynamic_ratio = 0.01;
+        joint.mechanisms.stribeck_velocity_m_s = 1e-6;
+        joint.mechanisms.wear_per_m = 1e4;
+        joint.mechanisms.adhesion_pa = 1e3;
+    }
+    s.settle();
+    EXPECT_LT(unrest_j(s), 1e-9);
+    EXPECT_EQ(s.at(spatial::OfRealization::slip), 0);
+    EXPECT_EQ(s.bundle().at(spatial::OfJointMechanisms::broken, 0, 0), 0);
 }
 
 } // namespace
