@@ -69,6 +69,11 @@ std::string Result::study_text() const
     return data_->header.study_toml;
 }
 
+int Result::dimensions() const
+{
+    return data_->header.dimensions;
+}
+
 std::string Result::code_version() const
 {
     return data_->header.code_version;

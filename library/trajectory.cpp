@@ -1,5 +1,7 @@
 #include "library/trajectory.hpp"
 
+#include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/spatial/spatial_poses.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "library/inside.hpp"
@@ -22,6 +24,15 @@ namespace {
         "study.kind = \"rare\": a realization of a chain depends on all previous ones; it cannot be run alone");
 }
 
+/// Every channel has a public list: one that is missing does not compile.
+constexpr bool has_all_lists(std::span<const inner::TrajectoryChannel> channels)
+{
+    for (const inner::TrajectoryChannel& channel : channels)
+        list_of(channel.name);
+    return true;
+}
+static_assert(has_all_lists(inner::planar_channels) && has_all_lists(inner::spatial_channels));
+
 Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const std::function<bool()>& go_on = {})
 {
     const inner::Study& study = loaded.study();
@@ -32,11 +43,13 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
     inner::TracedRealization f = inner::trace(loaded.experiment(), index, inner::best_isa(), go_on);
     Trajectory t;
     t.outcome = outcome_of(inner::result_row(study, f.realization, f.outcome));
+    t.dimensions = study.structure.dimensions;
     visit_channels(t, [&](const inner::TrajectoryChannel& channel, std::vector<double>& list) {
         list = std::move(f.trajectory[channel.name]);
     });
     for (std::size_t i = 0; i < t.blocks(); ++i) {
-        t.fixed.push_back(f.realization.blocks[i].fixed);
+        t.fixed.push_back(f.realization.spatial() ? f.realization.space.solids[i].fixed
+                                                  : f.realization.blocks[i].fixed);
         t.epistyle.push_back(f.trajectory.role[i] == inner::BlockRole::epistyle);
     }
     t.column = std::move(f.trajectory.column);
@@ -45,9 +58,11 @@ Trajectory followed(const inner::LoadedStudy& loaded, std::uint64_t index, const
 }
 
 /// The engine's trajectory.
-/// @throws InputError if the arrays do not fit each other
+/// @throws InputError if the structure is in space, or if the arrays do not fit each other
 inner::Trajectory drawn_from(const Trajectory& t)
 {
+    if (t.dimensions != 2)
+        throw InputError(fmt::format("realization {}: {}", t.outcome.index, inner::no_motion_in_space));
     inner::Trajectory drawn(inner::planar_channels);
     drawn.index = t.outcome.index;
     visit_channels(t, [&](const inner::TrajectoryChannel& channel, const std::vector<double>& list) {

@@ -30,7 +30,8 @@ enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 }
 const char* to_string(InvalidReason reason);
 
 /// One realization. Times are from the start of the simulation; -1 where a thing did not happen. The numbers that every
-/// outcome has, from `state` to `steps`, are listed in `outcome_fields.inc`.
+/// outcome has, from `state` to `steps`, are listed in `outcome_fields.inc`. A number that is of the other model (in the
+/// plane or in space) is NaN, and a column -1.
 struct Outcome {
     std::uint64_t index = 0;
     std::uint64_t cell = 0;  ///< of a surface, frequency by frequency; of a fragility study, motion by motion
@@ -62,6 +63,7 @@ public:
     std::string kind() const;       ///< of the study; "replay" for a file of one realization
     std::string study_text() const; ///< canonical, followed by comments that identify its records
     std::string code_version() const;
+    int dimensions() const;             ///< of the structure: 2 in the plane, 3 in space
     bool complete() const;              ///< whether every realization of the study has been run
     std::uint64_t realizations() const; ///< that have been run
     std::uint64_t invalid() const;      ///< those that were set aside

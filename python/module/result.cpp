@@ -16,18 +16,23 @@ namespace {
 namespace sb = stylobate::api;
 using namespace pybind11::literals;
 
-/// Every number of an outcome but its lists, under the name that files and tables have it: f(name, member, facts).
+/// Every number of an outcome but its lists that the model has, under the name that files and tables have it:
+/// f(name, member, facts). @param dimensions of the structure, 2 or 3
 template <class F>
-void visit_outcome(const F& f)
+void visit_outcome(int dimensions, const F& f)
 {
     using O = sb::Outcome;
-    f("index", &O::index, FieldFacts());
-    f("cell", &O::cell, FieldFacts());
-    f("frequency_hz", &O::frequency_hz, FieldFacts());
-    f("pga_m_s2", &O::pga_m_s2, FieldFacts());
-#define STYLOBATE_OUTCOME(type, name, value, ...) f(#name, &O::name, FieldFacts{__VA_ARGS__});
+    const auto visit = [&](const char* name, auto member, const FieldFacts& facts) {
+        if (has_model(facts.models, dimensions))
+            f(name, member, facts);
+    };
+    visit("index", &O::index, FieldFacts());
+    visit("cell", &O::cell, FieldFacts());
+    visit("frequency_hz", &O::frequency_hz, FieldFacts());
+    visit("pga_m_s2", &O::pga_m_s2, FieldFacts());
+#define STYLOBATE_OUTCOME(type, name, value, ...) visit(#name, &O::name, FieldFacts{__VA_ARGS__});
 #define STYLOBATE_OUTCOME_AS(public_type, public_name, type, name, value, ...)                                         \
-    f(#name, &O::public_name, FieldFacts{__VA_ARGS__});
+    visit(#name, &O::public_name, FieldFacts{__VA_ARGS__});
 #include "stylobate/outcome_fields.inc"
 }
 
@@ -37,10 +42,10 @@ std::string unit_in_python(std::string_view name)
     return unit_of(name).empty() ? "1" : std::string(unit_of(name));
 }
 
-py::dict outcome_dict(const sb::Outcome& outcome)
+py::dict outcome_dict(const sb::Outcome& outcome, int dimensions)
 {
     py::dict all;
-    visit_outcome([&](const char* name, auto member, auto) {
+    visit_outcome(dimensions, [&](const char* name, auto member, auto) {
         if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(outcome.*member)>>)
             all[name] = sb::to_string(outcome.*member);
         else
@@ -124,7 +129,8 @@ void add_trajectory(py::module_& module)
         .def_readonly("fixed", &T::fixed)
         .def_readonly("epistyle", &T::epistyle)
         .def_readonly("column", &T::column)
-        .def("outcome", [](const T& of) { return outcome_dict(of.outcome); });
+        .def_readonly("dimensions", &T::dimensions)
+        .def("outcome", [](const T& of) { return outcome_dict(of.outcome, of.dimensions); });
 }
 
 } // namespace
@@ -138,18 +144,20 @@ void add_result(py::module_& module)
                "probability", &sb::Share::probability, "lower", &sb::Share::lower, "upper", &sb::Share::upper);
     using R = sb::Result;
     attributes(py::class_<R>(module, "Result"), "kind", &R::kind, "study_text", &R::study_text, "code_version",
-               &R::code_version, "complete", &R::complete, "realizations", &R::realizations, "invalid", &R::invalid,
-               "too_many_invalid", &R::too_many_invalid, "warnings", &R::warnings, "input_names", &R::input_names,
-               "input_units", &R::input_units, "block_names", &R::block_names)
+               &R::code_version, "dimensions", &R::dimensions, "complete", &R::complete, "realizations",
+               &R::realizations, "invalid", &R::invalid, "too_many_invalid", &R::too_many_invalid, "warnings",
+               &R::warnings, "input_names", &R::input_names, "input_units", &R::input_units, "block_names",
+               &R::block_names)
         .def_static("from_file", &sb::Result::from_file, "file"_a, py::call_guard<py::gil_scoped_release>())
         .def("share", &sb::Result::share, "limit_state"_a = "collapse")
         .def("surface", &sb::Result::surface, "limit_state"_a = "collapse")
         .def("fragility", &sb::Result::fragility)
         .def("columns",
              [](const py::object& self) { // name: (unit, whether -1 is none, values)
-                 const auto& rows = self.cast<const sb::Result&>().outcomes();
+                 const auto& result = self.cast<const sb::Result&>();
+                 const auto& rows = result.outcomes();
                  py::dict all;
-                 visit_outcome([&](const char* name, auto member, const FieldFacts& facts) {
+                 visit_outcome(result.dimensions(), [&](const char* name, auto member, const FieldFacts& facts) {
                      all[name] = py::make_tuple(unit_in_python(name), is_event_time(facts), column(self, rows, member));
                  });
                  return all;

@@ -61,6 +61,7 @@ class Progress:
     upper: Final[float]
 
 class Replay:
+    dimensions: int
     time_s: _Numbers
     x_m: _Numbers
     y_m: _Numbers
@@ -70,11 +71,25 @@ class Replay:
     rest_y_m: _Numbers
     half_width_m: _Numbers
     half_height_m: _Numbers
+    z_m: _Numbers
+    q_w: _Numbers
+    q_x: _Numbers
+    q_y: _Numbers
+    q_z: _Numbers
+    base_y_m: _Numbers
+    base_z_m: _Numbers
+    rest_z_m: _Numbers
+    bottom_half_x_m: _Numbers
+    bottom_half_z_m: _Numbers
+    top_half_x_m: _Numbers
+    top_half_z_m: _Numbers
+    round: _Numbers
     blocks: list[str]
     fixed: list[bool]
     epistyle: list[bool]
     outcome: dict[str, Any]
     def corners(self) -> _Numbers: ...
+    def rotations(self) -> _Numbers: ...
     def to_xarray(self) -> xarray.Dataset: ...
 
 class Result:
@@ -87,6 +102,7 @@ class Result:
     invalid: Final[int]
     warnings: Final[list[str]]
     code_version: Final[str]
+    dimensions: Final[int]
     blocks: Final[list[str]]
     def share(self, limit_state: str = "collapse") -> Share: ...
     def surface(self, limit_state: str = "collapse") -> xarray.Dataset: ...

@@ -3,18 +3,31 @@
 
 class Replay:
     """The blocks of a structure at evenly spaced times. `nt` times, `nb` blocks in layout order: column by column from
-    the bottom, then epistyles. The arrays are read-only views; places are in the frame of the base, y upwards.
+    the bottom, then epistyles. The arrays are read-only views; places are in the frame of the base: x to the right, y
+    upwards, in space z towards the viewer.
 
+    dimensions     of the structure: 2 in the plane, 3 in space
     time_s         (nt) s
-    x_m, y_m       (nt, nb) m     centres of the blocks
-    theta_rad      (nt, nb) rad   rotations, counter-clockwise from upright
+    x_m, y_m       (nt, nb) m     places of the blocks
     base_x_m       (nt) m         displacement of the base
-    rest_x_m, rest_y_m            (nb) m   centres as built: upright, faces touching
-    half_width_m, half_height_m   (nb) m
+    rest_x_m, rest_y_m            (nb) m   places as built: upright, faces touching
+    half_height_m                 (nb) m
     blocks         names of the blocks (nb)
     fixed          (nb) whether a block moves with the base
     epistyle       (nb) whether it lies across columns
     outcome        how it ended: a dictionary, with the names of `Result.realizations`; -1: it did not happen
+
+    In the plane a place is that of the block's centre:
+    theta_rad      (nt, nb) rad   rotations, counter-clockwise from upright
+    half_width_m   (nb) m
+
+    In space a place is that of the body's middle, halfway between its faces:
+    z_m            (nt, nb) m
+    q_w, q_x, q_y, q_z            (nt, nb) the quaternion that turns a body from upright about its middle
+    base_y_m, base_z_m            (nt) m
+    rest_z_m       (nb) m
+    bottom_half_x_m, bottom_half_z_m, top_half_x_m, top_half_z_m   (nb) m   half sizes of the faces, of a disc its radius
+    round          (nb) 1: the faces are discs; 0: rectangles
     """
 
     def __init__(self, core):
@@ -22,15 +35,23 @@ class Replay:
         self._lists = core.lists()
         for name, (_, _, _, values) in self._lists.items():
             setattr(self, name, values)
+        self.dimensions = core.dimensions
         self.blocks = list(core.name)
         self.fixed = list(core.fixed)
         self.epistyle = list(core.epistyle)
         self.outcome = core.outcome()
 
     def corners(self):
-        """Corners of the blocks, counter-clockwise from the lower left one: (nt, nb, 4, 2) m, x and y."""
+        """Corners of the blocks.
+
+        In the plane: counter-clockwise from the lower left one, (nt, nb, 4, 2) m, x and y. In space: of the bottom face,
+        then of the top face, counter-clockwise as seen from above, (nt, nb, 8, 3) m, x, y and z; of discs those of the
+        square about them.
+        """
         import numpy as np
 
+        if self.dimensions == 3:
+            return self._corners_in_space()
         cos, sin = np.cos(self.theta_rad), np.sin(self.theta_rad)
         corners = np.empty((*self.x_m.shape, 4, 2))
         for i, (a, b) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
@@ -38,6 +59,32 @@ class Replay:
             corners[..., i, 0] = self.x_m + cos * u - sin * v
             corners[..., i, 1] = self.y_m + sin * u + cos * v
         return corners
+
+    def _corners_in_space(self):
+        import numpy as np
+
+        turns, middle = self.rotations(), np.stack([self.x_m, self.y_m, self.z_m], axis=-1)
+        corners = np.empty((*self.x_m.shape, 8, 3))
+        faces = ((-1, self.bottom_half_x_m, self.bottom_half_z_m), (1, self.top_half_x_m, self.top_half_z_m))
+        for face, (up, half_x, half_z) in enumerate(faces):
+            for i, (a, b) in enumerate(((1, 1), (1, -1), (-1, -1), (-1, 1))):
+                upright = np.stack([a * half_x, up * self.half_height_m, b * half_z], axis=-1)
+                corners[..., 4 * face + i, :] = middle + np.einsum("tbij,bj->tbi", turns, upright)
+        return corners
+
+    def rotations(self):
+        """In space: the matrices that turn the upright bodies about their middles, (nt, nb, 3, 3).
+
+        AttributeError: in the plane, where `theta_rad` is the rotation.
+        """
+        import numpy as np
+
+        q = np.stack([self.q_w, self.q_x, self.q_y, self.q_z])
+        w, x, y, z = q / np.linalg.norm(q, axis=0)
+        rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+        return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
     def to_xarray(self):
         """An xarray.Dataset over time_s [s] and block, with units."""

@@ -77,6 +77,7 @@ class Result:
     invalid = forwarded("invalid", "Number of those that were set aside.")
     warnings = forwarded("warnings", "Warnings about the study, a text each.")
     code_version = forwarded("code_version", "Version of the program that computed it.")
+    dimensions = forwarded("dimensions", "Dimensions of the structure: 2 in the plane, 3 in space.")
     blocks = forwarded("block_names", "Names of the blocks, in layout order.")
 
     def share(self, limit_state="collapse"):
@@ -224,7 +225,11 @@ class Result:
         """A matplotlib.animation.FuncAnimation of realization `index`; `save("fall.gif", writer="pillow")` writes it.
 
         seconds: length of the animation; None: as long as the shaking, in real time.
+        InputError: for a structure in space, of which there is no picture in motion yet.
         """
+        if self.dimensions != 2:
+            raise _core.InputError("animate: a structure in space has no picture in motion yet; replay(index) gives its "
+                                   "places, attitudes and corners")
         return animation(self.replay(index), seconds, fps)
 
     def __repr__(self):
