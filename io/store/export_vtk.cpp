@@ -56,6 +56,7 @@ public:
             add_point(points_, point);
             fmt::format_to(std::back_inserter(connectivity_), "{} ", all_points_++);
         }
+        connectivity_.back() = '\n';
         fmt::format_to(std::back_inserter(offsets_), "{} ", all_points_);
         fmt::format_to(std::back_inserter(ids_), "{} ", of.id);
         fmt::format_to(std::back_inserter(rotations_), "{:.10g} ", of.rotation_rad);
@@ -281,7 +282,7 @@ private:
 };
 
 template <class Drawing>
-void write_times(const std::filesystem::path& folder, const std::string& name, const Trajectory& trajectory)
+void write_drawn(const std::filesystem::path& folder, const std::string& name, const Trajectory& trajectory)
 {
     const Drawing drawing(trajectory);
     AtomicFolder out(folder);
@@ -302,9 +303,9 @@ void write_vtk(const std::filesystem::path& folder, const std::string& name, con
 {
     check(trajectory);
     if (is_spatial(trajectory))
-        write_times<SpatialDrawing>(folder, name, trajectory);
+        write_drawn<SpatialDrawing>(folder, name, trajectory);
     else
-        write_times<PlanarDrawing>(folder, name, trajectory);
+        write_drawn<PlanarDrawing>(folder, name, trajectory);
 }
 
 } // namespace stylobate
