@@ -216,6 +216,9 @@ std::optional<std::string> study_difference(const ResultHeader& found, bool comp
         return text;
     if (found.kind != asked.kind)
         return "its kind is '" + found.kind + "' instead of '" + asked.kind + "'";
+    if (found.dimensions != asked.dimensions)
+        return "its structure has " + std::to_string(found.dimensions) + " dimensions instead of " +
+               std::to_string(asked.dimensions);
     if (found.seed != asked.seed)
         return "its seed is " + std::to_string(found.seed) + " instead of " + std::to_string(asked.seed);
     const bool fewer = complete && found.selected; // a finished file has the rows that were needed

@@ -176,6 +176,42 @@ def test_replay_has_the_bits_of_the_ensemble_and_of_the_program(folder, small_su
     assert result.replay(numpy.int64(2)).outcome["index"] == 2
 
 
+def test_a_structure_in_space(folder):
+    h5py = pytest.importorskip("h5py")
+    study = stylobate.Study.from_toml(INPUTS / "round_column.toml", {
+        "study.realizations": 2, "surface.frequency_hz": {"from": 0.5, "to": 1.0, "count": 2},
+        "surface.pga_m_s2": {"from": 2.0, "to": 8.0, "count": 2}})
+    result = stylobate.run(study, "a.h5")
+    assert result.dimensions == 3
+    columns = set(result.realizations().columns)
+    assert {"residual_top_z_m", "max_twist_rad", "fall_azimuth_rad"} <= columns
+    assert not {"top_path_m", "sliding_path_m", "rocking_path_rad"} & columns
+    program("replay", "a.h5", "--realization", 3, "-o", "one.h5", "--quiet")
+    replay = result.replay(3)
+    lists = ("time_s", "x_m", "y_m", "z_m", "q_w", "q_x", "q_y", "q_z", "base_x_m", "base_y_m", "base_z_m", "rest_x_m",
+             "rest_y_m", "rest_z_m", "half_height_m", "bottom_half_x_m", "bottom_half_z_m", "top_half_x_m",
+             "top_half_z_m", "round")
+    with h5py.File("one.h5") as file:
+        assert file.attrs["format_version"] == 6 and file.attrs["dimensions"] == 3
+        for name in lists:
+            numpy.testing.assert_array_equal(getattr(replay, name), file[f"trajectories/3/{name}"][()])
+    assert replay.dimensions == 3 and not hasattr(replay, "half_width_m")
+    assert set(replay.to_xarray().variables) == {*lists, "block"}
+    for name, values in result.arrays().items():
+        if name not in ("state", "invalid_reason"):
+            numpy.testing.assert_equal(replay.outcome[name], values[3], name)
+    corners, turns = replay.corners(), replay.rotations()
+    assert corners.shape == (*replay.x_m.shape, 8, 3) and turns.shape == (*replay.x_m.shape, 3, 3)
+    numpy.testing.assert_allclose(turns @ turns.swapaxes(-1, -2), numpy.broadcast_to(numpy.eye(3), turns.shape),
+                                  atol=1e-12)
+    middle = numpy.stack([replay.x_m, replay.y_m, replay.z_m], axis=-1)
+    numpy.testing.assert_allclose(corners.mean(axis=2), middle, atol=1e-12)
+    heights = numpy.linalg.norm(corners[:, :, 4:].mean(axis=2) - corners[:, :, :4].mean(axis=2), axis=-1)
+    numpy.testing.assert_allclose(heights, numpy.broadcast_to(2 * replay.half_height_m, heights.shape), rtol=1e-12)
+    with pytest.raises(stylobate.InputError, match="no picture in motion yet"):
+        result.animate(3)
+
+
 def test_arrays_share_memory_are_read_only_and_keep_their_owner(small_surface):
     result = stylobate.run(small_surface)
     arrays = result.arrays()

@@ -151,7 +151,7 @@ void read_all(const ResultReader& reader)
     for (const char* name : {"fragility", "sensitivity", "rare"})
         reader.table(name);
     for (const std::uint64_t index : reader.trajectory_indices())
-        check_trajectory(reader.trajectory(index));
+        check_trajectory(reader.trajectory(index), header.dimensions);
     reader.unread();
     if (const Tally* tally = reader.tally())
         promise(tally->added() == reader.counted()->all().end, "other realizations are counted than are done");

@@ -270,6 +270,35 @@ TEST_F(LibraryRun, FollowsARealizationAsReplayDoes)
     EXPECT_THROW(api::write_svg(got, 0, folder / "none" / "t.svg"), api::InputError);
 }
 
+TEST_F(LibraryRun, FollowsAStructureInSpace)
+{
+    const std::vector<std::string> settings = {"study.realizations=2", "surface.frequency_hz={from=0.5,to=1.0,count=2}",
+                                               "surface.pga_m_s2={from=2.0,to=8.0,count=2}"};
+    by_program("round_column.toml", settings);
+    ASSERT_EQ(run({"replay", "program.h5", "--realization", "3", "-o", "t.h5", "--quiet"}).status, 0);
+    const Trajectory want = ResultReader(folder / "t.h5").trajectory(3);
+    const api::Result result = api::Result::from_file(folder / "program.h5");
+    EXPECT_EQ(result.dimensions(), 3);
+    const api::Trajectory got = api::replay(result, 3);
+    EXPECT_EQ(got.dimensions, 3);
+    EXPECT_EQ(got.blocks(), 6U);
+    EXPECT_EQ(got.time_s, want.time_s);
+    EXPECT_EQ(got.x_m, want["x_m"]);
+    EXPECT_EQ(got.z_m, want["z_m"]);
+    EXPECT_EQ(got.q_w, want["q_w"]);
+    EXPECT_EQ(got.q_y, want["q_y"]);
+    EXPECT_EQ(got.base_z_m, want["base_z_m"]);
+    EXPECT_EQ(got.top_half_z_m, want["top_half_z_m"]);
+    EXPECT_EQ(got.round, std::vector<double>(6, 1));
+    EXPECT_TRUE(got.half_width_m.empty());
+    EXPECT_FALSE(got.fixed.back());
+    EXPECT_TRUE(std::isnan(got.outcome.top_path_m));
+    EXPECT_GT(got.outcome.out_of_plane_share, 0);
+    EXPECT_EQ(got.outcome.out_of_plane_share, result.outcomes()[3].out_of_plane_share);
+    EXPECT_THROW(api::write_svg(got, 0, folder / "t.svg"), api::InputError);
+    EXPECT_THROW(api::write_strip(got, folder / "t.png"), api::InputError);
+}
+
 TEST_F(LibraryRun, RefusesWhatTheProgramRefusesWithItsWords)
 {
     const auto message = [](const auto& f) -> std::string {

@@ -173,6 +173,13 @@ TEST_F(SpatialResults, TakeTrajectoriesOfTheirModelAlone)
     EXPECT_THROW(ResultWriter::create(folder / "four.h5", sample_header(5, 4)), std::invalid_argument);
 }
 
+TEST_F(SpatialResults, AreNotContinuedByAStudyInThePlane)
+{
+    ResultWriter::create(file, sample_header(5, 3));
+    expect_part(refusal([&] { ResultWriter::resume(file, sample_header(5)); }),
+                "its structure has 3 dimensions instead of 2");
+}
+
 TEST(OutcomesOfModels, WhatTheOtherModelHasIsNotANumber)
 {
     for (const int dimensions : {2, 3}) {
