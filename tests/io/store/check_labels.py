@@ -46,6 +46,7 @@ files = {
     "rare": ("rare_collapse", ["rare.samples=200", "rare.repeats=5"], {"rare"}),
     "twins": ("twins_column", axes + ["twins.followed=1", "run.max_invalid_fraction=1"], {"twins"}),
     "single": ("free_rocking", [], {"trajectories/0"}),
+    "spatial": ("round_column", axes, {"surface", "realizations/outcome"}),
 }
 # their numbers have units that differ from one to the next
 several_units = {"motions/value", "sensitivity/mean", "sensitivity/mean_lower", "sensitivity/mean_upper"}
