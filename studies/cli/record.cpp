@@ -164,7 +164,7 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                    const std::optional<std::string>& unit, const std::optional<std::string>& component,
                    const std::optional<std::string>& block)
 {
-    const std::optional<BlockSize> size = block ? std::optional(block_size(*block)) : std::nullopt;
+    const BlockSize size = block ? block_size(*block) : BlockSize{};
     const std::vector<double> periods(std::begin(spectrum_periods_s), std::end(spectrum_periods_s));
     Json list = Json::list();
     int status = exit_done;
@@ -182,8 +182,8 @@ int record_command(const CommonOptions& options, const std::vector<std::string>&
                                make_motion(record, true).baseline,
                                spectral_acceleration(record, periods),
                                {}});
-                if (size)
-                    all.back().rocking = rocking_measures(all.back().measures, size->width / 2, size->height / 2);
+                if (block)
+                    all.back().rocking = rocking_measures(all.back().measures, size.width / 2, size.height / 2);
             }
             for (const Described& each : all) {
                 if (options.json)

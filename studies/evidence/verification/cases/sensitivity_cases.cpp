@@ -116,7 +116,7 @@ Finding contact_stiffness()
                           curves({"K_N [N/m2]", true, 0, 0}, {"collapse probability", false, 0, 1.05},
                                  {{"collapse probability", at, probability, false, low, high},
                                   {"f1", at, first, true, {}, {}, -1, true}},
-                                 "top center", {"f1 [Hz]", true, 0, 0})});
+                                 "top center", PictureAxis{"f1 [Hz]", true, 0, 0})});
     return f;
 }
 

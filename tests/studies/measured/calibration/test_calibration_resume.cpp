@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 namespace fs = std::filesystem;
 
@@ -49,7 +50,7 @@ protected:
         sets_ = folder_ / "c_sets.bin";
     }
 
-    Calibration run(Observer& observer, const fs::path& kept, int threads = 2) const
+    Calibration run(Observer& observer, const std::optional<fs::path>& kept, int threads = 2) const
     {
         CalibrationOptions options = options_;
         options.kept = kept;

@@ -126,7 +126,7 @@ inline Diagnosis filled_diagnosis()
                        5.1,
                        0.002,
                        0.17,
-                       {{"004", 28.1, ""}},
+                       {{"004", 28.1, {}}},
                        Decision::in_set,
                        "It slips as fast in these runs."};
     Candidate drag{"drag", "block 6", "drag", "N s2/m2",           0.002, {}, 0.02, 0.0, 0.3, 4.1,
