@@ -158,7 +158,7 @@ void check_direction(const KeyReader& top, const Study& study)
     const KeyReader keys = top.table(excitation_keys::table);
     for (const Perturbation& perturbation : study.perturbations)
         if (perturbation.quantity == Quantity::direction && perturbation.distribution == DistributionKind::uniform &&
-            keys.has(excitation_keys::direction))
+            study.excitation.direction_deg != 0) // 0 is in every canonical text
             keys.refuse(excitation_keys::direction.name,
                         "and perturbation.direction, which draws the direction uniformly, give it twice",
                         "Give one of the two.");

@@ -94,7 +94,8 @@ private:
     {
         std::string entries;
         for (const TomlKey* key : table.keys) {
-            if (!key->needed() && !key->absent_is_value && !key->example)
+            if (!key->used_where(model_key, use_.kinds.at(model_key)) ||
+                (!key->needed() && !key->absent_is_value && !key->example))
                 continue;
             const std::string value = key->example ? *key->example : key->needed() ? to_be_given : *key->absent;
             entries += (entries.empty() ? "" : ", ") + key->name + " = " + value;

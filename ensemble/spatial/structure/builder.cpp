@@ -460,7 +460,7 @@ void SpatialBuilder::move(const Replica& replica, std::uint64_t original, Realiz
 double SpatialBuilder::step_s(const Realization& realization) const
 {
     const RunSpec& run = study_->run;
-    const double bound = spatial_step_bound_s(realization);
+    const double bound = spatial_step_bound_s(realization, run.step_bound);
     if (!run.step_s)
         return run.step_fraction * bound;
     if (*run.step_s > bound && !run.allow_step_above_bound)

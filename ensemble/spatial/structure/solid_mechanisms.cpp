@@ -7,8 +7,8 @@ namespace stylobate {
 
 namespace {
 
-using TieRow = spatial::OfBodyMechanisms;
-using BedRow = spatial::OfJointMechanisms;
+using BodyRows = spatial::OfBodyMechanisms;
+using JointRows = spatial::OfJointMechanisms;
 
 bool acts(const JointMechanisms& e)
 {
@@ -47,22 +47,22 @@ void store_solid_mechanisms(const Realization& r, const SolidTopology& topology,
     for (int k = kernel.fixed; k < kernel.bodies; ++k) {
         const Solid& solid = r.space.solids[static_cast<std::size_t>(topology.order()[static_cast<std::size_t>(k)])];
         const BlockMechanisms& e = solid.mechanisms;
-        b.at(TieRow::tie_spring, k, lane) = dt * dt * e.tie_n_m / solid.mass_kg;
-        b.at(TieRow::tie_dashpot, k, lane) = dt * e.tie_n_s_m / solid.mass_kg;
-        b.at(TieRow::tie_pull, k, lane) = dt * dt * e.tie_n / solid.mass_kg;
-        b.at(TieRow::tie_turning, k, lane) = dt * e.tie_n_m_s;
+        b.at(BodyRows::tie_spring, k, lane) = dt * dt * e.tie_n_m / solid.mass_kg;
+        b.at(BodyRows::tie_dashpot, k, lane) = dt * e.tie_n_s_m / solid.mass_kg;
+        b.at(BodyRows::tie_pull, k, lane) = dt * dt * e.tie_n / solid.mass_kg;
+        b.at(BodyRows::tie_turning, k, lane) = dt * e.tie_n_m_s;
     }
     for (int j = 0; j < kernel.joints; ++j) {
         const SolidJoint& joint = r.space.joints[static_cast<std::size_t>(j)];
         const JointMechanisms& e = joint.mechanisms;
-        b.at(BedRow::friction_drop, j, lane) = 1 - e.dynamic_ratio;
-        b.at(BedRow::per_stribeck_step, j, lane) = 1 / (e.stribeck_velocity_m_s * dt);
-        b.at(BedRow::wear, j, lane) = e.wear_per_m;
-        b.at(BedRow::adhesion, j, lane) = e.adhesion_pa;
-        b.at(BedRow::dowel_stiffness, j, lane) = e.dowel_stiffness_n_m;
-        b.at(BedRow::per_dowel_stiffness, j, lane) = e.dowel_stiffness_n_m > 0 ? 1 / e.dowel_stiffness_n_m : 0;
-        b.at(BedRow::dowel_yield, j, lane) = e.dowel_yield_n;
-        b.at(BedRow::dowel_gap, j, lane) = e.dowel_gap_m;
+        b.at(JointRows::friction_drop, j, lane) = 1 - e.dynamic_ratio;
+        b.at(JointRows::per_stribeck_step, j, lane) = 1 / (e.stribeck_velocity_m_s * dt);
+        b.at(JointRows::wear, j, lane) = e.wear_per_m;
+        b.at(JointRows::adhesion, j, lane) = e.adhesion_pa;
+        b.at(JointRows::dowel_stiffness, j, lane) = e.dowel_stiffness_n_m;
+        b.at(JointRows::per_dowel_stiffness, j, lane) = e.dowel_stiffness_n_m > 0 ? 1 / e.dowel_stiffness_n_m : 0;
+        b.at(JointRows::dowel_yield, j, lane) = e.dowel_yield_n;
+        b.at(JointRows::dowel_gap, j, lane) = e.dowel_gap_m;
         if (joint.normal != Normal::y)
             continue;
         using K = spatial::OfJoint;
@@ -71,10 +71,10 @@ void store_solid_mechanisms(const Realization& r, const SolidTopology& topology,
                                                       {b.at(reversed ? K::upper_centre_1 : K::lower_centre_1, j, lane),
                                                        b.at(reversed ? K::upper_centre_2 : K::lower_centre_2, j, lane)},
                                                       reversed);
-        b.at(BedRow::wedge, j, lane) = wedge.e_1;
-        b.at(static_cast<BedRow::Field>(BedRow::wedge + 1), j, lane) = wedge.e_2;
-        b.at(BedRow::wedge_at, j, lane) = wedge.at_1;
-        b.at(static_cast<BedRow::Field>(BedRow::wedge_at + 1), j, lane) = wedge.at_2;
+        b.at(JointRows::wedge, j, lane) = wedge.e_1;
+        b.at(static_cast<JointRows::Field>(JointRows::wedge + 1), j, lane) = wedge.e_2;
+        b.at(JointRows::wedge_at, j, lane) = wedge.at_1;
+        b.at(static_cast<JointRows::Field>(JointRows::wedge_at + 1), j, lane) = wedge.at_2;
     }
 }
 

@@ -1,7 +1,7 @@
 // The map of a surface: what is known of a cell under the pointer or under the keys; a click or Enter opens the cell.
 // Data: {frequency_hz, pga_m_s2, interval, trials, collapses, probability, lower, upper, file, [method], [outcomes:
-// {state: [counts]}, first: {cell: [[name, count]]}, times: {cell: [first, median, last]}]}; arrays by cell, frequency x
-// PGAs + PGA.
+// {state: [counts]}, first: {cell: [[name, count]]}, times: {cell: [first, median, last]}], [rose: {cell: [falls by
+// direction]}]}; arrays by cell, frequency x PGAs + PGA.
 
 class CellMap {
   constructor(drawing, data, store) {
@@ -119,9 +119,13 @@ class CellMap {
       body.append(html("tr", {}, html("td", {}, "time of the first fall"), html("td", {},
           `median ${numberText(times[1], 3)} s (${numberText(times[0], 3)} to ${numberText(times[2], 3)} s)`)));
     this.panel.append(html("table", {class: "facts"}, body));
+    if (d.rose?.[cell])
+      this.panel.append(html("div", {class: "of-falls"}, roseOf(d.rose[cell], `directions of the falls of cell ${cell}`),
+          html("p", {class: "note"}, "Directions of the falls from above, x to the right, z downwards: areas are numbers of ",
+               "realizations.")));
     const list = this.store ? this.store.list.filter((one) => one.cell === cell) : [];
     if (list.length) {
-      this.player = new Player(this.store, list);
+      this.player = playerOf(this.store, list);
       this.panel.append(this.player.element);
     } else if (d.trials[cell]) {
       const f = d.frequency_hz[Math.floor(cell / this.rows)], p = d.pga_m_s2[cell % this.rows];

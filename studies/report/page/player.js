@@ -4,7 +4,7 @@
 //   {rate_hz, px_m, quantum_px, width, height, ground, blocks: [name], look: [class], list: [{index, cell, state,
 //    frequency_hz, pga_m_s2, samples, falls: [[block, time_s], ...], data}]}
 //
-// px_m: pixels per metre; data: see `decoded`. Those of windows.js have other members besides.
+// px_m: pixels per metre; data: see `decoded`. Those of windows.js and space.js have other members besides.
 
 /**
  * The numbers of an animation. The bytes (base64) are whole numbers of variable length, seven bits a byte, the lowest
@@ -13,8 +13,9 @@
  * difference d is written as 2 d or, below 0, -2 d - 1; a run of n zeros as 0 and n. Lengths are in quanta of
  * `quantum_px` pixels. The rotation is in quanta of a radian over the half diagonal of the block in quanta: a corner
  * moves by one.
+ * @param sizes numbers of the size of each block   @param channels of each block   @param ofBase channels of the base
  */
-function decoded(animation, blocks) {
+function decoded(animation, blocks, sizes = 2, channels = 3, ofBase = 1) {
   const bytes = Uint8Array.from(atob(animation.data), (letter) => letter.charCodeAt(0));
   let at = 0;
   const number = () => {
@@ -27,8 +28,8 @@ function decoded(animation, blocks) {
     }
   };
   const signed = (code) => code % 2 ? -(code + 1) / 2 : code / 2;
-  const sizes = Array.from({length: blocks}, () => [number(), number()]);
-  const channels = Array.from({length: 3 * blocks + 1}, () => {
+  const ofBlocks = Array.from({length: blocks}, () => Array.from({length: sizes}, number));
+  const lists = Array.from({length: channels * blocks + ofBase}, () => {
     const values = new Float64Array(animation.samples);
     values[0] = signed(number());
     for (let i = 1; i < values.length;) {
@@ -38,7 +39,7 @@ function decoded(animation, blocks) {
     }
     return values;
   });
-  return {sizes, channels};
+  return {sizes: ofBlocks, channels: lists};
 }
 
 const stateWords = {stood: "stood", rocked: "rocked, did not fall", slid: "slid, did not fall", collapsed: "collapsed"};
@@ -57,17 +58,13 @@ class Player {
   // ---- what it is made of ----
 
   build() {
-    const {width, height, ground} = this.store;
-    this.blocks = this.store.blocks.map(() => svg("rect", {}));
-    this.ticks = svg("path", {class: "scale"});
-    this.stage = svg("svg", {class: "stage", viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0},
-                     svg("rect", {class: "ground", x: 0, y: ground, width, height: height - ground}), this.ticks,
-                     ...this.blocks);
-    this.path = svg("path", {class: "history"});
+    const {width} = this.store;
+    this.buildStage();
+    this.paths = svg("g", {});
     this.falls = svg("g", {});
     this.cursor = svg("line", {class: "cursor", y1: 4, y2: 66});
     this.label = svg("text", {x: 6, y: 14, "font-size": 12});
-    this.strip = svg("svg", {class: "strip", viewBox: `0 0 ${width} 70`, "aria-hidden": "true"}, this.path, this.falls,
+    this.strip = svg("svg", {class: "strip", viewBox: `0 0 ${width} 70`, "aria-hidden": "true"}, this.paths, this.falls,
                      this.cursor, this.label);
     this.strip.addEventListener("pointerdown", (event) => this.scrubTo(event));
     this.strip.addEventListener("pointermove", (event) => event.buttons && this.scrubTo(event));
@@ -89,13 +86,65 @@ class Player {
     this.says = html("p", {class: "says"});
     this.element = html("div", {class: "player only-with-script", keydown: (event) => this.key(event)},
         html("div", {class: "controls"}, this.before, this.after, this.title),
-        this.stage, this.strip,
+        ...this.drawings(), this.strip,
         html("div", {class: "controls"}, this.playButton, this.slider, this.clock, this.speeds),
         this.says,
         html("p", {class: "note"}, "Keys: space plays and pauses, the arrows go a sample back and on (with shift ten), ",
-             `n and p choose the next and the previous ${this.noun()}. The drawing moves with the base; the marks on the `,
-             "ground stand still in the laboratory."));
+             `n and p choose the next and the previous ${this.noun()}. ${this.noteText()}The drawing moves with the base; `,
+             "the marks on the ground stand still in the laboratory."));
   }
+
+  // ---- what space.js does in another way ----
+
+  /** The drawing (`stage`), which has the focus of the keys. */
+  buildStage() {
+    const {width, height, ground} = this.store;
+    this.blocks = this.store.blocks.map(() => svg("rect", {}));
+    this.ticks = svg("path", {class: "scale"});
+    this.stage = svg("svg", {class: "stage", viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0},
+                     svg("rect", {class: "ground", x: 0, y: ground, width, height: height - ground}), this.ticks,
+                     ...this.blocks);
+  }
+
+  /** The elements above the displacement of the base. */
+  drawings() { return [this.stage]; }
+
+  /** Further keys, what they do, and what is said of them. */
+  moreKeys() { return {}; }
+  noteText() { return ""; }
+
+  /** The numbers of an animation. */
+  numbersOf(one) { return decoded(one, this.store.blocks.length); }
+
+  /** Draws what does not change with the time. */
+  setBlocks() {
+    const quantum = this.store.quantum_px;
+    this.now.sizes.forEach(([w, h], i) => {
+      filled(this.blocks[i], {x: -w * quantum, y: -h * quantum, width: 2 * w * quantum, height: 2 * h * quantum}, []);
+    });
+  }
+
+  /** The curves of the base: their classes and channels, and what they are called. */
+  baseCurves() { return {curves: [["history", this.now.channels.at(-1)]], name: "displacement of the base"}; }
+
+  /** Draws the moment: `sample`, `nextSample`, `share`. */
+  draw() {
+    const {quantum_px: quantum, width, ground, look} = this.store;
+    this.blocks.forEach((block, b) => {
+      const [x, y, turn] = this.drawn(b, ...this.placeOf(b));
+      block.setAttribute("class", `block ${look[b]}${this.hasFallen(b) ? " fallen" : ""}`);
+      block.setAttribute("transform", `translate(${(width / 2 + x).toFixed(2)} ${(ground - y).toFixed(2)}) ` +
+          `rotate(${(-turn * 180 / Math.PI).toFixed(3)})`);
+    });
+    const base = this.value(3 * this.blocks.length) * quantum;
+    const spacing = 40, shift = (-this.drawnBase(base) % spacing + spacing) % spacing;
+    let ticks = "";
+    for (let x = shift; x < width; x += spacing) ticks += `M${x.toFixed(1)} ${ground}v10`;
+    this.ticks.setAttribute("d", ticks);
+  }
+
+  /** Where the base is, as a text. */
+  baseText() { return `${numberText(this.value(3 * this.blocks.length) * this.store.quantum_px / this.store.px_m, 3)} m`; }
 
   // ---- what windows.js does in another way ----
 
@@ -134,15 +183,12 @@ class Player {
     const one = this.list[place];
     this.one = one;
     this.numbers ??= new Map();
-    if (!this.numbers.has(one)) this.numbers.set(one, decoded(one, this.store.blocks.length));
+    if (!this.numbers.has(one)) this.numbers.set(one, this.numbersOf(one));
     this.now = this.numbers.get(one);
     one.falls.sort((a, b) => a[1] - b[1]);
     this.fallTime = new Map(one.falls);
     this.end = (one.samples - 1) / this.rate();
-    const quantum = this.store.quantum_px;
-    this.now.sizes.forEach(([w, h], i) => {
-      filled(this.blocks[i], {x: -w * quantum, y: -h * quantum, width: 2 * w * quantum, height: 2 * h * quantum}, []);
-    });
+    this.setBlocks();
     this.title.textContent = `${this.titleText()} (${place + 1} of ${this.list.length})`;
     this.stage.setAttribute("aria-label", this.title.textContent);
     this.before.hidden = this.after.hidden = this.list.length === 1;
@@ -155,15 +201,17 @@ class Player {
 
   /** Displacement of the base over the whole time, with the falls. */
   drawStrip() {
-    const base = this.now.channels.at(-1), {width} = this.store;
+    const {curves, name} = this.baseCurves(), {width} = this.store;
     let most = 0;
-    for (const value of base) most = Math.max(most, Math.abs(value));
-    const x = (i) => (i / Math.max(1, base.length - 1) * (width - 2) + 1).toFixed(1);
-    let line = "";
-    base.forEach((value, i) => { line += `${i ? "L" : "M"}${x(i)} ${(40 - 24 * value / Math.max(most, 1)).toFixed(1)}`; });
-    this.path.setAttribute("d", line);
+    for (const [, values] of curves) for (const value of values) most = Math.max(most, Math.abs(value));
+    const x = (i) => (i / Math.max(1, this.one.samples - 1) * (width - 2) + 1).toFixed(1);
+    this.paths.replaceChildren(...curves.map(([look, values]) => {
+      let line = "";
+      values.forEach((value, i) => { line += `${i ? "L" : "M"}${x(i)} ${(40 - 24 * value / Math.max(most, 1)).toFixed(1)}`; });
+      return svg("path", {class: look, d: line});
+    }));
     this.label.textContent = most === 0 ? "the base is at rest"
-        : `displacement of the base, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
+        : `${name}, ± ${numberText(most * this.store.quantum_px / this.store.px_m, 3)} m`;
     this.falls.replaceChildren(...this.one.falls.filter(([, time]) => time <= this.end).map(([, time]) => {
       const at = x(time * this.rate());
       return svg("line", {class: "fall", x1: at, x2: at, y1: 50, y2: 68});
@@ -178,6 +226,8 @@ class Player {
     return values[this.sample] + this.share * (values[this.nextSample] - values[this.sample]);
   }
 
+  hasFallen(block) { return this.fallTime.has(block) && this.fallTime.get(block) <= this.time + 1e-9; }
+
   /** The place of a block at the time that is shown [px, rad]. */
   placeOf(block) {
     const [w, h] = this.now.sizes[block], quantum = this.store.quantum_px;
@@ -187,30 +237,19 @@ class Player {
 
   show(time) {
     this.time = clamp(time, 0, this.end);
-    const {quantum_px: quantum, width, ground, look, px_m} = this.store;
+    const {width} = this.store;
     const at = this.time * this.rate(), last = this.one.samples - 1;
     this.sample = Math.min(Math.floor(at + 1e-9), last);
     this.nextSample = Math.min(this.sample + 1, last);
     this.share = clamp(at - this.sample, 0, 1);
-    this.blocks.forEach((block, b) => {
-      const [x, y, turn] = this.drawn(b, ...this.placeOf(b));
-      const fallen = this.fallTime.has(b) && this.fallTime.get(b) <= this.time + 1e-9;
-      block.setAttribute("class", `block ${look[b]}${fallen ? " fallen" : ""}`);
-      block.setAttribute("transform", `translate(${(width / 2 + x).toFixed(2)} ${(ground - y).toFixed(2)}) ` +
-          `rotate(${(-turn * 180 / Math.PI).toFixed(3)})`);
-    });
-    const base = this.value(3 * this.blocks.length) * quantum;
-    const spacing = 40, shift = (-this.drawnBase(base) % spacing + spacing) % spacing;
-    let ticks = "";
-    for (let x = shift; x < width; x += spacing) ticks += `M${x.toFixed(1)} ${ground}v10`;
-    this.ticks.setAttribute("d", ticks);
+    this.draw();
     const x = this.time / Math.max(this.end, 1e-9) * (width - 2) + 1;
     this.cursor.setAttribute("x1", x);
     this.cursor.setAttribute("x2", x);
     this.slider.value = this.sample;
     this.slider.setAttribute("aria-valuetext", `${this.time.toFixed(2)} s`);
     this.clock.textContent = this.clockText();
-    this.says.textContent = `Base at ${numberText(base / px_m, 3)} m. ${this.saysText()}`;
+    this.says.textContent = `Base at ${this.baseText()}. ${this.saysText()}`;
   }
 
   // ---- time runs ----
@@ -262,6 +301,7 @@ class Player {
       End: () => moment(this.end),
       n: () => this.choose(this.place + 1),
       p: () => this.choose(this.place - 1),
+      ...this.moreKeys(),
     };
     if (!(event.key in actions) || own === "SELECT" || (own === "BUTTON" && event.key === " ") ||
         (own === "INPUT" && event.key !== " " && event.key !== "n" && event.key !== "p")) return;

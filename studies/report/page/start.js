@@ -8,6 +8,6 @@ for (const script of document.querySelectorAll("script.figure-data"))
   if (cells && map) new CellMap(map, cells, store);
   for (const place of document.querySelectorAll("[data-player]"))
     if (store && store.list.length)
-      place.append(new (store.layers ? WindowPlayer : Player)(store, store.list).element);
+      place.append(playerOf(store, store.list).element);
 }
 document.documentElement.dataset.alive = "yes";

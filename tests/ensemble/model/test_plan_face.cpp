@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 /// The area in common, from the middles of small squares.
 double counted_area(const PlanFace& a, const PlanFace& b)
 {
-    constexpr int n = 2000;
+    constexpr int n = 600;
     const double left = a.x_m - a.half_x_m, back = a.z_m - a.half_z_m;
     const double dx = 2 * a.half_x_m / n, dz = 2 * a.half_z_m / n;
     int inside = 0;
@@ -39,8 +39,8 @@ TEST(PlanFace, AreasInCommonAreThoseOfAGrid)
         {false, 0.05, -0.15, 0.3, 0.2}, {false, 0.42, 0.12, 0.2, 0.2},
     };
     for (const PlanFace& other : others) {
-        EXPECT_NEAR(common_area_m2(disc, other), counted_area(disc, other), 4e-4) << other.x_m << " " << other.half_x_m;
-        EXPECT_EQ(common_area_m2(other, disc), common_area_m2(disc, other));
+        EXPECT_NEAR(common_area_m2(disc, other), counted_area(disc, other), 1e-3) << other.x_m << " " << other.half_x_m;
+        EXPECT_NEAR(common_area_m2(other, disc), common_area_m2(disc, other), 1e-15);
     }
     const PlanFace rectangle{false, 0, 0, 1, 2};
     EXPECT_DOUBLE_EQ(common_area_m2(rectangle, {false, 1.5, 1, 1, 2}), 0.5 * 3);

@@ -26,7 +26,8 @@ const fs::path root = STYLOBATE_SOURCE_DIR;
 
 /// Keys without a default: what is not given is not there.
 const std::set<std::string> without_default = {
-    "study.title", // none
+    "study.title",          // none
+    "structure.dimensions", // of the plane: texts are as before there was space
     // of a file: the only component, the unit that it states, as strong as it stands, not filtered
     "excitation.component", "excitation.run", "excitation.unit", "excitation.scale_to_pga_m_s2",
     "excitation.band_pass_hz",
@@ -55,7 +56,11 @@ const std::set<std::string> other_ways = {"structure.drums",
                                           "structure.epistyle_density_kg_m3",
                                           "structure.epistyle_bays",
                                           "structure.epistyle_length_m",
-                                          "structure.column_list"};
+                                          "structure.column_list",
+                                          "structure.shape",
+                                          "structure.drum_depth_m",
+                                          "structure.bed_inner_ratio",
+                                          "structure.epistyle_width_m"};
 
 /// What the study says of a text with one setting more; empty if it is taken.
 std::string message(const std::string& text, const std::string& setting)

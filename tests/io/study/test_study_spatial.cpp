@@ -133,12 +133,12 @@ TEST(StudyInSpace, ColonnadesAlongBothAxes)
     corner.replace(corner.find("columns = 2\ncolumn_spacing_m = 4.0\n"), 35, "");
     corner += "column_list = [ { x_m = 0.0 }, { x_m = 4.0 }, { x_m = 0.0, z_m = 4.0 } ]\n"
               "epistyles = [ { first_column = 0, last_column = 1, length_m = 4.6, x_m = 2.3 }, "
-              "{ first_column = 0, last_column = 2, length_m = 3.9, z_m = 2.2 } ]\n";
+              "{ first_column = 0, last_column = 2, length_m = 4.0, z_m = 2.55 } ]\n";
     const Study round = read(corner);
     EXPECT_EQ(round.structure.epistyles[1].along, Along::z);
     const Layout layout = lay_out(round.structure);
     const PlacedBlock& second = layout.blocks.back();
-    EXPECT_EQ(second.depth_m, 3.9);
+    EXPECT_EQ(second.depth_m, 4.0);
     EXPECT_EQ(second.width_m, 1.1);
     EXPECT_EQ(second.x_m(), 0);
     EXPECT_EQ(layout.beds.size(), 3U * 4U + 4U);
