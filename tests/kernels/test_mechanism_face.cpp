@@ -63,17 +63,17 @@ double frequency_near(const Realization& r, const std::vector<double>& history, 
     return found;
 }
 
-enum class Along { x, y };
+enum class Way { x, y };
 
 /// Free vibration after a small pull for one chunk: the top block's displacement, step by step.
-std::vector<double> vibration(Realization r, Along along, double pull_m_s2, int chunks)
+std::vector<double> vibration(Realization r, Way along, double pull_m_s2, int chunks)
 {
     const Study study = still(10);
     r.with_mechanisms = true; // to be pulled
     LaneSet set(study, nullptr, kernels(best_isa()), r);
     set.load(0, r);
     const int top = static_cast<int>(r.blocks.size()) - 1;
-    nudge(set, 0, top, along == Along::x ? pull_m_s2 : 0, along == Along::y ? pull_m_s2 : 0, 0);
+    nudge(set, 0, top, along == Way::x ? pull_m_s2 : 0, along == Way::y ? pull_m_s2 : 0, 0);
     set.advance();
     nudge(set, 0, top, 0, 0, 0);
     std::vector<double> history;
@@ -81,7 +81,7 @@ std::vector<double> vibration(Realization r, Along along, double pull_m_s2, int 
         for (int k = 0; k < chunk_steps; ++k) {
             set.advance(k, k + 1);
             const Snapshot s = set.snapshot(0);
-            history.push_back(along == Along::x ? s.x_m.back() : s.y_m.back());
+            history.push_back(along == Way::x ? s.x_m.back() : s.y_m.back());
         }
     return history;
 }
@@ -134,7 +134,7 @@ TEST(Hertz, RestsAndVibratesAsItsExponentSays)
     const double area = reference * std::pow(W / (1e8 * reference), 1 / q);
     EXPECT_NEAR(static_state(r).y_m[1], -area / B, 1e-12 * B);
     const double k = q * W / area * B; // tangent
-    const std::vector<double> y = vibration(r, Along::y, 0.01, 20);
+    const std::vector<double> y = vibration(r, Way::y, 0.01, 20);
     EXPECT_NEAR(frequency(r, y), std::sqrt(k / mono_stone.mass) / (2 * std::numbers::pi),
                 1e-3 * frequency(r, y)); // the scheme at w dt .14: 8e-4
     EXPECT_NEAR(*std::max_element(y.begin(), y.end()) + *std::min_element(y.begin(), y.end()),
@@ -371,14 +371,14 @@ TEST(TwoCorner, RocksOnThriceTheStiffness)
         r.with_mechanisms = true;
         const double B = mono_stone.width, k_theta = K * B * B * B / 12;
         const double by_area = first_frequency(mono_stone, K * B, k_theta);
-        EXPECT_NEAR(frequency_near(r, vibration(r, Along::x, 1e-4, 200), by_area), by_area, 2e-3 * by_area);
+        EXPECT_NEAR(frequency_near(r, vibration(r, Way::x, 1e-4, 200), by_area), by_area, 2e-3 * by_area);
         r.form = ContactForm::two_corner;
         const double want = first_frequency(mono_stone, K * B, 3 * k_theta);
-        EXPECT_NEAR(frequency_near(r, vibration(r, Along::x, 1e-4, 200), want), want, 2e-3 * want);
+        EXPECT_NEAR(frequency_near(r, vibration(r, Way::x, 1e-4, 200), want), want, 2e-3 * want);
         EXPECT_NEAR(linear_response(r).frequency_hz.front(), want, 2e-3 * want);
         // and its vertical stiffness is that of the area form
         const double axial = std::sqrt(K * B / mono_stone.mass) / (2 * std::numbers::pi);
-        EXPECT_NEAR(frequency(r, vibration(r, Along::y, 0.01, 20)), axial, 1e-3 * axial);
+        EXPECT_NEAR(frequency(r, vibration(r, Way::y, 0.01, 20)), axial, 1e-3 * axial);
     }
 }
 
@@ -389,8 +389,8 @@ TEST(Points, RestsAsTheAreaFormAndIsHalfAsStiffAgain)
     r.form = ContactForm::points;
     EXPECT_NEAR(static_state(r).y_m[1], y, 1e-12);
     const double axial = std::sqrt(1.5 * 1e8 * mono_stone.width / mono_stone.mass) / (2 * std::numbers::pi);
-    EXPECT_NEAR(frequency(r, vibration(r, Along::y, 0.01, 20)), axial, 1.5e-3 * axial);
+    EXPECT_NEAR(frequency(r, vibration(r, Way::y, 0.01, 20)), axial, 1.5e-3 * axial);
     const double k_theta = 1.5 * 1e8 * std::pow(mono_stone.width, 3) / 12;
     const double want = first_frequency(mono_stone, 1e8 * mono_stone.width, k_theta);
-    EXPECT_NEAR(frequency_near(r, vibration(r, Along::x, 1e-4, 200), want), want, 2e-3 * want);
+    EXPECT_NEAR(frequency_near(r, vibration(r, Way::x, 1e-4, 200), want), want, 2e-3 * want);
 }

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr double pi = std::numbers::pi;
 
 /// Two waves whose frequencies depend on a number.
-std::vector<double> samples(int number, std::size_t count = 400)
+std::vector<double> pair_samples(int number, std::size_t count = 400)
 {
     std::vector<double> a(count);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -38,7 +38,7 @@ std::vector<double> samples(int number, std::size_t count = 400)
     return a;
 }
 
-std::string at2(const std::vector<double>& values, const std::string& direction)
+std::string pair_file(const std::vector<double>& values, const std::string& direction)
 {
     std::string text = "PEER NGA STRONG MOTION DATABASE RECORD\nEvent, 1/1/1999, Station, " + direction +
                        "\nACCELERATION TIME SERIES IN UNITS OF G\n" +
@@ -58,9 +58,9 @@ protected:
     void recordings(int count) const
     {
         for (int k = 0; k < count; ++k) {
-            write(fmt::format("RSN{}_X_000.AT2", k), at2(samples(3 * k), "000"));
-            write(fmt::format("RSN{}_X_090.AT2", k), at2(samples(3 * k + 1), "090"));
-            write(fmt::format("RSN{}_X_UP.AT2", k), at2(samples(3 * k + 2), "UP"));
+            write(fmt::format("RSN{}_X_000.AT2", k), pair_file(pair_samples(3 * k), "000"));
+            write(fmt::format("RSN{}_X_090.AT2", k), pair_file(pair_samples(3 * k + 1), "090"));
+            write(fmt::format("RSN{}_X_UP.AT2", k), pair_file(pair_samples(3 * k + 2), "UP"));
         }
     }
     Study study(const std::string& excitation, const std::string& fragility) const
@@ -117,7 +117,7 @@ TEST_F(MotionPairs, AComponentWithoutItsOtherOneIsRefused)
         EXPECT_NE(message.find("no second horizontal component"), std::string::npos) << message;
     }
     // the shorter one of a pair is its first one
-    write("RSN1_X_090.AT2", at2(samples(4, 390), "090"));
+    write("RSN1_X_090.AT2", pair_file(pair_samples(4, 390), "090"));
     const Study shorter = of_folder("second = {}\n");
     ASSERT_EQ(shorter.fragility->motions, 2);
     EXPECT_NE(shorter.fragility->records[1].file.find("RSN1_X_090.AT2"), std::string::npos);
