@@ -1,6 +1,6 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_poses.hpp"
-#include "ensemble/spatial/spatial_poses.hpp"
+#include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/store/export.hpp"
 
@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -154,64 +153,16 @@ private:
 
 // ---- in space -------------------------------------------------------------------------------------------------------
 
-/// Half sizes of a face along x and z [m].
-struct HalfSizes {
-    double x = 0, z = 0;
-};
-
-/// Sides of the prism that is drawn for a drum: its corners lie on the circles of the faces.
-constexpr int drum_sides = 24;
-
-/// Corners of a level face, counter-clockwise as seen from above.
-std::vector<Point> ring(const HalfSizes& half, double y, bool round)
+void add_solid(Polygons& to, const PlacedSolid& solid, const OfBody& of)
 {
-    if (!round)
-        return {{half.x, y, half.z}, {half.x, y, -half.z}, {-half.x, y, -half.z}, {-half.x, y, half.z}};
-    std::vector<Point> points;
-    for (int i = 0; i < drum_sides; ++i) {
-        const double a = 2 * std::numbers::pi * i / drum_sides;
-        points.push_back({half.x * std::cos(a), y, -half.z * std::sin(a)});
-    }
-    return points;
-}
-
-/// The faces of a body, each counter-clockwise as seen from outside.
-void add_solid(Polygons& to, const std::vector<Point>& bottom, const std::vector<Point>& top, const OfBody& of)
-{
-    to.add(std::vector<Point>(bottom.rbegin(), bottom.rend()), of);
-    to.add(top, of);
-    for (std::size_t i = 0; i < bottom.size(); ++i) {
-        const std::size_t next = (i + 1) % bottom.size();
-        to.add(std::array{bottom[i], bottom[next], top[next], top[i]}, of);
+    const std::vector<SpacePoint> corners = solid.corners();
+    for (const std::vector<std::size_t>& face : solid.faces()) {
+        std::vector<Point> points;
+        for (const std::size_t corner : face)
+            points.push_back(corners[corner]);
+        to.add(points, of);
     }
 }
-
-/// A turn from upright. The samples of a trajectory lie between two steps, so that its numbers are not quite of
-/// length 1.
-class Attitude {
-public:
-    explicit Attitude(const std::array<double, 4>& q) : q_(q)
-    {
-        const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-        for (double& part : q_)
-            part /= length;
-    }
-
-    Point turned(const Point& p) const
-    {
-        const auto [w, x, y, z] = q_;
-        // p + 2 v x (v x p + w p), v the vector of the quaternion
-        const Point a = {y * p[2] - z * p[1] + w * p[0], z * p[0] - x * p[2] + w * p[1],
-                         x * p[1] - y * p[0] + w * p[2]};
-        return {p[0] + 2 * (y * a[2] - z * a[1]), p[1] + 2 * (z * a[0] - x * a[2]), p[2] + 2 * (x * a[1] - y * a[0])};
-    }
-    double angle_rad() const { return 2 * std::atan2(std::hypot(q_[1], q_[2], q_[3]), std::fabs(q_[0])); }
-    /// Of the axis from the vertical.
-    double tilt_rad() const { return 2 * std::atan2(std::hypot(q_[1], q_[3]), std::hypot(q_[0], q_[2])); }
-
-private:
-    std::array<double, 4> q_; ///< w, x, y, z
-};
 
 class SpatialDrawing {
 public:
@@ -219,13 +170,7 @@ public:
     explicit SpatialDrawing(const Trajectory& t) : t_(t)
     {
         for (std::size_t i = 0; i < t.blocks(); ++i) {
-            const bool is_round = t["round"][i] != 0;
-            const HalfSizes bottom = {t["bottom_half_x_m"][i], t["bottom_half_z_m"][i]};
-            const HalfSizes top = {t["top_half_x_m"][i], t["top_half_z_m"][i]};
-            const double half_height = t["half_height_m"][i];
-            bottom_.push_back(ring(bottom, -half_height, is_round));
-            top_.push_back(ring(top, half_height, is_round));
-            const double reach = std::hypot(half_height, std::max(bottom.x, top.x), std::max(bottom.z, top.z));
+            const double reach = shape_of(t, i).half_diagonal();
             for (std::size_t at = i; at < t["x_m"].size(); at += t.blocks()) {
                 from_ = {std::min(from_.x, t["x_m"][at] - reach), std::min(from_.z, t["z_m"][at] - reach)};
                 to_ = {std::max(to_.x, t["x_m"][at] + reach), std::max(to_.z, t["z_m"][at] + reach)};
@@ -244,26 +189,16 @@ public:
         const Point base = base_of([&](const std::vector<double>& list) { return list[k]; });
         const Point base_velocity = base_of([&](const std::vector<double>& list) { return rate.of(list, 1, 0); });
         for (std::size_t i = 0; i < n; ++i) {
-            const auto pose = [&](const char* channel) { return t_[channel][k * n + i]; };
-            const Attitude attitude({pose("q_w"), pose("q_x"), pose("q_y"), pose("q_z")});
-            const Point middle = sum(base, {pose("x_m"), pose("y_m"), pose("z_m")});
-            const auto placed = [&](std::vector<Point> points) {
-                for (Point& point : points)
-                    point = sum(middle, attitude.turned(point));
-                return points;
-            };
+            PlacedSolid solid = solid_of(t_, k, i);
+            solid.middle = sum(base, solid.middle);
             const Point velocity =
                 sum(base_velocity, {rate.of(t_["x_m"], n, i), rate.of(t_["y_m"], n, i), rate.of(t_["z_m"], n, i)});
-            add_solid(polygons, placed(bottom_[i]), placed(top_[i]),
-                      {static_cast<std::int64_t>(i), attitude.angle_rad(), attitude.tilt_rad(), velocity});
+            add_solid(polygons, solid,
+                      {static_cast<std::int64_t>(i), solid.attitude.angle_rad(), solid.attitude.tilt_rad(), velocity});
         }
         const HalfSizes half = {(to_.x - from_.x) / 2, (to_.z - from_.z) / 2};
-        const Point middle = sum(base, {(from_.x + to_.x) / 2, 0, (from_.z + to_.z) / 2});
-        std::vector<Point> bottom = ring(half, -height_, false), top = ring(half, 0, false);
-        for (std::vector<Point>* face : {&bottom, &top})
-            for (Point& point : *face)
-                point = sum(middle, point);
-        add_solid(polygons, bottom, top, {.velocity = base_velocity});
+        const Point middle = sum(base, {(from_.x + to_.x) / 2, -height_ / 2, (from_.z + to_.z) / 2});
+        add_solid(polygons, {{height_ / 2, half, half, false}, middle, Attitude()}, {.velocity = base_velocity});
         return polygons.text();
     }
 
@@ -276,9 +211,8 @@ private:
     }
 
     const Trajectory& t_;
-    std::vector<std::vector<Point>> bottom_, top_; ///< (blocks) corners of the upright body about its middle
-    HalfSizes from_, to_;                          ///< ends of the slab, in its own frame
-    double height_ = 0;                            ///< of the slab
+    HalfSizes from_, to_; ///< ends of the slab, in its own frame
+    double height_ = 0;   ///< of the slab
 };
 
 template <class Drawing>

@@ -131,7 +131,6 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
     const std::optional<LawBand> laws = law_band_beside(file, results.study(), results.header());
     Picture picture;
     if (asked.name == strip.name) {
-        check_motion_is_drawn(results); // before the realization is run
         picture.name = fmt::format("strip_realization_{}", realization);
         picture.draw = [&](const std::string&, const fs::path& to) {
             strip_picture(results, traced_motion(results, options.isa(), realization), wanted.title, to);

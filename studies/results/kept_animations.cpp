@@ -5,10 +5,10 @@
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/run_order.hpp"
 #include "io/files/suggest.hpp"
-#include "io/plots/plot_strip.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
+#include "studies/results/result_picture.hpp"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -137,6 +137,8 @@ private:
         animation.frequency_hz = row.frequency_hz;
         animation.pga_m_s2 = row.pga_m_s2;
         animation.fall_time_s = row.outcome.fall_time_s;
+        if (results_.study().structure.spatial())
+            animation.azimuth_rad = row.outcome.fall_azimuth_rad;
         return animation;
     }
 
@@ -229,8 +231,6 @@ std::optional<std::string> why_none(const Results& results)
         return why;
     if (!results.header().has_rows())
         return "has no rows of realizations (output.realizations = \"none\"), of which some could be chosen";
-    if (results.study().structure.spatial())
-        return fmt::format("has none: {}", no_motion_in_space);
     return std::nullopt;
 }
 
@@ -270,33 +270,47 @@ std::size_t animation_stride(const Study& study)
 KeptAnimations animations_for(const Study& study)
 {
     KeptAnimations none;
-    none.stage = animation_stage(lay_out(study.structure).blocks);
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    none.stage = study.structure.spatial() ? animation_stage_in_space(blocks) : animation_stage(blocks);
     none.rate_hz = study.output.trajectory_rate_hz / static_cast<double>(animation_stride(study));
     return none;
 }
 
 std::string animations_json(const KeptAnimations& kept, const Study& study)
 {
+    const std::vector<PlacedBlock> placed = lay_out(study.structure).blocks;
     std::vector<AnimatedBlock> blocks;
-    for (const PlacedBlock& block : lay_out(study.structure).blocks)
-        blocks.push_back({block.name, block.fixed ? "fixed" : block.role == BlockRole::epistyle ? "lintel" : "stone"});
+    SpaceLooks looks;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const PlacedBlock& block = placed[i];
+        const bool epistyle = block.role == BlockRole::epistyle;
+        blocks.push_back({block.name, block.fixed ? "fixed" : epistyle ? "lintel" : "stone"});
+        looks.round.push_back(block.shape == Shape::round ? 1 : 0);
+        if (!block.fixed && is_top(placed, i))
+            looks.orbits.push_back(i);
+    }
     Json list = Json::list();
     for (const Animation& animation : kept.list) {
         Json falls = Json::list();
         for (std::size_t block = 0; block < animation.fall_time_s.size(); ++block)
             if (animation.fall_time_s[block] >= 0)
                 falls.item_as_is(fmt::format("[{},{:.6g}]", block, animation.fall_time_s[block]));
-        list.item(Json::object()
-                      .member("index", animation.index)
-                      .member("cell", animation.cell)
-                      .member("state", to_string(animation.state))
-                      .member_as_is("frequency_hz", fmt::format("{:.6g}", animation.frequency_hz))
-                      .member_as_is("pga_m_s2", fmt::format("{:.6g}", animation.pga_m_s2))
-                      .member("samples", animation.samples)
-                      .member("falls", falls)
-                      .member("data", animation.data));
+        Json one = Json::object();
+        one.member("index", animation.index)
+            .member("cell", animation.cell)
+            .member("state", to_string(animation.state))
+            .member_as_is("frequency_hz", fmt::format("{:.6g}", animation.frequency_hz))
+            .member_as_is("pga_m_s2", fmt::format("{:.6g}", animation.pga_m_s2))
+            .member("samples", animation.samples)
+            .member("falls", falls);
+        if (std::isfinite(animation.azimuth_rad))
+            one.member_as_is("azimuth_rad", fmt::format("{:.6g}", animation.azimuth_rad));
+        list.item(one.member("data", animation.data));
     }
-    return animation_store(kept.stage, kept.rate_hz, blocks).member("list", list).text();
+    return animation_store(kept.stage, kept.rate_hz, blocks,
+                           study.structure.spatial() ? std::optional(std::move(looks)) : std::nullopt)
+        .member("list", list)
+        .text();
 }
 
 } // namespace stylobate

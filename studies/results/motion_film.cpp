@@ -184,6 +184,7 @@ std::string motion_page(const TracedMotion& motion, const Results& results, std:
     animation.frequency_hz = motion.frequency_hz;
     animation.pga_m_s2 = motion.pga_m_s2;
     animation.fall_time_s = motion.fall_time_s;
+    animation.azimuth_rad = motion.azimuth_rad;
     kept.list.push_back(std::move(animation));
     HtmlPage page(title.value_or(fmt::format("{}, realization {}", results.title(), index)),
                   fmt::format("Computed by stylobate {}.", results.header().code_version));
@@ -202,7 +203,6 @@ bool is_motion_format(std::string_view format)
 bool write_motion(const Results& results, Isa isa, std::uint64_t index, const std::optional<std::string>& title,
                   const std::string& format, const fs::path& file, Observer& observer)
 {
-    check_motion_is_drawn(results);
     AtomicFile::check(file); // this and the search before the realization is run
     const bool page = format == "html";
     const fs::path ffmpeg =

@@ -37,10 +37,7 @@ std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
         if (blocks[i].fixed)
             continue;
         all.push_back(i);
-        const bool top = std::none_of(blocks.begin(), blocks.end(), [&](const PlacedBlock& other) {
-            return other.column >= 0 && other.column == blocks[i].column && other.y_m > blocks[i].y_m;
-        });
-        if (top)
+        if (is_top(blocks, i))
             tops.push_back(i);
     }
     std::vector<std::size_t> told = all.size() <= most ? all : tops;
@@ -50,27 +47,34 @@ std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
 
 } // namespace
 
+bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block)
+{
+    return std::none_of(blocks.begin(), blocks.end(), [&](const PlacedBlock& other) {
+        return other.column >= 0 && other.column == blocks[block].column && other.y_m > blocks[block].y_m;
+    });
+}
+
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index)
 {
     const ResultReader& reader = results.reader();
+    const auto azimuth = [&](const Outcome& outcome) {
+        return results.study().structure.spatial() ? outcome.fall_azimuth_rad
+                                                   : std::numeric_limits<double>::quiet_NaN();
+    };
     const std::vector<std::uint64_t> stored = reader.trajectory_indices();
     if (std::find(stored.begin(), stored.end(), index) != stored.end()) {
         const ResultRow row = reader.row(index);
-        return {reader.trajectory(index), row.outcome.fall_time_s, row.outcome.state, row.frequency_hz, row.pga_m_s2};
+        return {reader.trajectory(index), row.outcome.fall_time_s, row.outcome.state, row.frequency_hz, row.pga_m_s2,
+                azimuth(row.outcome)};
     }
     const Experiment& experiment = results.experiment();
     if (index < results.header().first || index >= results.end())
         throw InputError(fmt::format("--realization {}: {} has realizations {} to {}", index, results.file(),
                                      results.header().first, results.end() - 1));
     TracedRealization f = trace(experiment, index, isa);
-    return {std::move(f.trajectory), std::move(f.outcome.fall_time_s), f.outcome.state, f.realization.frequency_hz,
-            f.realization.pga_m_s2};
-}
-
-void check_motion_is_drawn(const Results& results)
-{
-    if (results.study().structure.spatial())
-        throw InputError(fmt::format("{}: {}.", results.file(), no_motion_in_space));
+    const double azimuth_rad = azimuth(f.outcome);
+    return {std::move(f.trajectory),    std::move(f.outcome.fall_time_s), f.outcome.state,
+            f.realization.frequency_hz, f.realization.pga_m_s2,           azimuth_rad};
 }
 
 std::vector<Figure> history_figures(const Results& results, const TracedMotion& motion)

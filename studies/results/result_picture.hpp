@@ -10,11 +10,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate {
+
+struct PlacedBlock;
 
 /// A realization over time, wherever it comes from; its number is that of the trajectory.
 struct TracedMotion {
@@ -22,13 +25,14 @@ struct TracedMotion {
     std::vector<double> fall_time_s; ///< (blocks)
     State state = State::stood;
     double frequency_hz = 0, pga_m_s2 = 0;
+    double azimuth_rad = std::numeric_limits<double>::quiet_NaN(); ///< of the fall, in space; NaN: there is none
 };
 /// The trajectory that the file holds, or else the realization run again.
 /// @throws InputError if there is no such realization, or if none can be run again
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index);
 
-/// @throws InputError if the realizations of these results have no picture in motion: the structure is in space
-void check_motion_is_drawn(const Results& results);
+/// Whether no block of its column is above a block; an epistyle is one.
+bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block);
 
 /// One realization over time.
 /// @param title nullopt: from the results, the realization and its outcome

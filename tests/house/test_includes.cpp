@@ -109,6 +109,7 @@ const std::set<std::string> headers_for_io = {"ensemble/estimators/past/agreeing
                                               "ensemble/motion/noise_duration.hpp",
                                               "ensemble/planar/planar_poses.hpp",
                                               "ensemble/sampling/plausible.hpp",
+                                              "ensemble/spatial/placed_solid.hpp",
                                               "ensemble/spatial/spatial_poses.hpp"};
 
 /// Libraries, and the folders among `may_include` and `studies` that they are for.
