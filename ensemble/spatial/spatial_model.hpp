@@ -7,9 +7,9 @@
 #include "ensemble/numerics/aligned.hpp"
 #include "ensemble/realization/realization.hpp"
 #include "ensemble/spatial/spatial_poses.hpp"
-#include "ensemble/spatial/spatial_scales.hpp"
 #include "ensemble/spatial/spatial_watch.hpp"
 #include "ensemble/spatial/structure/solid_bundle.hpp"
+#include "ensemble/spatial/structure/spatial_scales.hpp"
 #include "kernels/isa.hpp"
 
 #include <array>

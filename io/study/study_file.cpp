@@ -253,7 +253,7 @@ void check_precision(const KeyReader& keys, const Study& study)
 /// A measure of pairs where there are none. @param keys of [fragility]
 void check_pairs(const KeyReader& keys, const Study& study)
 {
-    if (keys.has(fragility_keys::of_pair) && !study.has_pairs())
+    if (keys.read(fragility_keys::of_pair) != OfPair::geometric_mean && !study.has_pairs())
         keys.refuse(fragility_keys::of_pair.name, "needs a second component, and there is none",
                     "Give excitation.second (of synthetic motions excitation.second_ratio), or remove it.");
 }

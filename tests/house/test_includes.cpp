@@ -34,11 +34,13 @@ const std::map<std::string, std::set<std::string>> rooms = {
     {"ensemble/realization", {"ensemble/model"}},
     {"ensemble/engine", {"ensemble/model", "ensemble/motion", "ensemble/numerics"}},
     {"ensemble/planar", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/realization"}},
-    {"ensemble/spatial", {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/realization"}},
+    {"ensemble/spatial",
+     {"ensemble/engine", "ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/realization"}},
     {"ensemble/sampling",
      {"ensemble/model", "ensemble/motion", "ensemble/numerics", "ensemble/planar", "ensemble/spatial"}},
     {"ensemble", {"ensemble/model", "ensemble/motion", "ensemble/planar", "ensemble/sampling"}},
-    {"ensemble/run", {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar"}},
+    {"ensemble/run",
+     {"ensemble", "ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/spatial"}},
     {"ensemble/tracking",
      {"ensemble/engine", "ensemble/model", "ensemble/numerics", "ensemble/planar", "ensemble/realization",
       "ensemble/run"}},
@@ -360,7 +362,8 @@ TEST(House, NoFileHasTooManyLines)
     for (const Text& file : texts()) {
         const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
         const bool by_program = file.name.starts_with("bench/results/") || file.name == "docs/verification.md" ||
-                                file.name == "docs/claims.md" || file.name == "docs/study_reference.md";
+                                file.name == "docs/claims.md" || file.name == "docs/study_reference.md" ||
+                                file.name == "io/FORMAT.md"; // its tables are those of the lists of fields
         EXPECT_TRUE(lines <= most_lines || by_program)
             << file.name << " has " << lines << " lines: look for a second noun";
     }

@@ -4,7 +4,7 @@
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/realization/realization.hpp"
-#include "ensemble/spatial/spatial_scales.hpp"
+#include "ensemble/spatial/structure/spatial_scales.hpp"
 
 #include <string>
 #include <vector>

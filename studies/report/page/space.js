@@ -235,7 +235,7 @@ class SpacePlayer extends Player {
   /** The blocks whose orbits are drawn. */
   orbitBlocks() { return this.orbitChoice.value === "" ? this.store.orbits : [Number(this.orbitChoice.value)]; }
 
-  /** Displacements of a block from its first place [px], along x and z, of all samples. */
+  /** How a block is displaced from its first place [px], along x and z, of all samples. */
   orbitOf(block) {
     const quantum = this.store.quantum_px;
     const [x, , z] = this.now.channels.slice(6 * block, 6 * block + 3);

@@ -1,7 +1,7 @@
 // Rest of structures in space, against statics by hand.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/spatial/spatial_scales.hpp"
+#include "ensemble/spatial/structure/spatial_scales.hpp"
 #include "tests/ensemble/spatial/standing.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "ensemble/spatial/spatial_scales.hpp"
+#include "ensemble/spatial/structure/spatial_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
