@@ -238,7 +238,8 @@ std::array<double, 2> SpatialModel::face_offset(int j, int lane) const
         return spatial::BedBody<double>{displacement(k, lane), q, spatial::minus_identity(q), {at(0), at(1), at(2)}};
     };
     const spatial::BedPose<double> pose =
-        spatial::bed_pose(body(joint.lower, J::lower_anchor), body(joint.upper, J::upper_anchor), joint.normal);
+        spatial::bed_pose(body(joint.lower, J::lower_anchor), body(joint.upper, J::upper_anchor), joint.normal,
+                          bundle_.at(J::gap, j, lane));
     return {pose.place.x, pose.place.y};
 }
 

@@ -105,12 +105,15 @@ STYLOBATE_INLINE BedPose<Real> bed_pose(const Vector<Real>& apart, const Quatern
 ///
 ///   P = R_l^T [(u_u - u_l) + (R_u - 1) a_u - (R_l - 1) a_l]
 ///
-/// The two anchors coincide in the reference state, so that only displacements are subtracted from each other.
+/// The two anchors coincide in the reference state, so that only displacements are subtracted from each other; or the
+/// upper one is farther along the normal by the gap of a butt joint, which is added in the brackets.
 template <class Real>
-STYLOBATE_INLINE BedPose<Real> bed_pose(const BedBody<Real>& lower, const BedBody<Real>& upper, Axis normal)
+STYLOBATE_INLINE BedPose<Real> bed_pose(const BedBody<Real>& lower, const BedBody<Real>& upper, Axis normal,
+                                        Real gap = Real(0.0))
 {
     const Vector<Real> apart = (upper.displacement - lower.displacement) +
-                               (displaced(upper.turn, upper.anchor) - displaced(lower.turn, lower.anchor));
+                               (displaced(upper.turn, upper.anchor) - displaced(lower.turn, lower.anchor)) +
+                               from_joint(Vector<Real>{Real(0.0), Real(0.0), gap}, normal);
     return bed_pose(apart, relative_rotation(lower.q, upper.q), lower.turn, normal);
 }
 

@@ -66,7 +66,7 @@ struct OfJoint {
         mu,
         depth_limit,  ///< a mean depth beyond it is no contact [m]
         lower_anchor, ///< from the lower body's centre of mass to the point where the faces meet in the reference
-                      ///< state, in the body's frame (3) [m]
+                      ///< state, in the body's frame (3); with a gap each body's is on its own face [m]
         upper_anchor = lower_anchor + 3, ///< the same from the upper body's (3) [m]
         lower_half_1 = upper_anchor + 3, ///< half size of the lower face; of a disc its radius [m]
         lower_half_2,                    ///< [m]
@@ -76,7 +76,10 @@ struct OfJoint {
         upper_half_2,                    ///< [m]
         upper_centre_1,                  ///< centre of the upper face from the anchor; of disc on disc 0 [m]
         upper_centre_2,                  ///< [m]
-        force,                           ///< on the upper body in the last step, frame of the base (3) [N]; step
+        inner_ratio, ///< of a hollow bed: inner over outer size of the faces; read where the topology has it
+        gap,         ///< of a butt joint: from the lower to the upper anchor in the reference state, along the normal;
+                     ///< not read of beds [m]
+        force,       ///< on the upper body in the last step, frame of the base (3) [N]; step
         upper_moment = force + 3,        ///< the same about the upper body's centre of mass (3) [N m]; step
         lower_moment = upper_moment + 3, ///< and about the lower body's (3) [N m]; step
         count = lower_moment + 3

@@ -14,6 +14,7 @@
 #include "kernels/spatial/bed.hpp"
 #include "kernels/spatial/disc_bed.hpp"
 #include "kernels/spatial/friction.hpp"
+#include "kernels/spatial/hollow_bed.hpp"
 #include "kernels/spatial/mechanisms/mechanisms.hpp"
 #include "kernels/spatial/polygon_bed.hpp"
 #include "kernels/spatial/rows.hpp"
@@ -130,8 +131,10 @@ private:
         const BedBody<Real> lower = body(joint.lower, OfJoint::lower_anchor),
                             upper = body(joint.upper, OfJoint::upper_anchor);
         const Vector<Real> upper_anchor = displaced(upper.turn, upper.anchor),
-                           lower_anchor = displaced(lower.turn, lower.anchor),
-                           apart = upper.displacement - lower.displacement;
+                           lower_anchor = displaced(lower.turn, lower.anchor);
+        Vector<Real> apart = upper.displacement - lower.displacement;
+        if (joint.normal != Axis::y)
+            apart.z = apart.z + get(OfJoint::gap, j);
         const Quaternion<Real> r = relative_rotation(lower.q, upper.q);
         s.pose = bed_pose(apart + (upper_anchor - lower_anchor), r, lower.turn, Axis::z);
         s.upper_arm = upper.anchor + upper_anchor;
@@ -158,21 +161,39 @@ private:
     {
         return {get(first, j, 2), get(first, j, 3), get(first, j), get(first, j, 1)};
     }
+    /// @tparam inner of the recesses of hollow faces on each other, instead of the whole faces
+    template <bool inner>
     STYLOBATE_INLINE BedLoad<Real> law(int j, const BedPose<Real>& pose) const
     {
+        const auto sized = [&](Real half) {
+            if constexpr (inner)
+                return get(OfJoint::inner_ratio, j) * half;
+            else
+                return half;
+        };
         const Real stiffness = get(OfJoint::stiffness, j);
         if (topology_.joint[j].kind == BedKind::disc) {
             BedPose<Real> centres = pose; // seen from the centre of the lower face
             centres.place.x = pose.place.x - get(OfJoint::lower_centre_1, j);
             centres.place.y = pose.place.y - get(OfJoint::lower_centre_2, j);
-            return disc_bed(centres,
-                            DiscBed<Real>{stiffness, get(OfJoint::upper_half_1, j), get(OfJoint::lower_half_1, j)});
+            return disc_bed(centres, DiscBed<Real>{stiffness, sized(get(OfJoint::upper_half_1, j)),
+                                                   sized(get(OfJoint::lower_half_1, j))});
         }
-        const Rectangle<Real> lower = face(j, OfJoint::lower_half_1), upper = face(j, OfJoint::upper_half_1);
-        if (topology_.joint[j].kind == BedKind::rectangle)
+        Rectangle<Real> lower = face(j, OfJoint::lower_half_1), upper = face(j, OfJoint::upper_half_1);
+        upper.half_x = sized(upper.half_x), upper.half_y = sized(upper.half_y);
+        if (topology_.joint[j].kind == BedKind::rectangle) {
+            lower.half_x = sized(lower.half_x), lower.half_y = sized(lower.half_y);
             return polygon_bed(pose, PolygonBed<Real, 4>{stiffness, polygon_of(upper), lower});
+        }
+        // a recess in the disc alone
         const Polygon<Real, 16> round = sixteen_corners(upper.centre_x, upper.centre_y, upper.half_x);
         return polygon_bed(pose, PolygonBed<Real, 16>{stiffness, round, lower});
+    }
+
+    /// Apart: few structures have hollow beds.
+    STYLOBATE_APART static void hollow_out(Stepper self, int j, const BedPose<Real>& pose, BedLoad<Real>& load)
+    {
+        load = hollow_load(load, self.template law<true>(j, pose));
     }
 
     /// Faces that look away from each other, or lie deeper in each other than any load could press them, carry nothing:
@@ -180,7 +201,9 @@ private:
     STYLOBATE_INLINE void bed(int j, Scratch& s, bool audit) const
     {
         const Real zero(0.0), one(1.0);
-        BedLoad<Real> load = law(j, s.pose);
+        BedLoad<Real> load = law<false>(j, s.pose);
+        if (topology_.joint[j].hollow)
+            hollow_out(*this, j, s.pose, load);
         const Real most = get(OfJoint::stiffness, j) * get(OfJoint::depth_limit, j) * load.area;
         const auto presses = (load.force > zero) & (load.force < most) & (one + s.pose.turn.m33 > zero);
         for (Real* each : {&load.force, &load.lateral_x, &load.lateral_y, &load.torque.x, &load.torque.y,

@@ -22,6 +22,7 @@ struct TopologyJoint {
     /// The normal points along the axis in the opposite direction: where a round block carries a beam, the beam's face
     /// is the `lower` one, as the law asks, although it lies above.
     bool reversed = false;
+    bool hollow = false; ///< only a ring of the faces bears (`OfJoint::inner_ratio`); a ratio of 0 is neutral
 };
 
 /// Which step runs a bundle, and which rows it has.

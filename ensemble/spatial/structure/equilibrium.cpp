@@ -96,7 +96,8 @@ private:
         for (std::size_t j = 0; j < load.size(); ++j) {
             const SolidJoint& joint = structure_.joints[j];
             const double half = std::min(smaller_half(joint.lower_face), smaller_half(joint.upper_face));
-            depth_m_[j] = load[j] / (4 * half * half * joint.normal_stiffness_n_m3);
+            const double bearing = 1 - joint.inner_ratio * joint.inner_ratio;
+            depth_m_[j] = load[j] / (4 * bearing * half * half * joint.normal_stiffness_n_m3);
         }
         lower_by(depth_m_);
         evaluate(rest_.poses);
@@ -169,7 +170,8 @@ private:
         for (std::size_t j = 0; j < depth_m_.size(); ++j) {
             const SolidJoint& joint = structure_.joints[j];
             const double half = std::min(smaller_half(joint.lower_face), smaller_half(joint.upper_face));
-            const double jump = joint.normal_stiffness_n_m3 * depth_m_[j] * depth_m_[j] * half;
+            const double sides = (1 + joint.inner_ratio) * half; // those of the recesses, too
+            const double jump = joint.normal_stiffness_n_m3 * depth_m_[j] * depth_m_[j] * sides;
             for (const int of : {joint.lower, joint.upper})
                 if (!structure_.solids[static_cast<std::size_t>(of)].fixed)
                     rest_.allowed = std::max(

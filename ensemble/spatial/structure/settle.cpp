@@ -93,7 +93,8 @@ double softness(const SolidJoint& joint, const Above& above)
 {
     const auto half = [](const Face& face) { return std::min(face.half_x_m, face.half_z_m); };
     const double least = std::min(half(joint.lower_face), half(joint.upper_face));
-    return (above.moment[1] - above.kg * joint.point_m[1]) / (joint.normal_stiffness_n_m3 * std::pow(least, 4));
+    return (above.moment[1] - above.kg * joint.point_m[1]) /
+           (joint.normal_stiffness_n_m3 * (std::pow(least, 4) - std::pow(joint.inner_ratio * least, 4)));
 }
 
 [[noreturn]] void refuse(const Realization& r, const SolidTopology& topology, const ForcesAtRest& forces,

@@ -41,6 +41,7 @@ spatial::TopologyJoint kernel_joint(const SolidJoint& joint, const std::vector<i
                                              : BedKind::round;
     of.normal = axis_of(joint.normal);
     of.reversed = of.kind == BedKind::round && lower_round;
+    of.hollow = joint.inner_ratio > 0;
     if (of.reversed)
         std::swap(of.lower, of.upper);
     return of;
@@ -104,14 +105,17 @@ void store_joint(const SolidJoint& joint, const Realization& r, bool reversed, c
         lower_middle = {lower_middle[0] - upper_middle[0], lower_middle[1] - upper_middle[1]};
         upper_middle = {};
     }
-    const auto anchor = [&](const Solid& body) {
+    const auto anchor = [&](const Solid& body, double beyond) {
         std::array<double, 3> to{};
         for (std::size_t k = 0; k < 3; ++k)
             to[k] = point[k] - body.centre_m[k];
+        to[static_cast<std::size_t>(joint.normal)] += beyond;
         return to;
     };
-    store(J::lower_anchor, anchor(lower));
-    store(J::upper_anchor, anchor(upper));
+    store(J::lower_anchor, anchor(lower, 0));
+    store(J::upper_anchor, anchor(upper, joint.gap_m));
+    b.at(J::gap, j, lane) = joint.gap_m;
+    b.at(J::inner_ratio, j, lane) = joint.inner_ratio;
     const Face &below = reversed ? joint.upper_face : joint.lower_face,
                &above = reversed ? joint.lower_face : joint.upper_face;
     const auto &below_m = reversed ? upper_middle : lower_middle, &above_m = reversed ? lower_middle : upper_middle;

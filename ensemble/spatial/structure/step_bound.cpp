@@ -29,11 +29,12 @@ struct Pressed {
     Eigen::Vector2d first, centre;
     Eigen::Matrix2d second;
     double friction_radius = 0;
+    double force = 0; ///< over the stiffness and the slope along the unit face's first axis
 };
 
 /// The same of a face of half size 1 that is deepest on its first axis (a disc), or in its first corner (a square).
 struct UnitPressed {
-    double area, first, second_along, second_across, centre;
+    double area, first, second_along, second_across, centre, force;
     double
         spread; ///< the friction radius of a disc; mean square distance from the centre of the pressure along an axis
 };
@@ -42,7 +43,7 @@ struct UnitPressed {
 UnitPressed unit_disc(double xi)
 {
     const spatial::DiscSegment<double> s = spatial::disc_segment(xi);
-    return {s.area, s.first, s.second, s.moment, s.moment / s.pressure, spatial::disc_friction_radius(xi)};
+    return {s.area, s.first, s.second, s.moment, s.moment / s.pressure, s.pressure, spatial::disc_friction_radius(xi)};
 }
 
 /// The part of the square |x|, |y| < 1 in which the depth 2 xi + x + y is positive. From the deepest corner it is the
@@ -67,18 +68,8 @@ UnitPressed unit_square(double xi)
     add(-1, 0, 2);
     add(1, 2, 2);
     const double middle = pu / pressure;
-    return {area, area - u, area - 2 * u + uu, area - 2 * u + uv, 1 - middle, puu / pressure - middle * middle};
-}
-
-using UnitStates = std::array<UnitPressed, states>;
-
-template <class Shape>
-UnitStates unit_states(Shape shape)
-{
-    UnitStates of;
-    for (std::size_t s = 0; s < states; ++s)
-        of[s] = shape(contact_states[s]);
-    return of;
+    return {
+        area, area - u, area - 2 * u + uu, area - 2 * u + uv, 1 - middle, pressure, puu / pressure - middle * middle};
 }
 
 /// A disc of radius R that is deepest towards the unit vector e.
@@ -86,9 +77,12 @@ Pressed pressed_disc(const UnitPressed& unit, double R, const Eigen::Vector2d& e
 {
     const Eigen::Matrix2d along = e * e.transpose();
     const double R4 = R * R * R * R;
-    return {R * R * unit.area, R * R * R * unit.first * e, R * unit.centre * e,
+    return {R * R * unit.area,
+            R * R * R * unit.first * e,
+            R * unit.centre * e,
             R4 * (unit.second_along * along + unit.second_across * (Eigen::Matrix2d::Identity() - along)),
-            R * unit.spread};
+            R * unit.spread,
+            R * R * R * unit.force};
 }
 
 /// A rectangle that is deepest in the corner `half`, with signs.
@@ -98,8 +92,24 @@ Pressed pressed_rectangle(const UnitPressed& unit, const Eigen::Vector2d& half)
     const double size = std::fabs(half.x() * half.y());
     Eigen::Matrix2d second = unit.second_across * half * half.transpose();
     second.diagonal() = unit.second_along * half.cwiseAbs2();
-    return {size * unit.area, size * unit.first * half, unit.centre * half, size * second,
-            gyration_to_mean * std::sqrt(unit.spread) * half.norm()};
+    return {size * unit.area,
+            size * unit.first * half,
+            unit.centre * half,
+            size * second,
+            gyration_to_mean * std::sqrt(unit.spread) * half.norm(),
+            size * half.norm() * unit.force};
+}
+
+/// What is left of a face without its recess, at the same slope: as the kernel subtracts them.
+Pressed without(const Pressed& face, const Pressed& recess)
+{
+    const double force = face.force - recess.force;
+    return {face.area - recess.area,
+            face.first - recess.first,
+            (face.force * face.centre - recess.force * recess.centre) / force,
+            face.second - recess.second,
+            (face.force * face.friction_radius - recess.force * recess.friction_radius) / force,
+            force};
 }
 
 /// What two faces have in common as the bound sees it: a disc or a rectangle along the axes of the joint, its middle
@@ -107,6 +117,7 @@ Pressed pressed_rectangle(const UnitPressed& unit, const Eigen::Vector2d& half)
 struct CommonFace {
     bool round = true;
     Eigen::Vector2d middle, half;
+    double inner_ratio = 0; ///< of a recess in its middle that lies within those of both faces; 0 if there is none
 };
 
 CommonFace common_face(const SolidJoint& joint)
@@ -118,14 +129,30 @@ CommonFace common_face(const SolidJoint& joint)
     };
     const CommonFace lower{joint.lower_face.round, vector(joint.lower_middle_m), halves(joint.lower_face)},
         upper{joint.upper_face.round, vector(joint.upper_middle_m), halves(joint.upper_face)};
-    if (lower.round && upper.round)
-        return lower.half.x() < upper.half.x() ? lower : upper;
+    const double ratio = joint.inner_ratio;
+    if (lower.round && upper.round) {
+        CommonFace disc = lower.half.x() < upper.half.x() ? lower : upper;
+        double recess = disc.half.x() * ratio;
+        for (const CommonFace& of : {lower, upper})
+            recess = std::min(recess, ratio * of.half.x() - (of.middle - disc.middle).norm());
+        disc.inner_ratio = std::max(recess, 0.0) / disc.half.x();
+        return disc;
+    }
     const Eigen::Vector2d from = (lower.middle - lower.half).cwiseMax(upper.middle - upper.half),
                           to = (lower.middle + lower.half).cwiseMin(upper.middle + upper.half);
     for (const CommonFace& disc : {lower, upper})
         if (disc.round && from == disc.middle - disc.half && to == disc.middle + disc.half)
-            return disc; // all of it lies on the rectangle
-    return {false, (from + to) / 2, (to - from) / 2};
+            return {true, disc.middle, disc.half, ratio}; // all of it lies on the rectangle
+    CommonFace common{false, (from + to) / 2, (to - from) / 2};
+    if (lower.round || upper.round)
+        return common; // as if all of it did bear: that is stiffer
+    common.inner_ratio = ratio;
+    for (const CommonFace& of : {lower, upper}) {
+        const Eigen::Vector2d recess = ratio * of.half - (of.middle - common.middle).cwiseAbs();
+        common.inner_ratio = std::min(common.inner_ratio, recess.cwiseQuotient(common.half).minCoeff());
+    }
+    common.inner_ratio = std::max(common.inner_ratio, 0.0);
+    return common;
 }
 
 /// The axes of a joint: the normal and the two that follow it cyclically.
@@ -260,7 +287,6 @@ private:
     /// @param one of the places is enough: the others follow by symmetry
     BodyJoint resistances(const Mine& mine, const CommonFace& face, bool one) const
     {
-        static const UnitStates discs = unit_states(unit_disc), squares = unit_states(unit_square);
         constexpr std::array<std::array<double, 2>, 4> corners{{{1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
         const Eigen::Vector2d line = aside_.norm() > 0 ? Eigen::Vector2d(aside_.normalized()) : Eigen::Vector2d(1, 0);
         const std::size_t places = one ? 1 : face.round && !rectangles_ ? 2 : corners.size();
@@ -268,10 +294,16 @@ private:
         for (std::size_t s = 0; s < states; ++s)
             for (std::size_t place = 0; place < places; ++place) {
                 const Eigen::Vector2d corner(corners[place][0], corners[place][1]);
-                const Pressed pressed = face.round ? pressed_disc(discs[s], face.half.x(),
-                                                                  rectangles_ ? Eigen::Vector2d(corner / std::sqrt(2.0))
-                                                                              : Eigen::Vector2d(corner.x() * line))
-                                                   : pressed_rectangle(squares[s], corner.cwiseProduct(face.half));
+                const Eigen::Vector2d towards =
+                    rectangles_ ? Eigen::Vector2d(corner / std::sqrt(2.0)) : Eigen::Vector2d(corner.x() * line);
+                const auto pressed_part = [&](double part) { // of the face's size
+                    const double xi = contact_states[s] / part;
+                    return face.round ? pressed_disc(unit_disc(xi), part * face.half.x(), towards)
+                                      : pressed_rectangle(unit_square(xi), part * corner.cwiseProduct(face.half));
+                };
+                Pressed pressed = pressed_part(1);
+                if (contact_states[s] > -face.inner_ratio && face.inner_ratio > 0)
+                    pressed = without(pressed, pressed_part(face.inner_ratio));
                 joint.of[s].push_back(resistance(mine, face, pressed));
             }
         return joint;

@@ -126,6 +126,23 @@ TEST(SpatialSettle, EachBedSinksUnderTheWeightAboveIt)
     }
 }
 
+TEST(SpatialSettle, AHollowBedSinksByItsRing)
+{
+    for (const bool round : {true, false}) {
+        Standing s = small_column(round);
+        const double ratio = 0.8, bearing = 1 - ratio * ratio;
+        for (SolidJoint& joint : s.r.space.joints)
+            joint.inner_ratio = ratio;
+        s.settle();
+        const double area = bearing * (round ? std::numbers::pi : 4) * Small::radius * Small::radius;
+        double y = 0;
+        for (int i = 1; i <= 6; ++i) {
+            y -= (7 - i) * Small::mass * Standing::g / (Small::k * area);
+            EXPECT_NEAR(s.u(i).y / y, 1, 1e-13);
+        }
+    }
+}
+
 TEST(SpatialSettle, StaysAtRest)
 {
     const auto offset = [](int i) { return Vec{0.003 * std::sin(2.0 * i), 0, 0.002 * std::cos(3.0 * i)}; };
@@ -266,6 +283,32 @@ TEST(SpatialSettle, ButtedBeamsPressOnEachOther)
     EXPECT_NEAR(outer.y + inner.y - butt.y, beam, 1e-5 * beam);
     EXPECT_NEAR(outer.z + inner.z - butt.z, 0, 1e-5 * beam);
     EXPECT_NEAR(c.force(c.seats[1][1]).y, outer.y, 1e-4 * beam); // the other beam is its mirror image
+}
+
+// Two boxes on frictionless ground with a gap between them: one that is pushed comes to the other one through it.
+TEST(SpatialSettle, AButtJointActsOnceItsGapHasClosed)
+{
+    const double gap = 0.002, half = 0.5;
+    Standing s;
+    const int ground = s.body({0, -1, 0}, 5, 5, 1, 1000, false, true),
+              left = s.body({-half, 0, 0}, half, half, 1, 1000, false),
+              right = s.body({half + gap, 0, 0}, half, half, 1, 1000, false);
+    for (const int box : {left, right})
+        s.bed(ground, box, {3e9});
+    const int butt = s.butt(left, right, {3e9});
+    s.r.space.joints[static_cast<std::size_t>(butt)].gap_m = gap;
+    s.settle();
+    const double y = s.u(right).y;
+    const auto force_at = [&](double closed) {
+        for (const int box : {left, right})
+            s.at(B::y, box) = y;
+        s.at(B::x, right) = -closed;
+        s.run(1);
+        return s.at(J::normal, butt);
+    };
+    EXPECT_EQ(force_at(0), 0);
+    EXPECT_EQ(force_at(0.999 * gap), 0);
+    EXPECT_NEAR(force_at(gap + 1e-6) / (3e9 * 1e-6), 1, 1e-3);
 }
 
 TEST(SpatialSettle, LeansAboutTheRimOfItsBlock)

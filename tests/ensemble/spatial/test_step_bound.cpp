@@ -115,6 +115,41 @@ TEST(SpatialStepBound, WithoutFrictionItIsThatOfTheFullFace)
     }
 }
 
+// The same of a slab on a hollow bed: area and second moment are those of the frame.
+TEST(SpatialStepBound, AHollowBedIsThatOfItsFrame)
+{
+    for (const double half_z : {0.3, 0.8}) {
+        Standing s;
+        const double half_x = 0.5, height = 0.2, kg = 1000, k = 1e9, ratio = 0.6;
+        const int base = s.body({0, -1, 0}, half_x, half_z, 1, kg, false, true),
+                  slab = s.body({0, 0, 0}, half_x, half_z, height, kg, false);
+        SolidJoint& bed = s.r.space.joints[static_cast<std::size_t>(s.bed(base, slab, {k}))];
+        bed.tangential_stiffness_n_m = 0;
+        bed.inner_ratio = ratio;
+        const double whole = 4 * half_x * half_z, area = (1 - ratio * ratio) * whole;
+        double most = k * area / kg;
+        for (const double half : {half_x, half_z})
+            most = std::max(most, k * whole * (1 - std::pow(ratio, 4)) * half * half / 3 /
+                                      (kg * (half * half / 3 + height * height / 12)));
+        EXPECT_NEAR(spatial_step_bound_s(s.r) * std::sqrt(most) / 2, 1, 1e-6);
+    }
+}
+
+// With the same friction spring a ring resists a spin farther out than the whole face: its friction radius counts.
+TEST(SpatialStepBound, ARingResistsASpinFartherOut)
+{
+    const auto bound = [](double ratio) {
+        Standing s;
+        const int base = s.drum({0, -1, 0}, 0.5, 1, 1000, true), drum = s.drum({0, 0, 0}, 0.5, 1, 1000);
+        SolidJoint& bed = s.r.space.joints[static_cast<std::size_t>(s.bed(base, drum, {1e6}))]; // friction governs
+        bed.tangential_stiffness_n_m = 1e9;
+        bed.inner_ratio = ratio;
+        return spatial_step_bound_s(s.r);
+    };
+    EXPECT_LT(bound(0.6), bound(0));
+    EXPECT_NEAR(bound(1e-4) / bound(0), 1, 1e-6);
+}
+
 // A square's corners are farther from its axis than the rim of the disc in it.
 TEST(SpatialStepBound, SquaresAreBelowTheirDiscs)
 {

@@ -41,6 +41,9 @@ public:
         double K_t = 1e9;       ///< [N/m]
         double mu = 0.7;
         double C_n = 0, C_t = 0; ///< dashpots of the full face [N s/m]
+        bool hollow = false;
+        double inner_ratio = 0; ///< of a hollow bed
+        double gap = 0;         ///< of a butt joint: the upper face is so far from the point [m]
     };
     struct Face {
         double half_1 = 0, half_2 = 0, centre_1 = 0, centre_2 = 0;
@@ -66,7 +69,7 @@ public:
     int joint(int lower, int upper, BedKind kind, const Vec& point, const Law& law, Axis normal = Axis::y,
               bool reversed = false)
     {
-        joints_.push_back({lower, upper, kind, normal, reversed});
+        joints_.push_back({lower, upper, kind, normal, reversed, law.hollow});
         points_.push_back(point);
         laws_.push_back(law);
         return static_cast<int>(joints_.size()) - 1;
@@ -288,7 +291,10 @@ private:
         const BodySpec &lower = bodies_[index(joint.lower)], &upper = bodies_[index(joint.upper)];
         const Vec point = points_[index(j)];
         set_vector(OfJoint::lower_anchor, j, point - lower.centre);
-        set_vector(OfJoint::upper_anchor, j, point - upper.centre);
+        const Vec off = law.gap * Vec{joint.normal == Axis::x ? 1.0 : 0, 0, joint.normal == Axis::z ? 1.0 : 0};
+        set_vector(OfJoint::upper_anchor, j, point + off - upper.centre);
+        at(OfJoint::gap, j) = law.gap;
+        at(OfJoint::inner_ratio, j) = law.inner_ratio;
         const auto along = [&](const Vec& v) { return to_axes(v, joint.normal); };
         const double sign = joint.reversed ? -1 : 1;
         const bool round = joint.kind != BedKind::rectangle;

@@ -30,10 +30,10 @@ Scene column(int drums, double mu = 0.6)
 TEST(SpatialStep, AnEmptyLaneDoesNothing)
 {
     // every kind of joint and body, all numbers 0
-    const TopologyJoint joints[] = {{0, 1, BedKind::disc, Axis::y, false},
-                                    {1, 2, BedKind::rectangle, Axis::y, false},
+    const TopologyJoint joints[] = {{0, 1, BedKind::disc, Axis::y, false, true},
+                                    {1, 2, BedKind::rectangle, Axis::y, false, true},
                                     {2, 3, BedKind::rectangle, Axis::x, false},
-                                    {3, 1, BedKind::round, Axis::y, true}};
+                                    {3, 1, BedKind::round, Axis::y, true, true}};
     const Axis correction[] = {Axis::none, Axis::none, Axis::x, Axis::z};
     Topology topology{4, 1, 3, 4, joints, correction};
     std::vector<int> lists(static_cast<std::size_t>(joint_lists_size(topology)));

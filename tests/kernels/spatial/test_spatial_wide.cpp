@@ -28,11 +28,12 @@ enum class Pose { reference, standing, rocking, heap };
 constexpr Pose poses[] = {Pose::reference, Pose::standing, Pose::rocking, Pose::heap};
 
 /// Two columns with beams of three directions: discs on discs of other sizes, a beam on an abacus and one on a round
-/// drum, butt joints along x and along z, bodies with three inertias.
+/// drum, each of them also hollow, butt joints along x with a gap and along z, bodies with three inertias.
 void build_colonnade(Scene& s, bool with_mechanisms)
 {
     s.use_mechanisms(with_mechanisms);
-    const Scene::Law law{1e9, 8e8, 0.6, 3e5, 2e5};
+    const Scene::Law law{1e9, 8e8, 0.6, 3e5, 2e5}, ring{1e9, 8e8, 0.6, 3e5, 2e5, true, 0.5},
+        apart{1e9, 8e8, 0.6, 3e5, 2e5, false, 0, 1e-6};
     const int ground_1 = s.box({0, -0.5, 0}, {3, 1, 3}, 1, true), ground_2 = s.box({3, -0.5, 0}, {3, 1, 3}, 1, true);
     const int low_1 = s.drum({0, 0.5, 0}, 0.5, 1, 1900), high_1 = s.drum({0, 1.5, 0}, 0.46, 1, 1700);
     const int abacus = s.box({0, 2.15, 0}, {1.2, 0.3, 1.2}, 1000);
@@ -43,11 +44,11 @@ void build_colonnade(Scene& s, bool with_mechanisms)
     s.joint(low_1, high_1, BedKind::disc, {0, 1, 0}, law);
     s.joint(high_1, abacus, BedKind::disc, {0, 2, 0}, law);
     s.joint(ground_2, low_2, BedKind::rectangle, {3, 0, 0}, law);
-    s.joint(low_2, high_2, BedKind::disc, {3, 1, 0}, law);
-    s.joint(abacus, left, BedKind::rectangle, {0, 2.3, 0}, law);
+    s.joint(low_2, high_2, BedKind::disc, {3, 1, 0}, ring);
+    s.joint(abacus, left, BedKind::rectangle, {0, 2.3, 0}, ring);
     s.joint(abacus, across, BedKind::rectangle, {0, 2.3, 0}, law);
-    s.joint(right, high_2, BedKind::round, {3, 2.3, 0}, law, Axis::y, true);
-    s.joint(left, right, BedKind::rectangle, {1.5, 2.65, 0}, law, Axis::x);
+    s.joint(right, high_2, BedKind::round, {3, 2.3, 0}, ring, Axis::y, true);
+    s.joint(left, right, BedKind::rectangle, {1.5, 2.65, 0}, apart, Axis::x);
     s.joint(left, across, BedKind::rectangle, {0, 2.65, 0.45}, law, Axis::z);
     s.build();
 }
