@@ -12,6 +12,7 @@
 namespace stylobate {
 namespace {
 
+using B = spatial::OfBody;
 using J = spatial::OfJoint;
 using Vec = Standing::Vec;
 

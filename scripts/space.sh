@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Runs one column in the plane and in space, and writes what the plane leaves out into docs/space.md.
+#
+#   scripts/space.sh [REALIZATIONS]     of each PGA (2000: about 20 minutes on two cores)
+set -euo pipefail
+
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+root=$PWD
+. scripts/built.sh stylobate
+stylobate=$(realpath "$build/studies/stylobate")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 scripts/space.py "$stylobate" "$work" "${1:-2000}" >"$work/table.md"
+"$root/scripts/into_page.sh" space.sh docs/space.md <"$work/table.md"
