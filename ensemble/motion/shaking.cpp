@@ -84,7 +84,7 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
                 throw std::invalid_argument("a study with two components was given no second one");
             second_ = std::make_shared<const Motion>(*second);
             record_pga_m_s2_ = size_of_pair(excitation.pga_of_pair, record->pga_m_s2, second->pga_m_s2,
-                                       peak_at_once(record->acceleration_m_s2, second->acceleration_m_s2));
+                                            peak_at_once(record->acceleration_m_s2, second->acceleration_m_s2));
             first_share_ = record->pga_m_s2 / record_pga_m_s2_;
         }
         if (study.names(Mechanism::harmonic_distortion)) {

@@ -30,8 +30,8 @@ enum class InvalidReason : std::uint8_t { none = 0, not_finite = 1, energy = 2 }
 const char* to_string(InvalidReason reason);
 
 /// One realization. Times are from the start of the simulation; -1 where a thing did not happen. The numbers that every
-/// outcome has, from `state` to `steps`, are listed in `outcome_fields.inc`. A number that is of the other model (in the
-/// plane or in space) is NaN, and a column -1.
+/// outcome has, from `state` to `steps`, are listed in `outcome_fields.inc`. A number that is of the other model (in
+/// the plane or in space) is NaN, and a column -1.
 struct Outcome {
     std::uint64_t index = 0;
     std::uint64_t cell = 0;  ///< of a surface, frequency by frequency; of a fragility study, motion by motion

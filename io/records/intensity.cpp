@@ -342,7 +342,7 @@ double spectral_acceleration_of_pair(const Motion& first, const Motion& second, 
     if (definition == OfPair::at_once)
         return spectral_acceleration_at_once(a, b, first.dt_s, period_s, damping_ratio);
     return size_of_pair(definition, spectral_acceleration(a, first.dt_s, period_s, damping_ratio),
-                   spectral_acceleration(b, second.dt_s, period_s, damping_ratio), 0);
+                        spectral_acceleration(b, second.dt_s, period_s, damping_ratio), 0);
 }
 
 std::vector<double> spectral_acceleration(const Record& record, const std::vector<double>& periods_s,
