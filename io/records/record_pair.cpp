@@ -105,7 +105,9 @@ std::vector<NamedDirection> directions_in(const std::string& name)
         std::size_t end = begin;
         while (end < name.size() && is_letter_or_digit(name[end]))
             ++end;
-        if (direction_of_name(name.substr(begin, end - begin)) != Direction::unknown)
+        const std::string word = name.substr(begin, end - begin);
+        const bool counts = all_digits(word) && word.size() < 3; // the "7" of "7_x.csv" is no azimuth
+        if (!counts && direction_of_name(word) != Direction::unknown)
             add(begin, end);
         std::size_t digits = end;
         while (digits > begin && is_digit(name[digits - 1]))
