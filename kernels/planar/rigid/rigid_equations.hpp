@@ -55,11 +55,11 @@ protected:
                 m.m[row][column] =
                     fma(upper_inertia * u[row], u[column], fma(lower_inertia * l[row], l[column], shared));
             }
-        m = rows_on_faces(b, columns_on_faces(b, m));
+        const M own = rows_on_faces(b, columns_on_faces(b, m));
         int at = 0;
         for (int row = 0; row < 3; ++row)
             for (int column = row; column < 3; ++column, ++at)
-                put(J::own, j, row == column ? m.m[row][column] * softening : m.m[row][column], at);
+                put(J::own, j, row == column ? own.m[row][column] * softening : own.m[row][column], at);
     }
     STYLOBATE_INLINE static M rows_on_faces(const Bed& b, const M& m)
     {
