@@ -5,15 +5,16 @@
 #   rocking       bench/results/peers-PROCESSOR.json, .md                 tens of minutes
 #   restitution   bench/results/peers-PROCESSOR-restitution.json, .md     minutes
 #   collapse      bench/results/peers-PROCESSOR-collapse.json, .md        tens of minutes, on all cores
+#   spatial       bench/results/peers-PROCESSOR-spatial.json, .md         minutes: drums in space
 #
-#   scripts/bench_peers.sh                                   all three
+#   scripts/bench_peers.sh                                   all of them
 #   scripts/bench_peers.sh --only TEST                       one of them
 #   scripts/bench_peers.sh --test collapse --budget 120 --draws 2048     a trial: with any option of bench/peers/peers
 #                                                            the results go to the terminal alone
 set -euo pipefail
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
-tests=(rocking restitution collapse)
+tests=(rocking restitution collapse spatial)
 if [[ ${1:-} == --help || ${1:-} == -h ]]; then # before anything is installed
     sed -n '2,/^set/s/^# \{0,1\}//p' scripts/bench_peers.sh | sed 's/^#$//'
     exit 0

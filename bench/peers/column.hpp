@@ -14,8 +14,8 @@ inline constexpr int most_columns = 64;
 /// The study of such columns, from which every engine gets the same realizations.
 Study column_study(bool shaken, double normal_stiffness_n_m2 = 1e8);
 
-/// How columns fared. Rigid ones do not even lift off: that takes g B / H = 2.706 m/s2, statics without a choice. So
-/// any that collapses is an error of the engine, or of a compliant contact.
+/// How columns fared. Rigid ones neither lift off, which takes g B / H = 2.706 m/s2, nor slip: statics without a
+/// choice. So any that moves is an error of the engine, or of a compliant contact.
 struct Columns {
     int count = 0;
     int collapsed = 0; ///< a drum below .6 of its height, as the study says

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace stylobate::peers {
 
@@ -56,29 +55,37 @@ Result scan(const Contender& contender, double seconds, double patience_s)
                      contender.columns(errors.dial, false, seconds)};
     };
     result.customary = timed_at(errors_at(contender.customary));
-    std::map<std::size_t, Timed> timed; // of the scanned dials that were within a target, and at which columns stand
-    std::set<std::size_t> fallen;       // those at which they do not
+    std::map<std::size_t, bool> few_stand; // of scanned dials: the few columns that are run at the least
+    const auto stand = [&](std::size_t i) {
+        const double dial = result.scanned[i].dial;
+        if (!few_stand.count(i))
+            few_stand[i] = contender.columns(dial, false, 0).moved == 0 && contender.columns(dial, true, 0).moved == 0;
+        return few_stand[i];
+    };
+    std::map<std::size_t, Timed> timed; // of scanned dials from which on columns stand
+    const auto reaches = [&](std::size_t i, double target) {
+        for (std::size_t finer = i; finer <= i + confirmed_by; ++finer)
+            if (!(result.scanned[finer].worst() <= target))
+                return false;
+        for (std::size_t finer = i; finer <= i + confirmed_by; ++finer)
+            if (!stand(finer))
+                return false;
+        if (!timed.count(i))
+            timed[i] = timed_at(result.scanned[i]);
+        return timed[i].stands();
+    };
     for (const double dial : contender.dials) {
         const double begin = processor_seconds();
         result.scanned.push_back(errors_at(dial));
         const std::size_t n = result.scanned.size();
+        bool found = false;
         for (std::size_t t = 0; n > confirmed_by && t < targets.size(); ++t) {
             const std::size_t i = n - 1 - confirmed_by;
-            if (result.reached[t] || fallen.count(i) ||
-                std::any_of(result.scanned.begin() + static_cast<std::ptrdiff_t>(i), result.scanned.end(),
-                            [&](const Errors& e) { return !(e.worst() <= targets[t]); }))
-                continue;
-            // the few that are run at the least show most of those that do not stand
-            if (!timed.count(i) && contender.columns(result.scanned[i].dial, false, 0).moved == 0)
-                timed[i] = timed_at(result.scanned[i]);
-            if (timed.count(i) && timed[i].stands())
+            if (!result.reached[t] && reaches(i, targets[t])) {
                 result.reached[t] = timed[i];
-            else
-                fallen.insert(i);
+                found = true;
+            }
         }
-        const bool found = std::any_of(result.reached.begin(), result.reached.end(), [&](const auto& reached) {
-            return reached && n > confirmed_by && reached->errors.dial == result.scanned[n - 1 - confirmed_by].dial;
-        });
         if (result.reached.back() || (!found && processor_seconds() - begin > patience_s))
             break;
     }

@@ -39,8 +39,8 @@ std::vector<Contender> own_contenders();
 
 // Finds where each contender is as accurate as wanted, and times it there.
 
-/// Both tests' errors must be as small as this, at a dial and at the next four finer ones (a factor of two): an error
-/// that passes through zero on its way is no accuracy.
+/// Both tests' errors must be as small as this, and columns must stand, at a dial and at the next four finer ones (a
+/// factor of two): an error that passes through zero on its way is no accuracy.
 inline constexpr std::array targets{0.01, 0.002};
 inline constexpr std::size_t confirmed_by = 4;
 
@@ -57,15 +57,15 @@ struct Timed {
     Errors errors;
     double step_s = 0;
     Columns shaken, resting;
-    /// No shaken column collapsed, and each at rest has stood where it was put.
-    bool stands() const { return shaken.collapsed == 0 && resting.moved == 0; }
+    /// Every column has stayed where it was put, shaken and at rest: rigid ones neither lift off nor slip.
+    bool stands() const { return shaken.moved == 0 && resting.moved == 0; }
 };
 
 struct Result {
     Contender contender;
     std::vector<Errors> scanned; ///< coarse to fine, as far as was needed
     Timed customary;
-    /// The coarsest dial within each target at which columns stand; none: there is none with this setting.
+    /// The coarsest dial within each target from which on columns stand; none: there is none with this setting.
     std::array<std::optional<Timed>, targets.size()> reached;
 };
 

@@ -1,6 +1,7 @@
 /// Stylobate and general engines of rigid bodies, at equal error: `peers --help`.
 
 #include "bench/peers/restitution.hpp"
+#include "bench/peers/space/space_table.hpp"
 #include "bench/peers/table.hpp"
 #include "bench/processor.hpp"
 
@@ -26,12 +27,12 @@ const CLI::Validator in_folder(
     },
     "FILE");
 
-enum class Test { rocking, restitution, collapse };
+enum class Test { rocking, restitution, collapse, spatial };
 
 struct Options {
     Test test = Test::rocking;
     std::vector<std::string> names;
-    std::string json_path, markdown_path;
+    std::string json_path, markdown_path, note;
     double seconds = 1, patience_s = 10;
     CollapseOptions collapse;
     bool all_settings = false, name_processor = false;
@@ -112,6 +113,20 @@ Page collapses(const Options& options)
     return {collapse_markdown(scans, cells, processor()), collapse_json(scans, cells, processor())};
 }
 
+Page in_space(const Options& options)
+{
+    std::vector<SpaceResult> results;
+    for (const SpaceContender& contender : space_contenders()) {
+        if (!is_wanted(options, contender.engine))
+            continue;
+        fmt::print("{} {}\n", contender.engine, contender.setting);
+        for (SpaceResult& r : run_in_space(contender))
+            results.push_back(std::move(r));
+        std::fflush(stdout);
+    }
+    return {space_markdown(results, processor()), space_json(results, processor())};
+}
+
 /// Those of the named engines; all, where none is named.
 std::vector<Contender> wanted(const Options& options)
 {
@@ -136,12 +151,15 @@ int main(int argc, char** argv)
 {
     CLI::App app("Accuracy and speed of the available engines, on one thread.");
     Options options;
-    const std::map<std::string, Test> tests{
-        {"rocking", Test::rocking}, {"restitution", Test::restitution}, {"collapse", Test::collapse}};
+    const std::map<std::string, Test> tests{{"rocking", Test::rocking},
+                                            {"restitution", Test::restitution},
+                                            {"collapse", Test::collapse},
+                                            {"spatial", Test::spatial}};
     app.add_option("--test", options.test, "which test")->transform(CLI::CheckedTransformer(tests));
     app.add_option("--engine", options.names, "engines to run (repeatable; default: all)");
     app.add_option("--json", options.json_path, "file for all measurements (JSON)")->check(in_folder);
     app.add_option("--markdown", options.markdown_path, "file for the table")->check(in_folder);
+    app.add_option("--note", options.note, "line about the run, such as what else the machine did, above the table");
     app.add_option("--seconds", options.seconds, "seconds for each timing")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -175,9 +193,12 @@ int main(int argc, char** argv)
     }
     try {
         const std::vector<Contender> chosen = wanted(options);
-        const Page page = options.test == Test::rocking       ? rocking(chosen, options)
-                          : options.test == Test::restitution ? restitutions(chosen, options)
-                                                              : collapses(options);
+        Page page = options.test == Test::rocking       ? rocking(chosen, options)
+                    : options.test == Test::restitution ? restitutions(chosen, options)
+                    : options.test == Test::spatial     ? in_space(options)
+                                                        : collapses(options);
+        if (!options.note.empty())
+            page.markdown = options.note + "\n\n" + page.markdown;
         fmt::print("\n{}", page.markdown);
         if (!options.json_path.empty())
             write(options.json_path, page.json);

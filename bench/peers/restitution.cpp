@@ -159,9 +159,9 @@ std::string reached_text(const ImpactScan& scan, std::size_t target)
     if (!scan.reached[target])
         return "never | ";
     const ImpactScan::Reached& at = *scan.reached[target];
-    return fmt::format(
-        "{} | {}{}", dial_text(scan.contender, at.dial), rate_text(at.shaken.realizations_per_second),
-        at.shaken.collapsed > 0 ? fmt::format(" ({} of {} collapsed)", at.shaken.collapsed, at.shaken.count) : "");
+    return fmt::format("{} | {}{}", dial_text(scan.contender, at.dial), rate_text(at.shaken.realizations_per_second),
+                       at.shaken.moved > 0 ? fmt::format(" ({} of {} columns moved)", at.shaken.moved, at.shaken.count)
+                                           : "");
 }
 
 } // namespace

@@ -26,11 +26,10 @@ std::string dial_text(const Contender& c, const Timed& t)
 
 std::string line(const Contender& c, const std::string& at, const Timed& t)
 {
-    return markdown_row("{} | {} | {} | {} | {} | {} | {} | {} of {} | {}", engine_text(c), c.setting, at,
-                        dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
-                        rate_text(t.shaken.realizations_per_second), t.shaken.collapsed, t.shaken.count,
-                        t.resting.moved == 0 ? "yes"
-                                             : fmt::format("{} of {} do not", t.resting.moved, t.resting.count));
+    return markdown_row("{} | {} | {} | {} | {} | {} | {} | {} of {} | {} of {} | {} of {}", engine_text(c), c.setting,
+                        at, dial_text(c, t), percent(t.errors.quarter_period), percent(t.errors.overturning),
+                        rate_text(t.shaken.realizations_per_second), t.shaken.collapsed, t.shaken.count, t.shaken.moved,
+                        t.shaken.count, t.resting.moved, t.resting.count);
 }
 
 /// The results of one engine, from `first` on to those of the next.
@@ -97,7 +96,7 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
 {
     std::string text = fmt::format("One core of {}; Stylobate {}.\n\n", processor, code_version()) +
                        markdown_head("engine | setting | at | step | quarter period | overturning | realizations/s | "
-                                     "collapsed | stands at rest");
+                                     "shaken: collapsed | shaken: moved | at rest: moved");
     for (std::size_t i = 0; i < results.size();) {
         const std::vector<Result> of = of_engine(results, i);
         const Contender& first = of.front().contender;
@@ -110,7 +109,7 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
                     any = true;
                 }
             if (!any)
-                text += markdown_row("{} | not reached | {} | | | | | |", first.engine, target_text(t));
+                text += markdown_row("{} | not reached | {} | | | | | | |", first.engine, target_text(t));
         }
         i += of.size();
     }
@@ -118,12 +117,13 @@ std::string markdown(const std::vector<Result>& results, const std::string& proc
     for (std::size_t t = 0; t < targets.size(); ++t) {
         const Result *own = fastest(results, true, t), *peer = fastest(results, false, t);
         if (own == nullptr || peer == nullptr) {
-            text += fmt::format("At {}: no ratio, {} reaches it.\n", target_text(t),
-                                own == nullptr ? "Stylobate was not run or never" : "no other engine");
+            text +=
+                fmt::format("At {}: no ratio, {} reaches it.\n", target_text(t),
+                            own == nullptr ? "Stylobate was not run or never" : "no other engine that Debian packages");
             continue;
         }
-        text += fmt::format("At {}: Stylobate ({}) does {:.3g} times the realizations per second of the fastest other "
-                            "engine ({}, {}).\n",
+        text += fmt::format("At {}: Stylobate ({}) does {:.3g} times the realizations per second of the fastest of the "
+                            "engines that Debian packages ({}, {}).\n",
                             target_text(t), own->contender.setting,
                             own->reached[t]->shaken.realizations_per_second /
                                 peer->reached[t]->shaken.realizations_per_second,

@@ -258,12 +258,28 @@ TEST(Scan, GoesOnUntilColumnsStand)
     Contender c = made_up(
         "a", [](double dial) { return dial / 10; }, 100, 0);
     c.columns = [](double dial, bool shaken, double) {
-        return Columns{3, shaken && dial > 0.03 ? 1 : 0, !shaken && dial > 0.015 ? 2 : 0, 1};
+        return Columns{3, 0, dial > (shaken ? 0.03 : 0.015) ? 2 : 0, 1};
     };
+    const Result rest = scan(c, 1, 10);
+    EXPECT_EQ(rest.customary.shaken.moved, 2);
+    ASSERT_TRUE(rest.reached[0]);
+    EXPECT_EQ(rest.reached[0]->errors.dial, 0.01);
+
+    c.columns = [](double dial, bool shaken, double) { return Columns{3, 0, shaken && dial > 0.015 ? 3 : 0, 1}; };
+    const Result shaken = scan(c, 1, 10);
+    ASSERT_TRUE(shaken.reached[0]);
+    EXPECT_EQ(shaken.reached[0]->errors.dial, 0.01)
+        << "what walks, and neither falls nor creeps at rest, does not stand";
+}
+
+TEST(Scan, ColumnsStandAtFinerStepsToo)
+{
+    Contender c = made_up(
+        "a", [](double dial) { return dial / 10; }, 100, 0);
+    c.columns = [](double dial, bool shaken, double) { return Columns{3, 0, shaken && dial == 0.04 ? 3 : 0, 1}; };
     const Result r = scan(c, 1, 10);
-    EXPECT_EQ(r.customary.shaken.collapsed, 1);
     ASSERT_TRUE(r.reached[0]);
-    EXPECT_EQ(r.reached[0]->errors.dial, 0.01);
+    EXPECT_EQ(r.reached[0]->errors.dial, 0.02) << "at .08 they stand, and not at .04";
 }
 
 TEST(Scan, FastestAndItsRatio)

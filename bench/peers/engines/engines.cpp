@@ -1,4 +1,5 @@
 #include "bench/peers/engine.hpp"
+#include "bench/peers/space/space_engine.hpp"
 
 #include <cmath>
 
@@ -30,6 +31,26 @@ std::vector<Engine> engines()
 #ifdef STYLOBATE_PEER_ODE
     found.push_back(ode_engine());
 #endif
+    return found;
+}
+
+std::vector<SpaceContender> space_contenders()
+{
+    std::vector<SpaceContender> found;
+    const auto add = [&found](std::vector<SpaceContender> some) {
+        for (SpaceContender& contender : some)
+            found.push_back(std::move(contender));
+    };
+#ifdef STYLOBATE_PEER_BULLET
+    add(bullet_in_space());
+#endif
+#ifdef STYLOBATE_PEER_MUJOCO
+    add(mujoco_in_space());
+#endif
+#ifdef STYLOBATE_PEER_ODE
+    add(ode_in_space());
+#endif
+    add(own_in_space());
     return found;
 }
 
