@@ -1,4 +1,5 @@
-# Writes OUTPUT: the style and the script of the pages (the files STYLE and SCRIPTS, in this order) as C++ strings.
+# Writes OUTPUT: the style and the script of the pages (the files STYLE and SCRIPTS, in this order) as C++ strings, and
+# the table that scripts/space.sh has written into the page EVIDENCE.
 function(literal_of out)
   set(parts "")
   foreach(file ${ARGN})
@@ -14,6 +15,11 @@ endfunction()
 string(REPLACE "|" ";" scripts "${SCRIPTS}")
 literal_of(style ${STYLE})
 literal_of(script ${scripts})
+file(READ ${EVIDENCE} page)
+if(NOT page MATCHES "<!-- scripts/space.sh writes what follows -->\n(.*)\n<!-- end of what scripts/space.sh writes -->")
+  message(FATAL_ERROR "${EVIDENCE} has lost the marks of scripts/space.sh")
+endif()
+set(evidence "R\"embedded(${CMAKE_MATCH_1})embedded\"")
 file(WRITE ${OUTPUT} "#include \"studies/report/html.hpp\"
 
 std::string_view stylobate::page_style()
@@ -24,5 +30,10 @@ std::string_view stylobate::page_style()
 std::string_view stylobate::page_script()
 {
     return ${script};
+}
+
+std::string_view stylobate::space_evidence()
+{
+    return ${evidence};
 }
 ")

@@ -1,6 +1,7 @@
 #include "io/keys/words.hpp"
 #include "io/study/study_file.hpp"
 #include "library/inside.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/results/study_facts.hpp"
 
 namespace stylobate::api {
@@ -34,7 +35,9 @@ std::string Study::text() const
 
 std::vector<std::pair<std::string, std::string>> Study::summary() const
 {
-    return inner::study_facts(data_->study);
+    auto facts = inner::study_facts(data_->study);
+    facts.emplace_back("Left out", inner::left_out_text(data_->study));
+    return facts;
 }
 
 std::string Study::kind() const

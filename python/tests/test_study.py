@@ -73,7 +73,7 @@ def test_paths_and_texts_with_any_character():
 def test_describe_and_properties(small_surface):
     assert (small_surface.kind, small_surface.seed, small_surface.realizations) == ("surface", 1, 18)
     text = small_surface.describe()
-    assert "7 drums" in text and "K_N" in text and "Realizations" in text
+    assert "7 drums" in text and "K_N" in text and "Realizations" in text and "The plane leaves out" in text
     assert repr(small_surface) == "<Study: surface, 18 realizations>"
     for copied in (copy.copy(small_surface), copy.deepcopy(small_surface), pickle.loads(pickle.dumps(small_surface))):
         assert copied == small_surface

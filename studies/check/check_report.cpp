@@ -5,6 +5,7 @@
 #include "io/keys/words.hpp"
 #include "io/plots/plot_structure.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
 
 #include <fmt/format.h>
@@ -164,6 +165,7 @@ std::string check_text(const CheckReport& r)
         text += "weak: nothing was found.\n";
     for (const std::string& line : r.not_looked_for)
         text += fmt::format("not looked for: {}\n", line);
+    text += left_out_text(study) + "\n";
     if (r.pilot)
         text += pilot_text(r);
     else
@@ -234,7 +236,8 @@ Json check_json(const CheckReport& r)
     }
     json.member("warnings", Json::list(r.warnings))
         .member("weak_spots", weak)
-        .member("not_looked_for", Json::list(r.not_looked_for));
+        .member("not_looked_for", Json::list(r.not_looked_for))
+        .member("left_out", left_out_text(study));
     if (r.pilot) {
         const NumericsCheck& check = *r.pilot;
         const auto n = static_cast<double>(check.realizations);

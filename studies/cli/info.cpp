@@ -19,6 +19,7 @@
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/results/study_facts.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/file_kind.hpp"
@@ -181,8 +182,8 @@ void tell_conventions_and_laws(const std::string& file, const ResultHeader& head
         return;
     }
     const std::string conventions = conventions_text(*study);
-    told.text += fmt::format("conventions: {}\n", conventions);
-    told.json.member("conventions", conventions);
+    told.text += fmt::format("conventions: {}\n{}\n", conventions, left_out_text(*study));
+    told.json.member("conventions", conventions).member("left_out", left_out_text(*study));
     const std::optional<LawBand> band = law_band_beside(file, *study, header);
     told.text += band ? law_band_text(*band) : law_advice(*study) + "\n";
     if (band)
@@ -238,7 +239,9 @@ void tell_diagnosis(const std::string& file, Told& told)
         .member("verdict", to_string(d.verdict))
         .member("causes", causes);
     told.text = fmt::format("a diagnosis of {} ({}), by stylobate {}\n{}. {}\n", d.measured_file,
-                            counted(d.runs, "run"), d.code_version, verdict_heading(d), verdict_words(d));
+                            counted(d.runs, "run"), d.code_version, verdict_heading(d), verdict_words(d)) +
+                left_out_text(2) + "\n";
+    told.json.member("left_out", left_out_text(2));
 }
 
 void tell_comparison(const std::string& file, Told& told)
@@ -273,13 +276,15 @@ void tell_calibration(const std::string& file, Told& told)
         told.text += fmt::format("  {:<36} {:>11.4g}   {}{}{}\n", p.key, p.value, interval_words(p),
                                  p.note.empty() ? "" : "   ", p.note);
     }
+    told.text += left_out_text(2) + "\n";
     told.json.member("holds", "calibration")
         .member("measured", c.measured)
         .member("evidence", c.evidence)
         .member("best_form", c.best_form)
         .member("code_version", c.code_version)
         .member("parameter_sets", c.parameter_sets)
-        .member("parameters", parameters);
+        .member("parameters", parameters)
+        .member("left_out", left_out_text(2));
 }
 
 void tell_risk(const std::string& file, Told& told)
@@ -313,8 +318,8 @@ void tell_study(const CommonOptions& options, const std::string& file, Told& tol
         told.text += fmt::format("  {}: {}\n", what, is);
     }
     const std::string conventions = conventions_text(study);
-    told.json.member("conventions", conventions);
-    told.text += fmt::format("  Conventions: {}\n", conventions);
+    told.json.member("conventions", conventions).member("left_out", left_out_text(study));
+    told.text += fmt::format("  Conventions: {}\n  {}\n", conventions, left_out_text(study));
     std::vector<std::string> warnings, refusals;
     std::vector<Implausibility> found;
     try {

@@ -144,6 +144,13 @@ void HtmlPage::figure(const Html& picture, const Html& caption)
     body_ += "</figure>\n";
 }
 
+void HtmlPage::details(const Html& sentence, const std::function<void()>& more)
+{
+    body_ += "<details><summary>" + sentence.markup + "</summary>\n";
+    more();
+    body_ += "</details>\n";
+}
+
 void HtmlPage::data(std::string_view id, std::string_view json)
 {
     body_ += data_script(fmt::format("id=\"{}\"", html_escaped(id)), json).markup + "\n";

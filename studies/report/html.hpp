@@ -60,6 +60,8 @@ public:
     /// Text as it is, its lines kept.
     void block(std::string_view text);
     void figure(const Html& picture, const Html& caption);
+    /// A sentence below which more opens. @param more puts it into the page
+    void details(const Html& sentence, const std::function<void()>& more);
     /// Data for the script (`data_script`).
     void data(std::string_view id, std::string_view json);
     /// Where the script puts the player of the animations.
@@ -87,6 +89,9 @@ std::string base64(std::string_view bytes);
 /// `studies/report/page`, which the build embeds into the program.
 std::string_view page_style();
 std::string_view page_script();
+
+/// What scripts/space.sh has written into docs/space.md (Markdown), which the build embeds too.
+std::string_view space_evidence();
 
 /// A page and its pictures.
 struct PageWriter {

@@ -7,6 +7,7 @@
 #include "io/plots/gnuplot.hpp"
 #include "studies/report/animation.hpp"
 #include "studies/report/frame.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/results/kept_animations.hpp"
 #include "studies/results/result_picture.hpp"
 
@@ -190,6 +191,7 @@ std::string motion_page(const TracedMotion& motion, const Results& results, std:
                   fmt::format("Computed by stylobate {}.", results.header().code_version));
     page.data("animations", animations_json(kept, results.study()));
     page.player();
+    add_left_out(page, results.study().structure.dimensions);
     return page.text();
 }
 

@@ -10,6 +10,7 @@
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/json.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
@@ -192,6 +193,7 @@ public:
         std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
         laws.front() = static_cast<char>(std::toupper(laws.front()));
         page_.paragraph(laws);
+        add_left_out(page_, study_.structure.dimensions);
         studied();
         if (kind_.draws_plainly()) {
             outcomes();

@@ -10,6 +10,7 @@
 #include "studies/decisions/compare/law_runs.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/kind.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
 #include "studies/results/kinds.hpp"
 #include "studies/version.hpp"
@@ -84,7 +85,7 @@ Json run_json(const RunReport& r)
         json.member("ranks", static_cast<std::uint64_t>(r.options.ranks->size()));
     if (!r.shard().whole())
         json.member("shard", r.shard().text()).member("shard_complete", r.complete);
-    json.member("conventions", conventions_text(study));
+    json.member("conventions", conventions_text(study)).member("left_out", left_out_text(study));
     if (r.run->kind().draws_plainly())
         json.member("limit_states", r.run->kind().limits_json());
     if (r.whole())
@@ -111,7 +112,8 @@ std::string run_text(const RunReport& r)
             rate_text(p.rate));
     text += "\n";
     if (r.whole()) {
-        text += fmt::format("{}conventions: {}\n", r.run->kind().text(), conventions_text(study));
+        text +=
+            fmt::format("{}conventions: {}\n{}\n", r.run->kind().text(), conventions_text(study), left_out_text(study));
         if (r.laws_interrupted)
             return text + "Interrupted; the study is complete, its runs under other contact laws are not. The same "
                           "command continues them.\n";
@@ -120,7 +122,7 @@ std::string run_text(const RunReport& r)
     if (!std::isnan(p.share)) // without those that have not ended because they take long
         text += fmt::format("  in the whole study {:.3g} % collapse ({:.3g} to {:.3g}, 95 % interval)\n", 100 * p.share,
                             100 * p.share_lower, 100 * p.share_upper);
-    text += fmt::format("conventions: {}\n", conventions_text(study));
+    text += fmt::format("conventions: {}\n{}\n", conventions_text(study), left_out_text(study));
     if (r.merged)
         return text +
                fmt::format("Partial: `stylobate run STUDY.toml -o {}` computes the missing realizations.\n", r.results);

@@ -2,6 +2,8 @@
 
 #include "tests/program/program.hpp"
 
+#include "studies/report/left_out.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -334,6 +336,8 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     const std::string page = read_bytes(folder / "col_comparison.html");
     for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/png"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
+    EXPECT_EQ(count_of(page, left_out_text(2)), 1U);
+    EXPECT_NE(run(Words{"info", "col_comparison.h5"}).out.find(left_out_text(2) + "\n"), std::string::npos);
     expect_refused(Words{"export", "col_comparison.h5", "--to", "png", "--limit", "peak"}, {"it has collapse"});
     expect_refused(Words{"export", "col_comparison.h5", "--to", "vtk"}, {"png, svg, pdf or csv"});
     expect_refused(Words{"export", "col_comparison.h5", "--to", "png", "--cell", "3"}, {"is a comparison"});

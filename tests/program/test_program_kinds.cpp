@@ -6,6 +6,7 @@
 #include "io/measured/measured_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
+#include "studies/report/left_out.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/studies/measured/calibration/calibration_sample.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
@@ -97,6 +98,18 @@ TEST_F(Kinds, InfoSaysWhatItIsAndWhatTakesIt)
         EXPECT_NE(study.find(part), std::string::npos) << part << "\n" << study;
     // a calibration with what it did not determine
     EXPECT_NE(run(Words{"info", "calibration.h5"}).out.find("nothing slides"), std::string::npos);
+}
+
+/// What the plane leaves out holds for fits to measured data too.
+TEST_F(Kinds, DiagnosesAndCalibrationsNameWhatThePlaneLeavesOut)
+{
+    const std::string sentence = left_out_text(2);
+    for (const std::string name : {"diagnosis", "calibration"}) {
+        EXPECT_NE(run(Words{"info", name + ".h5"}).out.find(sentence + "\n"), std::string::npos) << name;
+        EXPECT_EQ(json_of(run(Words{"info", name + ".h5", "--json"}))["left_out"].text, sentence) << name;
+        ASSERT_EQ(run(Words{"report", name + ".h5", "--quiet"}).status, 0) << name;
+        EXPECT_EQ(count_of(bytes(name + ".html"), sentence), 1U) << name;
+    }
 }
 
 /// Findings of one kind are counted, rare ones come first, and what matters is not lost among them.

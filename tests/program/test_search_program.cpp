@@ -2,6 +2,8 @@
 
 #include "tests/program/program.hpp"
 
+#include "studies/report/left_out.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -145,6 +147,8 @@ TEST_F(SearchProgram, TheAnnualFrequencyAgainstAGrid)
     const Ended text = run(frag_);
     EXPECT_NE(text.out.find("smallest annual frequency of collapse"), std::string::npos) << text.out;
     EXPECT_NE(text.out.find("in 50 years"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find(left_out_text(2) + "\n"), std::string::npos) << text.out;
+    EXPECT_EQ(json["left_out"].text, left_out_text(2));
     EXPECT_EQ(run(with(frag_, {"--json", "--threads", "1", "-o", "search.svg"})).out, ended.out);
     const std::string picture = read_bytes(folder / "search.svg");
     EXPECT_NE(picture.find("Annual frequency of collapse"), std::string::npos);

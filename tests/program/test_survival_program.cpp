@@ -4,6 +4,7 @@
 #include "tests/program/program.hpp"
 
 #include "io/store/result_store.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <cmath>
 
@@ -126,6 +127,8 @@ TEST_F(SurvivalProgram, StructuresOfOneSiteAreCombined)
     EXPECT_GT(bytes("both.png").size(), 10000U);
     EXPECT_EQ(json_of(ended)["structures"].items.size(), 2U);
     EXPECT_EQ(json_of(ended)["together_by_events"].items.size(), 2U);
+    EXPECT_EQ(json_of(ended)["left_out"].text, left_out_text(2));
+    EXPECT_NE(run({"past", "a.h5", "b.h5"}).out.find(left_out_text(2) + "\n"), std::string::npos);
 
     expect_refused(Words{"past", "a.h5"}, {"two structures"});
     expect_refused(Words{"past", "a.h5", "b.h5", "./a.h5"}, {"a.h5 is given twice"});

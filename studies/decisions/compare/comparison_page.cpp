@@ -9,6 +9,7 @@
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -91,6 +92,7 @@ private:
             fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
         if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
             page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
+        add_left_out_of(page_, c_.base_toml);
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
                 continue;

@@ -2,6 +2,7 @@
 
 #include "io/files/suggest.hpp"
 #include "studies/experiment/conventions.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -256,6 +257,8 @@ std::string comparison_text(const Comparison& comparison)
                                    common_text(comparison));
     if (const std::optional<std::string> conventions = conventions_text_of(comparison.base_toml))
         text += "conventions of the base: " + *conventions + "\n";
+    if (const std::optional<std::string> left_out = left_out_text_of(comparison.base_toml))
+        text += *left_out + "\n";
     if (comparison.adaptive_budget > 0)
         text += fmt::format("adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
                             "smaller than {:g}; intervals are valid wherever a cell has stopped\n",
@@ -269,6 +272,7 @@ Json comparison_json(const Comparison& comparison)
 {
     Json json = json_of(comparison, {{"kind", "study_kind"}, "base", "base_results"});
     json.member("conventions", conventions_text_of(comparison.base_toml).value_or(""))
+        .member("left_out", left_out_text_of(comparison.base_toml).value_or(""))
         .member("level", comparison.level)
         .member("common", common_text(comparison));
     add_members(json, comparison, {"adjustment", "false_names", "motions", "measure"});

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "studies/decisions/compare/comparison.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -121,6 +122,8 @@ RiskChange risk_change_of(const Comparison& comparison, const std::string& file,
                 fmt::format("{}: {} pairs are left out, invalid in either study.", variant.name, variant.dropped));
         change.variants.push_back(std::move(of));
     }
+    if (const std::optional<std::string> left_out = left_out_text_of(comparison.base_toml))
+        change.says.push_back(*left_out);
     const auto none = [](const VariantChange& v) {
         return std::ranges::none_of(v.states, [](const StateChange& s) { return s.determined; });
     };

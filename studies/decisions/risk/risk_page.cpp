@@ -4,6 +4,7 @@
 #include "io/plots/gnuplot.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -194,6 +195,7 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optiona
     page.paragraph(risk_grounds(risk));
     if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
         page.paragraph("Conventions: " + *conventions + ".");
+    add_left_out_of(page, risk.study_text);
     add_result(risk, page);
     add_parts(risk, page);
     if (risk.sequences)

@@ -2,6 +2,7 @@
 
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -240,6 +241,8 @@ std::string risk_text(const Risk& risk)
     text += std::string(as_new_text) + "\n";
     if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
         text += "conventions: " + *conventions + "\n";
+    if (const std::optional<std::string> left_out = left_out_text_of(risk.study_text))
+        text += *left_out + "\n";
     if (!risk.hazard.fractiles.empty())
         text += "Values are by the best estimate of the hazard; the mean hazard is the mean over its fractiles.\n";
     text += table_text(risk) + parts_text(risk);
@@ -261,6 +264,7 @@ Json risk_json(const Risk& risk)
         .member("measure", risk.hazard.measure)
         .member("level", risk.level)
         .member("conventions", conventions_text_of(risk.study_text).value_or(""))
+        .member("left_out", left_out_text_of(risk.study_text).value_or(""))
         .member("states", json_list(risk.states, [&](const StateRisk& s) { return state_json(s, risk); }))
         .member("notes", Json::list(risk.says));
     if (risk.sequences)

@@ -122,6 +122,7 @@ public:
     std::optional<SearchResult> run()
     {
         base_ = run_at(files_, spec_, {});
+        result_.dimensions = base_->study().structure.dimensions;
         layout_ = pair_layout(base_->study(), base_->header().motions, result_.level);
         if (layout_.motions.cells > 0 && layout_.groups < least_records)
             throw InputError(files_.study, 0,

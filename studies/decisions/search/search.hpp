@@ -43,6 +43,7 @@ struct SearchMap {
 
 struct SearchResult {
     OptimiseSpec asked;
+    int dimensions = 2; ///< of the structure
     double level = interval_level;
     std::uint64_t realizations = 0;         ///< of all points and the base together
     std::vector<SearchedPoint> points;      ///< in the order in which they were run

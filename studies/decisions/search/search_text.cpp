@@ -2,6 +2,7 @@
 #include "io/plots/gnuplot.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/search/search.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,7 @@ std::string search_text(const SearchResult& r)
                         values, point.results, point_text(r));
     text += fmt::format("  {} realizations; {}\n", r.realizations,
                         r.at_the_end ? "the budget is spent" : "no improvement is expected of a further point");
-    return text;
+    return text + left_out_text(r.dimensions) + "\n";
 }
 
 Json search_json(const SearchResult& r)
@@ -125,7 +126,8 @@ Json search_json(const SearchResult& r)
         .member("difference_lower", r.change.lower)
         .member("difference_upper", r.change.upper)
         .member("realizations", r.realizations)
-        .member("budget_spent", r.at_the_end);
+        .member("budget_spent", r.at_the_end)
+        .member("left_out", left_out_text(r.dimensions));
     if (r.is_frequency())
         json.member("hazard", *r.asked.hazard)
             .member("years", years)

@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -136,6 +137,7 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
     const StructurePast& first = structures.front();
     const SurvivalSpec& spec = *first.study.survival;
     CombinedPast combined;
+    combined.dimensions = first.study.structure.dimensions;
     combined.axes = first.counts.axes();
     combined.prior = prior_words(spec, combined.axes.intensity);
     combined.level = spec.level;
@@ -203,7 +205,7 @@ std::string combined_text(const CombinedPast& c)
             lines.push_back(line);
     for (const std::string& line : lines)
         text += "  simulated sites: " + line + "\n";
-    return text;
+    return text + left_out_text(c.dimensions) + "\n";
 }
 
 Json combined_json(const CombinedPast& c)
@@ -215,6 +217,7 @@ Json combined_json(const CombinedPast& c)
         together.item(exclusion_json(e));
     Json json = Json::object();
     json.member("prior", c.prior)
+        .member("left_out", left_out_text(c.dimensions))
         .member("level", c.level)
         .member("structures", alone)
         .member("together_by_events", together)

@@ -25,6 +25,7 @@ struct StructurePast {
 
 struct CombinedPast {
     std::vector<std::string> files;
+    int dimensions = 2; ///< of the structures
     PastAxes axes;
     std::string prior;
     double level = 0.95;

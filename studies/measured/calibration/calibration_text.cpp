@@ -5,6 +5,7 @@
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
 #include "studies/version.hpp"
 
@@ -83,7 +84,7 @@ std::string calibration_text(const Calibration& c)
         text += fmt::format("best on held-out motions: {}\n", form_name(c.forms[c.best].form));
     for (const std::string& note : c.notes)
         text += fmt::format("note: {}\n", note);
-    return text;
+    return text + left_out_text(2) + "\n"; // the model of every calibration is planar
 }
 
 std::string calibration_cost(const Calibration& c)
@@ -109,6 +110,7 @@ Json calibration_json(const Calibration& c)
         .member("best_form", form_name(c.forms[c.best].form))
         .member("forms", json_list(c.forms, form_json))
         .member("notes", Json::list(c.notes))
+        .member("left_out", left_out_text(2))
         .member("parameter_sets", c.parameter_sets)
         .member("restored_sets", c.restored_sets)
         .member("simulations", c.simulations)
@@ -240,6 +242,7 @@ private:
         page_.note("Scores are log likelihoods of the data, in nats: 1 nat more means 2.7 times as likely. The gain on "
                    "held-out motions is the score of each motion with the parameters fitted to the other motions, "
                    "minus its score with the start study.");
+        add_left_out(page_, 2);
     }
 
     void parameters()

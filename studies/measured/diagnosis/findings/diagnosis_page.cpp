@@ -3,6 +3,7 @@
 #include "io/files/suggest.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -111,6 +112,7 @@ private:
             facts.emplace_back("Not judged", not_judged());
         if (!facts.empty())
             page_.facts(facts);
+        add_left_out(page_, 2); // the model of every diagnosis is planar
         figures(FigurePlace::verdict);
     }
 

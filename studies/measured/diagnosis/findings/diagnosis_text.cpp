@@ -2,6 +2,7 @@
 
 #include "io/files/suggest.hpp"
 #include "io/files/utf8.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -213,6 +214,7 @@ std::string diagnosis_text(const Diagnosis& d)
 {
     std::string out = fmt::format("DIAGNOSIS  {}{}\n", d.specimen.empty() ? "" : d.specimen + ", ", d.measured_file);
     out += heading("Verdict: " + verdict_heading(d)) + wrapped(verdict_words(d), 2);
+    out += wrapped(left_out_text(2), 2); // the model of every diagnosis is planar
     out += wrong_part(d) + candidates_part(d);
     if (d.indistinguishable.size() > 1)
         out += wrapped("Not distinguished by these data: " + list_words(d.indistinguishable) + ".", 2);

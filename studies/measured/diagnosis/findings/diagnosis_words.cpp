@@ -3,6 +3,7 @@
 #include "ensemble/model/mechanism_spec.hpp"
 #include "io/files/suggest.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_fields.hpp"
+#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -234,7 +235,7 @@ Json diagnosis_json(const Diagnosis& d)
         json.member_as_is("extended_study", "null");
     add_members(json, d.cost, {"simulations", "seconds"});
 
-    json.member("heading", verdict_heading(d)).member("text", verdict_words(d));
+    json.member("heading", verdict_heading(d)).member("text", verdict_words(d)).member("left_out", left_out_text(2));
     add_members(json, d,
                 {"specimen",
                  {"measured", "measured_file"},
