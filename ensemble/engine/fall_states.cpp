@@ -61,6 +61,11 @@ void FallStates::fall(std::size_t body, std::uint64_t since)
     total_since_ = total;
 }
 
+bool FallStates::fell_first(std::size_t body) const
+{
+    return fallen(body) && fallen_since_[body] == *std::min_element(fallen_since_.begin(), fallen_since_.end());
+}
+
 void FallStates::shorten_steps(std::uint64_t times, std::uint64_t fall_steps)
 {
     fall_steps_ = fall_steps;

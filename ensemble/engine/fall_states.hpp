@@ -54,6 +54,8 @@ public:
     /// A body has turned too far, and may come back.
     bool undecided() const { return undecided_; }
     bool fallen(std::size_t body) const { return fallen_since_[body] != never; }
+    /// Whether a body fell first, or as one of several at the same step.
+    bool fell_first(std::size_t body) const;
     /// An epistyle has lost a seat.
     bool unseated() const { return unseated_since_ != never; }
 

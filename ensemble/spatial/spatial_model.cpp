@@ -116,9 +116,9 @@ void SpatialModel::first_increments(int lane, Watch& w)
     for (int i = topology().fixed; i < topology().bodies; ++i)
         for (const B::Field field : {B::dx, B::dy, B::dz, B::l_x, B::l_y, B::l_z})
             bundle_.at(field, i, lane) = -0.5 * one.at(field, i, 0);
-    using D = spatial::OfJointMechanisms; // dowels may be strained at rest
+    using D = spatial::OfJointMechanisms; // dowels may be strained at rest, and have yielded
     for (int j = 0; topology().model.mechanisms && j < topology().joints; ++j)
-        for (int field = D::dowel_at; field < D::count; ++field)
+        for (int field = D::dowel_set; field < D::count; ++field)
             bundle_.at(static_cast<D::Field>(field), j, lane) = one.at(static_cast<D::Field>(field), j, 0);
     w.start_dowel_j = spatial::dowel_energy(topology(), bundle_, lane);
     w.start_potential_j = one.at(W::potential, 0) / (w.step_s * w.step_s);
@@ -191,12 +191,6 @@ void SpatialModel::check_limits(int lane, Place& place, int done) const
         const spatial::Vector<double> axis = spatial::direction_of<spatial::Axis::y>(attitude(k, lane));
         m.falls.see(i, steps, bundle_.at(B::y, k, lane) < m.least_y_m[i], axis.y < m.least_upright[i],
                     static_cast<int>(bundle_.at(B::inside, k, lane)), done);
-        if (m.first_fallen < 0 && m.falls.fallen(i)) {
-            m.first_fallen = static_cast<int>(i);
-            const spatial::Vector<double> moved = displacement(k, lane);
-            const bool leans = std::acos(std::clamp(axis.y, -1.0, 1.0)) > least_lean_rad;
-            m.fall_azimuth_rad = leans ? std::atan2(axis.z, axis.x) : std::atan2(moved.z, moved.x);
-        }
     }
     for (int j = 0; j < topology().joints && m.falls.may_unseat(steps); ++j) {
         const SolidJoint& joint = r.space.joints[static_cast<std::size_t>(j)];
@@ -276,9 +270,29 @@ void SpatialModel::measure(int lane, const Place& place, State state, Outcome& o
     // a realization that was set aside has no outcome
     const bool valid = state != State::invalid;
     (valid ? m.falls : fall_states(r.space, 0)).write(r.step_s, r.space.drums, o);
-    const bool fallen = valid && m.first_fallen >= 0;
-    o.fall_azimuth_rad = fallen ? m.fall_azimuth_rad : nan;
-    o.fallen_column = fallen ? r.space.solids[static_cast<std::size_t>(m.first_fallen)].column : -1;
+    o.fall_azimuth_rad = nan;
+    o.fallen_column = -1;
+    if (valid)
+        measure_fall(lane, m, r.space, o);
+}
+
+void SpatialModel::measure_fall(int lane, const SpatialMeasured& m, const SpatialStructure& space, Outcome& o) const
+{
+    double most = -2; // of several at the same step the one that is turned farthest beyond its limit
+    for (int k = topology().fixed; k < topology().bodies; ++k) {
+        const auto i = static_cast<std::size_t>(solids_.order()[static_cast<std::size_t>(k)]);
+        if (!m.falls.fell_first(i))
+            continue;
+        const spatial::Vector<double> axis = spatial::direction_of<spatial::Axis::y>(attitude(k, lane)),
+                                      moved = displacement(k, lane);
+        if (const double beyond = m.least_upright[i] - axis.y; beyond > most)
+            most = beyond;
+        else
+            continue;
+        const bool leans = std::acos(std::clamp(axis.y, -1.0, 1.0)) > least_lean_rad;
+        o.fall_azimuth_rad = leans ? std::atan2(axis.z, axis.x) : std::atan2(moved.z, moved.x);
+        o.fallen_column = space.solids[i].column;
+    }
 }
 
 State SpatialModel::motion_of(const Place& place, const Outcome& o) const

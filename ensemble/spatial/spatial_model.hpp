@@ -13,7 +13,6 @@
 #include "kernels/isa.hpp"
 
 #include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,7 @@ struct SpatialMeasured {
     std::vector<double> least_upright;                 ///< (solids) `OfBody::least_upright`
     std::vector<std::array<double, 2>> start_offset_m; ///< (joints) of the faces against each other at rest
     double start_top_x_m = 0, start_top_z_m = 0;
-    double quiet_top_z_m = 0; ///< as `Watch::quiet_top_m`
-    int first_fallen = -1;    ///< solid
-    double fall_azimuth_rad = std::numeric_limits<double>::quiet_NaN();
+    double quiet_top_z_m = 0;                        ///< as `Watch::quiet_top_m`
     double direction_cosine = 1, direction_sine = 0; ///< of the shaking's first component
 };
 
@@ -90,6 +87,8 @@ public:
 
 private:
     void first_increments(int lane, Watch& watch);
+    /// Which column fell first, and in which direction.
+    void measure_fall(int lane, const SpatialMeasured& measured, const SpatialStructure& space, Outcome& o) const;
     void fill_tables(const LaneBases& bases, const std::vector<Place>& places);
     /// Where the middle of a joint's upper face lies on its lower one, along the first two axes of the joint [m].
     std::array<double, 2> face_offset(int joint, int lane) const;

@@ -39,7 +39,7 @@ axes=(--set surface.frequency_hz='{ from = 4.0, to = 8.0, count = 2 }'
       --set surface.pga_m_s2='{ from = 4.0, to = 12.0, count = 2 }')
 declare -A study=([rows]=small_scale_column [counts]=small_scale_column [adaptive]=small_scale_column_adaptive
                   [rare]=rare_collapse [twins]=twins_column [fragility]=fragility_column
-                  [sensitivity]=sensitivity_column)
+                  [sensitivity]=sensitivity_column [space]=round_column)
 settings() { # of one kind, one to a line
     case $1 in
     rows) printf '%s\n' "${axes[@]}" --set study.realizations=100 ;;
@@ -49,9 +49,12 @@ settings() { # of one kind, one to a line
     twins) printf '%s\n' "${axes[@]}" --set study.realizations=6 --set twins.followed=1 ;;
     fragility) printf '%s\n' --set study.realizations=2 --set fragility.motions=8 --set fragility.contacts=1 ;;
     sensitivity) printf '%s\n' --set sensitivity.samples=16 ;;
+    space) printf '%s\n' --set study.realizations=40 --set structure.blocks=3 --set excitation.cycles=4 \
+        --set surface.frequency_hz='{ from = 0.6, to = 1.2, count = 2 }' \
+        --set surface.pga_m_s2='{ from = 2.5, to = 7.0, count = 2 }' ;;
     esac
 }
-for kind in rows counts adaptive rare twins fragility sensitivity; do
+for kind in rows counts adaptive rare twins fragility sensitivity space; do
     mapfile -t set < <(settings $kind)
     "$program" run "$inputs/${study[$kind]}.toml" "${set[@]}" -o $kind.h5 --quiet >/dev/null
     for n in 1 2 4; do
@@ -63,7 +66,7 @@ for kind in rows counts adaptive rare twins fragility sensitivity; do
 done
 
 # SIGKILL of a rank that is not the first, then SIGTERM of all, then to the end: by one process, and by four ranks
-for kind in rows counts adaptive; do
+for kind in rows counts adaptive space; do
     mapfile -t set < <(settings $kind)
     again() { "${@}" run "$inputs/${study[$kind]}.toml" "${set[@]}" -o stopped.h5 --quiet; }
     for ((i = 0; ; ++i)); do # on a busy machine a run may end before it is killed

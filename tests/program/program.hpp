@@ -411,6 +411,14 @@ inline std::vector<std::string> short_surface(int realizations_per_cell)
             "surface.pga_m_s2={from=4.0,to=25.0,count=4}"};
 }
 
+/// A column of round drums in space, and settings of a surface: 4 cells of three drums; in some it collapses.
+inline const std::string round_column = STYLOBATE_SOURCE_DIR "/studies/inputs/round_column.toml";
+inline std::vector<std::string> short_surface_in_space(int realizations_per_cell)
+{
+    return {"study.realizations=" + std::to_string(realizations_per_cell), "structure.blocks=3", "excitation.cycles=4",
+            "surface.frequency_hz={from=0.6,to=1.2,count=2}", "surface.pga_m_s2={from=2.5,to=7.0,count=2}"};
+}
+
 /// The program run on the small-scale column with other settings.
 class ColumnProgram : public Program {
 protected:

@@ -71,6 +71,7 @@ TEST_F(Shards, OfOtherKindsAreTheirBytes)
     expect_same_bytes(inputs + "fragility_column.toml",
                       {"study.realizations=2", "fragility.motions=8", "fragility.contacts=1"}, {3});
     expect_same_bytes(inputs + "sensitivity_column.toml", {"sensitivity.samples=16"}, {3});
+    expect_same_bytes(round_column, short_surface_in_space(8), {3});
 }
 
 /// A run without shards is the only file that `merge` needs no others for; `run --shard 1/1` is such a run.

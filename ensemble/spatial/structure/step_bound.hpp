@@ -22,8 +22,10 @@ namespace stylobate {
 ///   combinations of the joints of a body are tried.
 ///
 /// Of two discs the smaller one counts in full, also where the larger one does not cover it; of rectangles, and of a
-/// disc that a rectangle does not cover, the rectangle common at rest. Hollow beds count in full. Dowels and ties add
-/// their stiffness and damping.
+/// disc that a rectangle does not cover, the rectangle common at rest. A hollow bed counts as its ring, whose bound is
+/// never below that of its whole face (THEORY.md has the figures). A dowel is a spring k_d along the face beside the
+/// tangential spring, a tie the spring k and the dashpots c and c_r of its own body: it holds the body to the base, and
+/// no other body takes a share.
 ///
 /// *Not proved:* that no state between those of the list has a smaller step. Unequal shares of two beds and other
 /// angles between them were never worse for discs. What a seat gains when a beam slides onto it is not counted.

@@ -65,6 +65,23 @@ double rolling_bound_s(double damping)
     return spatial_step_bound_s(s.r);
 }
 
+/// Gives a body a push and a spin, and looks at it 8 chunks later: it may drift by the push in each step.
+/// @param angle of the push, from x to z
+void expect_bounded(Standing& s, int body, double angle, bool bounded)
+{
+    using B = spatial::OfBody;
+    constexpr double push = 1e-7; // of a step [m]; turns likewise [rad]
+    s.settle();
+    const Standing::Vec from = s.u(body);
+    s.at(B::dx, body) = push * std::cos(angle);
+    s.at(B::dz, body) = push * std::sin(angle);
+    s.at(B::l_y, body) = push * s.solid(body).inertia_kg_m2[1];
+    s.run(8 * chunk_steps);
+    const Standing::Vec moved = s.u(body) - from;
+    const double most = std::max(std::hypot(moved.x, moved.z), std::fabs(s.at(B::turn_y, body)));
+    EXPECT_EQ(most < 1e4 * push, bounded) << "step " << s.r.step_s << ", angle " << angle << ", moved " << most;
+}
+
 } // namespace
 
 // kernels/spatial/THEORY.md, section 9: computed there by an independent program.
@@ -135,20 +152,33 @@ TEST(SpatialStepBound, AHollowBedIsThatOfItsFrame)
     }
 }
 
-// With the same friction spring a ring resists a spin farther out than the whole face, but no farther than the rim,
-// which the states of the bound have anyway.
-TEST(SpatialStepBound, ARingIsNotLongerThanItsWholeFace)
+// A ring resists a spin farther out than its whole face, but no farther than the rim, which the states have anyway.
+TEST(SpatialStepBound, ARingIsNotShorterThanItsWholeFace)
 {
-    const auto bound = [](double ratio) {
+    const double mass_of = 1000, k = 1e9;
+    const auto bound = [&](double ratio, double damping, bool of_its_area) {
         Standing s;
-        const int base = s.drum({0, -1, 0}, 0.5, 1, 1000, true), drum = s.drum({0, 0, 0}, 0.5, 1, 1000);
-        SolidJoint& bed = s.r.space.joints[static_cast<std::size_t>(s.bed(base, drum, {1e6}))]; // friction governs
-        bed.tangential_stiffness_n_m = 1e9;
+        const int base = s.drum({0, -1, 0}, 0.5, 1, mass_of, true), drum = s.drum({0, 0, 0}, 0.5, 1, mass_of);
+        SolidJoint& bed = s.r.space.joints[static_cast<std::size_t>(s.bed(base, drum, {k, 0.7, damping, mass_of}))];
         bed.inner_ratio = ratio;
+        if (of_its_area) { // as structures are built
+            const double part = 1 - ratio * ratio;
+            bed.tangential_stiffness_n_m *= part;
+            bed.normal_damping_n_s_m3 /= std::sqrt(part);
+            bed.tangential_damping_n_s_m3 /= std::sqrt(part);
+        }
         return spatial_step_bound_s(s.r);
     };
-    EXPECT_LE(bound(0.6), bound(0) * (1 + 1e-12));
-    EXPECT_NEAR(bound(1e-4) / bound(0), 1, 1e-6);
+    constexpr std::array<double, 3> ratio{0.3, 0.6, 0.9}, damped{1.032, 1.143, 1.362},
+        damped_of_its_area{1.033, 1.178, 1.989};
+    for (std::size_t i = 0; i < ratio.size(); ++i) {
+        EXPECT_NEAR(bound(ratio[i], 0, false) / bound(0, 0, false), 1, 1e-9) << ratio[i]; // the rim governs
+        EXPECT_NEAR(bound(ratio[i], 0.3, false) / bound(0, 0.3, false), damped[i], 6e-4) << ratio[i];
+        EXPECT_NEAR(bound(ratio[i], 0, true) / bound(0, 0, true), 1 / std::sqrt(1 - ratio[i] * ratio[i]), 1e-8)
+            << ratio[i];
+        EXPECT_NEAR(bound(ratio[i], 0.3, true) / bound(0, 0.3, true), damped_of_its_area[i], 6e-4) << ratio[i];
+    }
+    EXPECT_NEAR(bound(1e-4, 0.3, false) / bound(0, 0.3, false), 1, 1e-6);
 }
 
 // A square's corners are farther from its axis than the rim of the disc in it.
@@ -207,6 +237,63 @@ TEST(SpatialStepBound, ARollingDrumIsUnstableFarAboveIt)
     const double bound = rolling_bound_s(0);
     const Rolled fine = roll(0.2 * bound, 0), above = roll(1.6 * bound, 0);
     EXPECT_GT(std::fabs(above.tilt - fine.tilt) + above.friction, 0.1);
+}
+
+// Two free drums without friction whose dowel is far stiffer than their beds. Its relative motion has the exact rate
+// k_d (1/m + h2/I) of both drums together, that is twice that of one with the other held: the bound is the limit.
+TEST(SpatialStepBound, OfADowel)
+{
+    constexpr double kg = 1000, high = 0.5, k_d = 1e12;
+    const auto pair = [](double step_s) {
+        auto s = std::make_unique<Standing>();
+        s->r.step_s = step_s;
+        const int base = s->drum({0, -1, 0}, 0.5, 1, kg, true), low = s->drum({0, 0, 0}, 0.5, 2 * high, kg),
+                  top = s->drum({0, 2 * high, 0}, 0.5, 2 * high, kg);
+        s->bed(base, low, {1e8, 0.7});
+        const int bed = s->bed(low, top, {1e8, 0});
+        for (SolidJoint& joint : s->r.space.joints)
+            joint.tangential_stiffness_n_m = 1e3;
+        JointMechanisms& dowel = s->r.space.joints[static_cast<std::size_t>(bed)].mechanisms;
+        dowel.dowel_stiffness_n_m = k_d;
+        dowel.dowel_yield_n = 1e12;
+        return s;
+    };
+    const double bound = spatial_step_bound_s(pair(1)->r), I = kg * (0.25 / 4 + 4 * high * high / 12),
+                 exact = 2 / std::sqrt(2 * k_d * (1 / kg + high * high / I));
+    EXPECT_NEAR(bound / exact, 1, 1e-3);
+    EXPECT_LE(bound, exact);
+    for (const double angle : {0.0, 2.0})
+        for (const double part : {0.98, 1.02})
+            expect_bounded(*pair(part * bound), 2, angle, part < 1);
+}
+
+// A tie holds its body to the base: k / m of its spring, and dashpots that are stable up to 2 m / c and 2 I / c_r.
+TEST(SpatialStepBound, OfTies)
+{
+    constexpr double kg = 1000;
+    const auto tied = [](double step_s, const BlockMechanisms& tie) {
+        auto s = std::make_unique<Standing>();
+        s->r.step_s = step_s;
+        const int base = s->drum({0, -1, 0}, 0.5, 1, kg, true), drum = s->drum({0, 0, 0}, 0.5, 1, kg);
+        s->bed(base, drum, {1e8, 0});
+        s->r.space.joints[0].tangential_stiffness_n_m = 1e3;
+        s->solid(drum).mechanisms = tie;
+        return s;
+    };
+    BlockMechanisms spring, dashpot, turning;
+    spring.tie_n_m = 1e12;
+    dashpot.tie_n_s_m = 1e9;
+    turning.tie_n_m_s = 1e9;
+    const double I = kg * std::min(0.25 / 2, 0.25 / 4 + 1.0 / 12);
+    const std::pair<BlockMechanisms, double> ties[] = {
+        {spring, 2 / std::sqrt(1e12 / kg)}, {dashpot, 2 * kg / 1e9}, {turning, 2 * I / 1e9}};
+    for (const auto& [tie, exact] : ties) {
+        const double bound = spatial_step_bound_s(tied(1, tie)->r);
+        EXPECT_NEAR(bound / exact, 1, 1e-3);
+        EXPECT_LE(bound, exact * (1 + 1e-9));
+        for (const double part : {0.98, 1.02})
+            expect_bounded(*tied(part * bound, tie), 1, 0.7, part < 1);
+    }
 }
 
 TEST(SpatialStepBound, TheStructureAtFullContactIsRefused)
