@@ -111,6 +111,10 @@ struct SolidShape {
         }
         return points;
     }
+    SolidShape scaled(double by) const
+    {
+        return {by * half_height, {by * bottom.x, by * bottom.z}, {by * top.x, by * top.z}, round};
+    }
     double half_diagonal() const
     {
         return std::hypot(half_height, std::fmax(bottom.x, top.x), std::fmax(bottom.z, top.z));

@@ -2,8 +2,11 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/spatial/spatial_poses.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/gnuplot.hpp"
+#include "io/plots/plot_strip_in_space.hpp"
+#include "io/plots/strip_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,21 +18,6 @@
 namespace stylobate {
 namespace {
 
-constexpr std::size_t least_snapshots = 2;
-constexpr std::size_t most_snapshots = 16;
-
-/// What a length is drawn in.
-struct Unit {
-    const char* name;
-    double per_metre;
-};
-
-/// @param largest length to be drawn [m]
-Unit unit_for(double largest)
-{
-    return largest < 1 ? Unit{"mm", 1000} : Unit{"m", 1};
-}
-
 /// The title of a vertical axis, at the same place beside each plot however long its tics' labels are.
 std::string axis_title(const char* what, const Unit& unit, double bottom, double top)
 {
@@ -37,25 +25,13 @@ std::string axis_title(const char* what, const Unit& unit, double bottom, double
                        (bottom + top) / 2);
 }
 
-/// The largest of 1, 2, 5, 10, 20... that is not above `length` (> 0).
-double round_step(double length)
-{
-    const double decade = std::pow(10.0, std::floor(std::log10(length)));
-    return decade * (length >= 5 * decade ? 5 : length >= 2 * decade ? 2 : 1);
-}
-
 /// Samples up to the first that is not finite.
 /// @throws InputError as `plot_strip`
 std::size_t finite_samples(const Trajectory& t)
 {
+    check_trajectory(t, {});
     const std::size_t blocks = t.blocks();
     const std::size_t samples = t.time_s.size();
-    if (!is_planar(t))
-        throw InputError(fmt::format("realization {}: {}.", t.index, no_motion_in_space));
-    if (!lists_fit(t))
-        throw InputError(fmt::format("the trajectory of realization {} has tables of different sizes: it is damaged.\n"
-                                     "  Replay the realization into a new file.",
-                                     t.index));
     std::size_t good = 0;
     const auto finite = [&](std::size_t s) {
         bool all = std::isfinite(t.time_s[s]) && std::isfinite(t["base_x_m"][s]);
@@ -65,10 +41,7 @@ std::size_t finite_samples(const Trajectory& t)
     };
     while (good < samples && finite(good))
         ++good;
-    if (good == 0 || blocks == 0)
-        throw InputError(fmt::format("the trajectory of realization {} has no sample to draw.\n  Replay the "
-                                     "realization with a sufficiently high output.trajectory_rate_hz.",
-                                     t.index));
+    check_some_sample(t, good);
     for (std::size_t i = 0; i < blocks; ++i)
         if (const Rectangle at = rectangle_of(t, 0, i);
             !(at.half_width > 0 && at.half_height > 0) || !std::isfinite(at.half_width * at.half_height))
@@ -126,47 +99,6 @@ double departure(const Trajectory& t, std::size_t sample, std::size_t from)
         sum += std::hypot(a.x - b.x, a.y - b.y) + std::abs(a.turned_rad - b.turned_rad) * a.half_height;
     }
     return sum;
-}
-
-std::vector<std::size_t> choose_samples(const Trajectory& t, std::size_t samples, std::size_t snapshots)
-{
-    if (snapshots < least_snapshots || snapshots > most_snapshots)
-        throw InputError(fmt::format("{} snapshots are outside [{}, {}].\n  Ask for 8, for example.", snapshots,
-                                     least_snapshots, most_snapshots));
-    if (samples <= snapshots) {
-        std::vector<std::size_t> all(samples);
-        for (std::size_t s = 0; s < samples; ++s)
-            all[s] = s;
-        return all;
-    }
-    // The clock of the stretches runs a quarter with the time, the rest with the way that the blocks have gone.
-    std::vector<double> way(samples, 0.0);
-    for (std::size_t s = 1; s < samples; ++s)
-        way[s] = way[s - 1] + departure(t, s, s - 1);
-    const auto clock = [&](std::size_t s) {
-        const double share = static_cast<double>(s) / static_cast<double>(samples - 1);
-        return way.back() > 0 ? 0.25 * share + 0.75 * way[s] / way.back() : share;
-    };
-    std::vector<std::size_t> chosen{0};
-    std::size_t s = 1;
-    const auto stretches = static_cast<double>(snapshots - 1);
-    for (std::size_t k = 1; k + 1 < snapshots; ++k) {
-        const std::size_t latest = samples - snapshots + k; // leaves a sample for each stretch to come
-        std::size_t best = s;
-        double farthest = -1;
-        do {
-            const double d = departure(t, s, 0);
-            // In a column at rest the end of the stretch, so that the times are even.
-            if (d >= farthest) {
-                farthest = d;
-                best = s;
-            }
-            ++s;
-        } while (s <= latest && clock(s) <= static_cast<double>(k) / stretches);
-        chosen.push_back(best);
-    }
-    chosen.push_back(samples - 1);
-    return chosen;
 }
 
 /// Of the picture, in parts of its width.
@@ -313,11 +245,6 @@ struct Shapes {
         data += '\n';
     }
 };
-
-bool has_fallen(const std::vector<double>& fall_time_s, std::size_t block, double time_s)
-{
-    return !fall_time_s.empty() && fall_time_s[block] >= 0 && fall_time_s[block] <= time_s;
-}
 
 /// Script of the strip: the snapshots side by side, one scale for both axes.
 std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
@@ -508,19 +435,20 @@ std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t sample
 
 std::vector<std::size_t> snapshot_samples(const Trajectory& trajectory, std::size_t snapshots)
 {
-    return choose_samples(trajectory, finite_samples(trajectory), snapshots);
+    if (is_spatial(trajectory))
+        return snapshot_samples_in_space(trajectory, snapshots);
+    return choose_samples(finite_samples(trajectory), snapshots,
+                          [&](std::size_t sample, std::size_t from) { return departure(trajectory, sample, from); });
 }
 
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
                 const std::filesystem::path& png, std::size_t snapshots)
 {
+    check_trajectory(trajectory, fall_time_s);
+    if (is_spatial(trajectory))
+        return plot_strip_in_space(trajectory, fall_time_s, title, png, snapshots);
     const std::size_t samples = finite_samples(trajectory);
     const std::size_t blocks = trajectory.blocks();
-    if (!fall_time_s.empty() && fall_time_s.size() != blocks)
-        throw InputError(
-            fmt::format("realization {} has fall times of {} blocks and a trajectory of {}: it is damaged.\n"
-                        "  Replay the realization into a new file.",
-                        trajectory.index, fall_time_s.size(), blocks));
     const std::vector<std::size_t> chosen = snapshot_samples(trajectory, snapshots);
     const Drawn drawn = find_blocks(trajectory, samples);
     const double last_s = trajectory.time_s[samples - 1];

@@ -10,10 +10,6 @@
 
 namespace stylobate {
 
-/// Why a realization in space has no strip, no animation and no film: the sentence of every refusal.
-inline constexpr char no_motion_in_space[] =
-    "a structure in space has no picture in motion yet; 'export --to vtk' writes it for ParaView";
-
 /// Draws a strip of snapshots (1800 pixels wide, 1350 high or more), blocks to scale in the frame of the base, the base
 /// beneath them and the time under each: a column in one row, what is wide in several rows. Fixed blocks are darker,
 /// epistyles blue, those that have fallen by then outlined in red. Below, over time: the number of fallen blocks if any
@@ -26,8 +22,9 @@ inline constexpr char no_motion_in_space[] =
 ///
 /// @param fall_time_s of each block, -1 = never, as in `Outcome`; empty: not known
 /// @param snapshots 2 to 16; fewer are drawn if there are fewer samples
-/// @throws InputError if the trajectory is in space, if it is empty, its arrays do not fit each other or a size is not
-/// positive, if the
+/// A structure in space is drawn as `plot_strip_in_space` describes.
+///
+/// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if the
 ///         fall times are not as many as the blocks, if `snapshots` is out of range, if gnuplot is missing or fails, or
 ///         if the picture cannot be written
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,

@@ -1,6 +1,7 @@
 #include "io/plots/plot_structure.hpp"
 
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/drawing_sheet.hpp"
+#include "io/plots/plot_structure_in_space.hpp"
 
 #include <fmt/format.h>
 
@@ -14,151 +15,9 @@ namespace stylobate {
 
 namespace {
 
-/// Where a text stands beside its point.
-enum class TextAt { left, center, right };
-
-/// A drawing in pixels, for gnuplot: rectangles, lines, texts, dimension lines. Places are in pixels from the upper
-/// left corner of the picture; what comes later lies above.
-class DrawingSheet {
-public:
-    explicit DrawingSheet(PictureSize size) : size_(size) {}
-
-    void rectangle(double left, double top, double right, double bottom, std::string_view fill,
-                   std::string_view line = {});
-    void line(double x0, double y0, double x1, double y1, std::string_view colour = "#303030", double width = 1);
-    /// @param turned upwards, by a right angle
-    void text(std::string_view words, double x, double y, double font, TextAt at = TextAt::center,
-              std::string_view colour = "#000000", bool turned = false);
-    /// A dimension line below a level or above it: its ends are ticks, its text beside it, turned where it would be
-    /// wider than the line. @param above whether the text stands above the line
-    void across(double x0, double x1, double y, std::string_view words, bool above = false);
-    /// A dimension line on the left: its text on its left.
-    /// @param turned along the line
-    void along(double x, double y0, double y1, std::string_view words, bool turned = false);
-
-    /// Draws what is on the sheet, below a heading.
-    void write(std::string_view title, std::string_view subtitle, const std::filesystem::path& file) const;
-
-    /// The width of a text, about [pixels].
-    static double width(std::string_view words, double font);
-    /// The largest font up to `most` with which a text fits.
-    static double fitting(std::string_view words, double pixels, double most);
-
-private:
-    std::string x(double pixels) const;
-    std::string y(double pixels) const;
-    void tick(double x, double y);
-
-    PictureSize size_;
-    int objects_ = 0;
-    std::string script_;
-};
-
-constexpr double dimension_font = 19, least_font = 9;
-constexpr char dimension_colour[] = "#27475c";
-
-std::string DrawingSheet::x(double pixels) const
-{
-    return fmt::format("screen {:.5f}", pixels / size_.width);
-}
-
-std::string DrawingSheet::y(double pixels) const
-{
-    return fmt::format("screen {:.5f}", 1 - pixels / size_.height);
-}
-
-double DrawingSheet::width(std::string_view words, double font)
-{
-    const auto letters = std::count_if(words.begin(), words.end(),
-                                       [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
-    return 0.86 * font * static_cast<double>(letters); // a point is 4/3 of a pixel
-}
-
-double DrawingSheet::fitting(std::string_view words, double pixels, double most)
-{
-    return std::min(most, most * pixels / std::max(width(words, most), 1.0));
-}
-
-void DrawingSheet::rectangle(double left, double top, double right, double bottom, std::string_view fill,
-                             std::string_view line)
-{
-    script_ +=
-        fmt::format("set object {} rectangle from {}, {} to {}, {} front fillcolor rgb '{}' fillstyle solid 1 {}\n",
-                    ++objects_, x(left), y(bottom), x(right), y(top), fill,
-                    line.empty() ? "noborder" : fmt::format("border linecolor rgb '{}' linewidth 0.8", line));
-}
-
-void DrawingSheet::line(double x0, double y0, double x1, double y1, std::string_view colour, double width)
-{
-    script_ += fmt::format("set arrow from {}, {} to {}, {} nohead front linecolor rgb '{}' linewidth {}\n", x(x0),
-                           y(y0), x(x1), y(y1), colour, width);
-}
-
-void DrawingSheet::text(std::string_view words, double at_x, double at_y, double font, TextAt at,
-                        std::string_view colour, bool turned)
-{
-    script_ += fmt::format("set label {} at {}, {} {} {} front font ',{:.1f}' textcolor rgb '{}'\n",
-                           gnuplot_text(words), x(at_x), y(at_y),
-                           at == TextAt::left    ? "left"
-                           : at == TextAt::right ? "right"
-                                                 : "center",
-                           turned ? "rotate by 90" : "norotate", font, colour);
-}
-
-void DrawingSheet::tick(double at_x, double at_y)
-{
-    constexpr double half = 6;
-    line(at_x - half, at_y + half, at_x + half, at_y - half, dimension_colour, 0.8);
-}
-
-void DrawingSheet::across(double x0, double x1, double at_y, std::string_view words, bool above)
-{
-    line(x0, at_y, x1, at_y, dimension_colour, 0.6);
-    tick(x0, at_y);
-    tick(x1, at_y);
-    constexpr double distance = 20;
-    const double font = fitting(words, x1 - x0 - 6, dimension_font);
-    if (font >= 0.7 * dimension_font)
-        return text(words, (x0 + x1) / 2, at_y + (above ? -distance : distance), font, TextAt::center,
-                    dimension_colour);
-    // upright, away from the line
-    constexpr double room = 58; // to the next line
-    const double turned = std::max(least_font, std::min((x1 - x0) / 1.5, fitting(words, room, dimension_font)));
-    text(words, (x0 + x1) / 2, at_y + (above ? -10 : 10), turned, above ? TextAt::left : TextAt::right,
-         dimension_colour, true);
-}
-
-void DrawingSheet::along(double at_x, double y0, double y1, std::string_view words, bool turned)
-{
-    line(at_x, y0, at_x, y1, dimension_colour, 0.6);
-    tick(at_x, y0);
-    tick(at_x, y1);
-    const double middle = (y0 + y1) / 2;
-    if (turned)
-        text(words, at_x - 20, middle, dimension_font, TextAt::center, dimension_colour, true);
-    else
-        text(words, at_x - 14, middle, std::clamp((y0 > y1 ? y0 - y1 : y1 - y0) / 1.3, least_font, dimension_font),
-             TextAt::right, dimension_colour);
-}
-
-void DrawingSheet::write(std::string_view title, std::string_view subtitle, const std::filesystem::path& file) const
-{
-    // something must be plotted: a point that is nowhere
-    run_gnuplot(gnuplot_heading(title, subtitle, size_) + script_ +
-                    "unset border\nunset tics\nunset key\nset xrange [0:1]\nset yrange [0:1]\nplot '+' using 1:(1/0) "
-                    "notitle\n",
-                size_, file);
-}
-
 constexpr double picture_width = 1800, left_room = 310, right_room = 60, list_room = 640, heading = 175;
 constexpr double slab = 28, row = 75; ///< of the ground; between dimension lines
 constexpr char bed_colour[] = "#c0271b";
-
-/// Equal within what a drawing can show.
-bool same(double a, double b)
-{
-    return std::fabs(a - b) <= 1e-9 * std::max(std::fabs(a), std::fabs(b));
-}
 
 /// What is drawn, and the scale.
 struct Drawing {
@@ -182,11 +41,6 @@ struct Drawing {
         return fmt::format("{} × {} {}", number(b.width_m), number(b.height_m), unit());
     }
 };
-
-std::string mass(double kg)
-{
-    return kg < 1000 ? fmt::format("{:.4g} kg", kg) : fmt::format("{:.4g} t", kg / 1000);
-}
 
 /// What of a bed is not that of [contact]; nullopt if nothing is.
 std::optional<std::string> bed_words(const BedSpec& bed)
@@ -301,19 +155,6 @@ void draw_blocks(const Drawing& d, DrawingSheet& sheet)
     }
 }
 
-/// Runs of neighbours that are alike.
-template <class Alike>
-std::vector<std::vector<std::size_t>> runs_of(const std::vector<std::size_t>& blocks, const Alike& is_alike)
-{
-    std::vector<std::vector<std::size_t>> runs;
-    for (const std::size_t i : blocks) {
-        if (runs.empty() || !is_alike(runs.back().back(), i))
-            runs.emplace_back();
-        runs.back().push_back(i);
-    }
-    return runs;
-}
-
 /// The chain of heights on the left, and the whole height.
 void draw_heights(const Drawing& d, DrawingSheet& sheet)
 {
@@ -394,7 +235,7 @@ std::string words_of(const Drawing& d, const std::vector<std::size_t>& run)
         name = fmt::format("{}s {} to {}", name.substr(0, blank), name.substr(blank + 1),
                            other.substr(other.rfind(' ') + 1));
     }
-    std::string words = fmt::format("{}: {}, {}", name, d.size(first), mass(first.mass_kg));
+    std::string words = fmt::format("{}: {}, {}", name, d.size(first), mass_text(first.mass_kg));
     if (std::fabs(first.offset_m) > 1e-9 * first.width_m && first.role == BlockRole::drum)
         words += ", offset " + d.length(first.offset_m);
     if (first.fixed)
@@ -522,13 +363,15 @@ std::string subtitle_of(const Drawing& d)
     const std::size_t blocks = d.layout.blocks.size();
     return fmt::format("{} block{}{} · depth {} · friction {:.3g} · {} in all", blocks, blocks == 1 ? "" : "s",
                        fixed > 0 ? fmt::format(", {} fixed", fixed) : "", d.length(d.study.structure.depth_m),
-                       d.study.contact.friction, mass(sum));
+                       d.study.contact.friction, mass_text(sum));
 }
 
 } // namespace
 
 void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file)
 {
+    if (study.structure.spatial())
+        return plot_structure_in_space(study, title, file);
     Drawing d = make_drawing(study);
     DrawingSheet sheet(scale(d));
     draw_blocks(d, sheet);

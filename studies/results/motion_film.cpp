@@ -3,8 +3,10 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
 #include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/plots/gnuplot.hpp"
+#include "io/plots/solid_view.hpp"
 #include "studies/report/animation.hpp"
 #include "studies/report/frame.hpp"
 #include "studies/report/left_out.hpp"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stylobate {
 namespace {
@@ -22,18 +25,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Rgb paper{244, 246, 248}, stone{233, 226, 208}, lintel{195, 211, 224}, fixed_stone{169, 160, 140},
-    fallen{227, 160, 143}, edge{90, 102, 114}, ground{181, 191, 201}, base_curve{31, 86, 115}, cursor{213, 94, 0},
-    fall_mark{178, 58, 58};
+    fallen{227, 160, 143}, edge{90, 102, 114}, ground{181, 191, 201}, base_curve{31, 86, 115},
+    base_curve_across{0, 158, 115}, cursor{213, 94, 0}, fall_mark{178, 58, 58};
 
 /// The frames of a realization one after the other.
 class Film {
 public:
     Film(const TracedMotion& motion, const std::vector<PlacedBlock>& blocks, double rate_hz)
-        : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks), stage_(animation_stage(blocks)),
+        : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks),
+          stage_(is_spatial(motion.trajectory) ? animation_stage_in_space(blocks) : animation_stage(blocks)),
           rate_hz_(rate_hz)
     {
-        for (const double x : t_["base_x_m"])
-            most_base_m_ = std::max(most_base_m_, std::abs(x));
+        if (is_spatial(t_))
+            base_.push_back({"base_z_m", base_curve_across});
+        base_.push_back({"base_x_m", base_curve});
+        for (const auto& [channel, colour] : base_)
+            for (const double x : t_[channel])
+                most_base_m_ = std::max(most_base_m_, std::abs(x));
     }
 
     int width() const { return even(stage_.width_px); }
@@ -50,6 +58,11 @@ public:
         const double share =
             next == k ? 0 : std::clamp((time - t_.time_s[k]) / (t_.time_s[next] - t_.time_s[k]), 0.0, 1.0);
         const auto between = [&](double a, double b) { return a + share * (b - a); };
+        if (is_spatial(t_)) {
+            draw_scene(frame, k, next, share, time);
+            draw_strip(frame, time);
+            return frame;
+        }
         for (std::size_t b = 0; b < t_.blocks(); ++b) {
             Rectangle at = rectangle_of(t_, k, b);
             const Rectangle then = rectangle_of(t_, next, b);
@@ -68,15 +81,20 @@ private:
     /// Codecs of films want it.
     static int even(double px) { return 2 * static_cast<int>(std::ceil(px / 2)); }
 
+    Rgb colour_of(std::size_t b, double time) const
+    {
+        const bool has_fallen = falls_.at(b) >= 0 && falls_[b] <= time + 1e-9;
+        return has_fallen                               ? fallen
+               : blocks_[b].fixed                       ? fixed_stone
+               : blocks_[b].role == BlockRole::epistyle ? lintel
+                                                        : stone;
+    }
+
     void draw_block(Frame& frame, std::size_t b, const Rectangle& at, double time) const
     {
         if (!at.is_finite())
             return;
-        const bool has_fallen = falls_.at(b) >= 0 && falls_[b] <= time + 1e-9;
-        const Rgb colour = has_fallen                               ? fallen
-                           : blocks_[b].fixed                       ? fixed_stone
-                           : blocks_[b].role == BlockRole::epistyle ? lintel
-                                                                    : stone;
+        const Rgb colour = colour_of(b, time);
         const auto corners = [&](double inset) {
             const double width = std::max(at.half_width * stage_.px_m - inset, 0.5);
             const double height = std::max(at.half_height * stage_.px_m - inset, 0.5);
@@ -90,6 +108,81 @@ private:
         };
         frame.fill(corners(0), edge);
         frame.fill(corners(1.2), colour);
+    }
+
+    /// A structure in space as the page shows it at first.
+    void draw_scene(Frame& frame, std::size_t k, std::size_t next, double share, double time) const
+    {
+        const SolidView view = SolidView::oblique();
+        const auto placed = [&](const ViewPoint& p) { // from the pivot [px]
+            return FramePoint{stage_.width_px / 2 + p.x, stage_.height_px / 2 - p.y};
+        };
+        const auto polygon = [&](const std::vector<ViewPoint>& points) {
+            std::vector<FramePoint> corners;
+            for (const ViewPoint& point : points)
+                corners.push_back(placed(point));
+            return corners;
+        };
+        draw_level_ground(frame, view, k, next, share);
+        std::vector<PlacedSolid> solids;
+        std::vector<std::size_t> blocks;
+        for (std::size_t b = 0; b < t_.blocks(); ++b) {
+            PlacedSolid at = solid_of(t_, k, b);
+            const PlacedSolid then = solid_of(t_, next, b);
+            if (!at.is_finite() || !then.is_finite())
+                continue;
+            at.attitude = at.attitude.between(then.attitude, share);
+            const SpacePoint origin = {stage_.middle_m, stage_.pivot_px / stage_.px_m, stage_.middle_z_m};
+            for (std::size_t c = 0; c < 3; ++c)
+                at.middle[c] = (at.middle[c] + share * (then.middle[c] - at.middle[c]) - origin[c]) * stage_.px_m;
+            at.shape = at.shape.scaled(stage_.px_m);
+            solids.push_back(at);
+            blocks.push_back(b);
+        }
+        for (const SeenSolid& solid : painted(solids, view)) {
+            const Rgb colour = colour_of(blocks[solid.body], time);
+            for (const SeenFace& face : solid.faces) {
+                frame.fill(polygon(face.points), darker(colour, face.brightness));
+                if (!face.smooth)
+                    draw_outline(frame, polygon(face.points));
+            }
+            draw_outline(frame, polygon(solid.outline));
+        }
+    }
+
+    static Rgb darker(const Rgb& colour, double brightness)
+    {
+        const auto part = [&](std::uint8_t value) {
+            return static_cast<std::uint8_t>(std::lround(value * brightness));
+        };
+        return {part(colour.r), part(colour.g), part(colour.b)};
+    }
+
+    static void draw_outline(Frame& frame, const std::vector<FramePoint>& corners)
+    {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            frame.line(corners[i], corners[(i + 1) % corners.size()], 1, edge);
+    }
+
+    /// The ground in space; its marks stand still in the laboratory.
+    void draw_level_ground(Frame& frame, const SolidView& view, std::size_t k, std::size_t next, double share) const
+    {
+        const double reach = stage_.reach_px;
+        const auto placed = [&](double x, double z) {
+            const ViewPoint p = view.place({x, -stage_.pivot_px, z});
+            return FramePoint{stage_.width_px / 2 + p.x, stage_.height_px / 2 - p.y};
+        };
+        frame.fill({placed(-reach, reach), placed(reach, reach), placed(reach, -reach), placed(-reach, -reach)},
+                   ground);
+        constexpr double spacing = 40;
+        const auto marks = [&](const char* channel, const auto& draw) {
+            const double base_m = t_[channel][k] + share * (t_[channel][next] - t_[channel][k]);
+            const double shift = base_m * stage_.px_m;
+            for (double at = std::ceil((shift - reach) / spacing) * spacing - shift; at <= reach; at += spacing)
+                draw(at);
+        };
+        marks("base_x_m", [&](double x) { frame.line(placed(x, -reach), placed(x, reach), 0.8, paper); });
+        marks("base_z_m", [&](double z) { frame.line(placed(-reach, z), placed(reach, z), 0.8, paper); });
     }
 
     /// Its marks stand still in the laboratory.
@@ -108,12 +201,15 @@ private:
     {
         const double right = frame.width() - 2, end = std::max(t_.time_s.back(), 1e-9);
         const double middle = stage_.height_px + 35, scale = most_base_m_ > 0 ? 26 / most_base_m_ : 0;
-        const auto place = [&](std::size_t k) {
-            return FramePoint{1 + t_.time_s[k] / end * right, middle - t_["base_x_m"][k] * scale};
-        };
         const std::size_t stride = std::max<std::size_t>(1, t_.time_s.size() / 1280);
-        for (std::size_t k = stride; k < t_.time_s.size(); k += stride)
-            frame.line(place(k - stride), place(k), 1.4, base_curve);
+        for (const auto& [channel, colour] : base_) {
+            const std::vector<double>& base = t_[channel];
+            const auto place = [&](std::size_t k) {
+                return FramePoint{1 + t_.time_s[k] / end * right, middle - base[k] * scale};
+            };
+            for (std::size_t k = stride; k < t_.time_s.size(); k += stride)
+                frame.line(place(k - stride), place(k), 1.4, colour);
+        }
         for (const double fall : falls_)
             if (fall >= 0 && fall <= end)
                 frame.line({1 + fall / end * right, middle + 18}, {1 + fall / end * right, middle + 33}, 1.6,
@@ -127,6 +223,7 @@ private:
     const std::vector<PlacedBlock>& blocks_;
     const AnimationStage stage_;
     const double rate_hz_;
+    std::vector<std::pair<const char*, Rgb>> base_; ///< channels of its displacement, and their colours
     double most_base_m_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include "studies/report/json.hpp"
 #include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
+#include "studies/results/fall_rose.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
 
@@ -53,6 +54,7 @@ struct OfCell {
     std::array<std::uint64_t, 5> states{}; ///< in the order of `State`
     std::map<std::int32_t, std::uint64_t> first;
     std::vector<double> fall_time_s;
+    FallRose rose;
 };
 
 std::string name_of(std::int32_t block, const std::vector<std::string>& names)
@@ -71,7 +73,8 @@ void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vecto
             outcomes.member(to_string(state), Json::brief(counts));
     }
     json.member("outcomes", outcomes);
-    Json first = Json::object(), times = Json::object();
+    Json first = Json::object(), times = Json::object(), roses = Json::object();
+    bool any_rose = false;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::vector<double> sorted = cells[i].fall_time_s;
         if (sorted.empty())
@@ -84,16 +87,23 @@ void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vecto
         times.member(fmt::format("{}", i),
                      Json::brief(std::vector<double>{
                          sorted.front(), sorted_quantile(sorted, 0.5, QuantileDefinition::linear), sorted.back()}));
+        if (cells[i].rose.falls() == 0)
+            continue;
+        roses.member(fmt::format("{}", i), Json::brief(cells[i].rose.counts()));
+        any_rose = true;
     }
     json.member("first", first).member("times", times);
+    if (any_rose)
+        json.member("rose", roses);
 }
 
 /// JSON for the map of the page (studies/report/page/cells.js): axes, counts, probabilities with their intervals; where
 /// there are rows, also how often each state was reached, which block fell first, and when.
 /// @param table of the study   @param trials rows that are trials; none: nothing is known of single realizations
+/// @param header of the results, for the names of blocks and the model
 /// @param file of the results, for the command that runs one again
-std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& trials,
-                       const std::vector<std::string>& block_names, const std::string& file)
+std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& trials, const ResultHeader& header,
+                       const std::string& file)
 {
     Json json = Json::object();
     json.member("frequency_hz", Json::brief(table.frequency_hz))
@@ -124,8 +134,10 @@ std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& 
             continue;
         cell.fall_time_s.push_back(row.outcome.collapse_time_s);
         ++cell.first[row.outcome.first_collapse_block];
+        if (header.dimensions == 3)
+            cell.rose.add(row.outcome);
     }
-    add_outcomes(json, cells, block_names);
+    add_outcomes(json, cells, header.block_names);
     return json.text();
 }
 
@@ -309,8 +321,7 @@ private:
     void answers()
     {
         if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
-            page_.data("cells",
-                       cells_json(*table, rows_, header_.block_names, fs::path(results_.file()).filename().string()));
+            page_.data("cells", cells_json(*table, rows_, header_, fs::path(results_.file()).filename().string()));
             if (animations_.words)
                 page_.note(*animations_.words);
         }
@@ -374,6 +385,18 @@ private:
         together();
         if (study_.outcome.follow != Follow::rest)
             page_.note("Each realization was computed only until its first fall.");
+        directions();
+    }
+
+    /// In space.
+    void directions()
+    {
+        FallRose rose;
+        if (study_.structure.spatial())
+            for (const ResultRow& row : rows_)
+                rose.add(row.outcome);
+        if (rose.falls() > 1)
+            page_.figure(rose.svg("directions of the falls"), rose.caption());
     }
 
     /// The order of falls, where there are no rows.
@@ -487,9 +510,8 @@ private:
     {
         try {
             const TracedMotion f = traced_motion(results_, isa_, row.index);
-            if (!study_.structure.spatial())
-                picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
-                        [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
+            picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
+                    [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
             for (const Figure& figure : history_figures(results_, f))
                 page_.figure(figure_svg(figure, 220),
                              fmt::format("Realization {}: displacement of the base, and of blocks against the base.",

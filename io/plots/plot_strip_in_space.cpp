@@ -1,0 +1,370 @@
+#include "io/plots/plot_strip_in_space.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
+#include "io/plots/solid_sheet.hpp"
+#include "io/plots/strip_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace stylobate {
+namespace {
+
+constexpr double sheet_width = 1800, edge_left = 60, edge_right = 60, strip_top = 190;
+constexpr double most_strip = 900, label_room = 46, view_room = 520, caption_room = 50, panel_room = 190;
+constexpr char top_colour[] = "#0072b2", base_colour[] = "#d55e00", fall_colour[] = "#c0271b";
+
+/// Samples before the first that is not finite.
+std::size_t whole_samples(const Trajectory& t)
+{
+    const auto whole = [&](std::size_t k) {
+        bool finite = std::isfinite(t.time_s[k] + t["base_x_m"][k] + t["base_y_m"][k] + t["base_z_m"][k]);
+        for (std::size_t i = 0; finite && i < t.blocks(); ++i)
+            finite = solid_of(t, k, i).is_finite();
+        return finite;
+    };
+    std::size_t good = 0;
+    while (good < t.time_s.size() && whole(good))
+        ++good;
+    check_some_sample(t, good);
+    for (std::size_t i = 0; i < t.blocks(); ++i) {
+        const SolidShape shape = shape_of(t, i);
+        const std::array sizes{shape.half_height, shape.bottom.x, shape.bottom.z, shape.top.x, shape.top.z};
+        if (!std::ranges::all_of(sizes, [](double size) { return size > 0 && std::isfinite(size); }))
+            throw InputError(
+                fmt::format("block {} of realization {} has a size that is not positive: the trajectory is "
+                            "damaged.\n  Replay the realization into a new file.",
+                            i, t.index));
+    }
+    return good;
+}
+
+/// How far the blocks are at a sample from where they are at another, in all.
+double way_between(const Trajectory& t, std::size_t sample, std::size_t from)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < t.blocks(); ++i) {
+        const PlacedSolid a = solid_of(t, sample, i), b = solid_of(t, from, i);
+        sum += std::hypot(a.middle[0] - b.middle[0], a.middle[1] - b.middle[1], a.middle[2] - b.middle[2]);
+        double chord = 0;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double other = b.attitude.quaternion()[c];
+            chord += a.attitude.quaternion()[c] * other;
+        }
+        sum += 2 * std::acos(std::min(1.0, std::fabs(chord))) * a.shape.half_height;
+    }
+    return sum;
+}
+
+/// What a part of the drawing needs, in metres of its view.
+struct ViewBox {
+    double left = std::numeric_limits<double>::infinity(), right = -left, low = left, high = -left;
+    void add(const ViewPoint& p)
+    {
+        left = std::min(left, p.x);
+        right = std::max(right, p.x);
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+    }
+    double width() const { return right - left; }
+    double height() const { return high - low; }
+};
+
+/// A realization, and how it is drawn.
+class StripInSpace {
+public:
+    StripInSpace(const Trajectory& t, const std::vector<double>& falls, std::size_t snapshots)
+        : t_(t), falls_(falls), samples_(whole_samples(t)), chosen_(snapshot_samples_in_space(t, snapshots)),
+          last_(samples_ - 1)
+    {
+        for (std::size_t i = 0; i < t.blocks(); ++i) {
+            if (t.role[i] == BlockRole::ground)
+                continue;
+            drawn_.push_back(i);
+            bool moves = false;
+            for (std::size_t k = 1; k < samples_ && !moves; ++k)
+                moves = way_between_of(i, k) > 0;
+            moves_.push_back(moves);
+            if (moves || t.blocks() == 1)
+                top_ = i;
+            const PlacedSolid first = solid_of(t, 0, i);
+            reach_ = std::max(reach_, std::max(first.shape.bottom.x, first.shape.bottom.z));
+            for (const SpacePoint& corner : first.corners()) {
+                ground_[0] = std::min(ground_[0], corner[0]);
+                ground_[1] = std::max(ground_[1], corner[0]);
+                ground_[2] = std::min(ground_[2], corner[2]);
+                ground_[3] = std::max(ground_[3], corner[2]);
+            }
+        }
+        if (std::ranges::none_of(moves_, [](bool moves) { return moves; })) {
+            moves_.assign(moves_.size(), true); // where nothing moves, fixed blocks cannot be told from free ones
+            top_ = drawn_.back();
+        }
+        ground_ = {ground_[0] - reach_, ground_[1] + reach_, ground_[2] - reach_, ground_[3] + reach_};
+    }
+
+    void write(const std::string& title, const std::filesystem::path& png)
+    {
+        const double views_top = strip_top + place_snapshots() + 60;
+        const double panels_top = views_top + caption_room + view_room + 70;
+        DrawingSheet sheet(
+            PictureSize{static_cast<int>(sheet_width), static_cast<int>(panels_top + 2 * (panel_room + 50) + 60)});
+        draw_snapshots(sheet);
+        draw_views(sheet, views_top);
+        draw_panel(sheet, "x", panels_top, false);
+        draw_panel(sheet, "z", panels_top + panel_room + 50, true);
+        sheet.write(title, words(), png);
+    }
+
+private:
+    double way_between_of(std::size_t block, std::size_t sample) const
+    {
+        const PlacedSolid a = solid_of(t_, sample, block), b = solid_of(t_, 0, block);
+        double sum = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            sum += std::fabs(a.middle[c] - b.middle[c]);
+        for (std::size_t c = 0; c < 4; ++c)
+            sum += std::fabs(a.attitude.quaternion()[c] - b.attitude.quaternion()[c]);
+        return sum;
+    }
+
+    std::vector<DrawnSolid> solids(std::size_t sample) const
+    {
+        std::vector<DrawnSolid> all;
+        for (std::size_t d = 0; d < drawn_.size(); ++d) {
+            const std::size_t i = drawn_[d];
+            const SolidLook look = !moves_[d]                          ? SolidLook::fixed
+                                   : t_.role[i] == BlockRole::epistyle ? SolidLook::lintel
+                                                                       : SolidLook::stone;
+            all.push_back({solid_of(t_, sample, i), look, has_fallen(falls_, i, t_.time_s[sample])});
+        }
+        return all;
+    }
+
+    ViewBox box_of(std::size_t sample, const SolidView& view) const
+    {
+        ViewBox box;
+        for (const std::size_t i : drawn_)
+            for (const SpacePoint& corner : solid_of(t_, sample, i).corners())
+                box.add(view.place(corner));
+        for (const double x : {ground_[0], ground_[1]})
+            for (const double z : {ground_[2], ground_[3]})
+                box.add(view.place({x, 0, z}));
+        return box;
+    }
+
+    /// In as many rows as let them be large. @returns the height of the strip [pixels]
+    double place_snapshots()
+    {
+        for (const std::size_t sample : chosen_) {
+            const ViewBox box = box_of(sample, SolidView::oblique());
+            strip_.add({box.left, box.low});
+            strip_.add({box.right, box.high});
+        }
+        const double room = sheet_width - edge_left - edge_right;
+        double best = 0;
+        for (std::size_t rows = 1; rows <= chosen_.size(); ++rows) {
+            const std::size_t in_row = (chosen_.size() + rows - 1) / rows;
+            const double each = (rows == 1 ? 480 : most_strip / static_cast<double>(rows)) - label_room;
+            const double scale =
+                std::min(room / static_cast<double>(in_row) / (1.06 * strip_.width()), each / strip_.height());
+            if (scale > 1.15 * best) { // more rows only where they are much larger
+                best = scale;
+                in_row_ = in_row;
+            }
+        }
+        per_metre_ = best;
+        const std::size_t rows = (chosen_.size() + in_row_ - 1) / in_row_;
+        return static_cast<double>(rows) * (strip_.height() * per_metre_ + label_room);
+    }
+
+    void draw_snapshots(DrawingSheet& sheet) const
+    {
+        const SolidView view = SolidView::oblique();
+        const double cell = (sheet_width - edge_left - edge_right) / static_cast<double>(in_row_);
+        const double high = strip_.height() * per_metre_;
+        const double span = t_.time_s[chosen_.back()] - t_.time_s[chosen_.front()];
+        const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
+        for (std::size_t n = 0; n < chosen_.size(); ++n) {
+            const double middle = edge_left + cell * (static_cast<double>(n % in_row_) + 0.5);
+            const double bottom = strip_top + high + static_cast<double>(n / in_row_) * (high + label_room);
+            const SheetPlace place = {middle - (strip_.left + strip_.right) / 2 * per_metre_,
+                                      bottom + strip_.low * per_metre_, per_metre_};
+            draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
+            draw_solids(sheet, solids(chosen_[n]), view, place);
+            sheet.text(fmt::format("{:.{}f} s", t_.time_s[chosen_[n]], decimals), middle, bottom + 22,
+                       std::min(19.0, cell / 9));
+        }
+        draw_axes(sheet, view, edge_left, strip_top - 14);
+    }
+
+    /// Displacement of the top from its place as built [m].
+    double moved(std::size_t sample, std::size_t along) const
+    {
+        const double rest = t_[along == 0 ? "rest_x_m" : "rest_z_m"][top_];
+        return solid_of(t_, sample, top_).middle[along] - rest;
+    }
+
+    /// The plan with the orbit, and both elevations at the end.
+    void draw_views(DrawingSheet& sheet, double top) const
+    {
+        struct View {
+            SolidView view;
+            std::string caption;
+            ViewBox box;
+        };
+        const std::string at_end = fmt::format(", {:.4g} s", t_.time_s[last_]);
+        std::array<View, 3> views{View{SolidView::above(), "plan" + at_end + ", with the orbit of the top", {}},
+                                  View{SolidView::front(), "from the front" + at_end, {}},
+                                  View{SolidView::side(), "from the side" + at_end, {}}};
+        double scale = std::numeric_limits<double>::infinity();
+        constexpr double room = (sheet_width - edge_left - edge_right) / 3 - 70;
+        for (View& each : views) {
+            each.box = box_of(last_, each.view);
+            if (&each == views.data())
+                for (std::size_t k = 0; k < samples_; ++k)
+                    each.box.add(each.view.place(solid_of(t_, k, top_).middle));
+            scale = std::min({scale, room / each.box.width(), view_room / each.box.height()});
+        }
+        for (std::size_t n = 0; n < views.size(); ++n) {
+            const auto& [view, caption, box] = views[n];
+            const double middle = edge_left + (room + 70) * (static_cast<double>(n) + 0.5);
+            const double center = top + caption_room + view_room / 2;
+            const SheetPlace place = {middle - (box.left + box.right) / 2 * scale,
+                                      n == 0 ? center + (box.low + box.high) / 2 * scale
+                                             : top + caption_room + view_room + box.low * scale,
+                                      scale};
+            sheet.text(caption, middle, top, DrawingSheet::fitting(caption, room + 40, 17));
+            draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
+            draw_solids(sheet, solids(last_), view, place);
+            draw_axes(sheet, view, edge_left + (room + 70) * static_cast<double>(n) + 10, top + caption_room + 10);
+            if (n == 0)
+                draw_orbit(sheet, view, place);
+        }
+    }
+
+    void draw_orbit(DrawingSheet& sheet, const SolidView& view, const SheetPlace& place) const
+    {
+        std::vector<std::array<double, 2>> orbit;
+        for (const std::size_t k : thinned())
+            orbit.push_back(place.of(view.place(solid_of(t_, k, top_).middle)));
+        sheet.path(orbit, top_colour, 1.2);
+    }
+
+    /// Samples that a curve is drawn through: more cannot be told apart.
+    std::vector<std::size_t> thinned() const
+    {
+        constexpr std::size_t most = 1000;
+        std::vector<std::size_t> kept;
+        const std::size_t stride = samples_ / most + 1;
+        for (std::size_t k = 0; k < samples_; k += stride)
+            kept.push_back(k);
+        if (kept.back() != last_)
+            kept.push_back(last_);
+        return kept;
+    }
+
+    void draw_panel(DrawingSheet& sheet, const std::string& along, double top, bool with_times) const
+    {
+        constexpr double left = 190, right = sheet_width - 40;
+        const std::vector<double>& base = t_["base_" + along + "_m"];
+        const std::size_t axis = along == "x" ? 0 : 2;
+        double least = 0, most = 0;
+        for (std::size_t k = 0; k < samples_; ++k) {
+            least = std::min({least, base[k], moved(k, axis)});
+            most = std::max({most, base[k], moved(k, axis)});
+        }
+        const Unit unit = unit_for(std::max(-least, most));
+        const double room = most > least ? most - least : 1 / unit.per_metre;
+        least -= 0.06 * room;
+        most += 0.06 * room;
+        const double first_s = t_.time_s.front(), span_s = std::max(t_.time_s[last_] - first_s, 1e-9);
+        const auto x = [&](double time) { return left + (time - first_s) / span_s * (right - left); };
+        const auto y = [&](double metres) { return top + (most - metres) / (most - least) * panel_room; };
+        const double step = round_step(room * unit.per_metre / 2.4) / unit.per_metre;
+        for (double tic = std::ceil(least / step) * step; tic <= most; tic += step) {
+            sheet.line(left, y(tic), right, y(tic), "#dddddd", 0.5);
+            sheet.text(fmt::format("{:.4g}", std::fabs(tic) < step / 2 ? 0 : tic * unit.per_metre), left - 12, y(tic),
+                       17, TextAt::right);
+        }
+        const double step_s = round_step(span_s / 4);
+        for (double tic = std::ceil(first_s / step_s) * step_s; tic <= first_s + span_s * (1 + 1e-9); tic += step_s) {
+            sheet.line(x(tic), top + panel_room, x(tic), top + panel_room + 6, "#303030", 0.8);
+            if (with_times)
+                sheet.text(fmt::format("{:.4g}", tic), x(tic), top + panel_room + 26, 17);
+        }
+        sheet.line(left, top, left, top + panel_room, "#303030", 0.8);
+        sheet.line(left, top + panel_room, right, top + panel_room, "#303030", 0.8);
+        sheet.text(fmt::format("along {} [{}]", along, unit.name), 46, top + panel_room / 2, 17, TextAt::center,
+                   "#000000", true);
+        if (with_times)
+            sheet.text("time [s]", (left + right) / 2, top + panel_room + 62, 17);
+        for (const double fall : falls_)
+            if (fall >= first_s && fall <= first_s + span_s)
+                sheet.line(x(fall), top, x(fall), top + panel_room, fall_colour, 0.8);
+        for (const bool of_top : {false, true}) {
+            const auto place = [&](std::size_t k) {
+                return std::array<double, 2>{x(t_.time_s[k]), y(of_top ? moved(k, axis) : base[k])};
+            };
+            std::vector<std::array<double, 2>> curve;
+            for (const std::size_t k : thinned())
+                curve.push_back(place(k));
+            sheet.path(curve, of_top ? top_colour : base_colour, 1);
+            for (const std::size_t k : chosen_) {
+                const auto [at_x, at_y] = place(k);
+                sheet.rectangle(at_x - 4, at_y - 4, at_x + 4, at_y + 4, of_top ? top_colour : base_colour);
+            }
+        }
+    }
+
+    std::string words() const
+    {
+        std::string text = fmt::format("{} · frame of the base · blue: centre of {}, from upright · orange: base",
+                                       counted(drawn_.size(), "block"), t_.name[top_]);
+        std::size_t first = t_.blocks();
+        for (std::size_t i = 0; i < falls_.size(); ++i)
+            if (has_fallen(falls_, i, t_.time_s[last_]) && (first == t_.blocks() || falls_[i] < falls_[first]))
+                first = i;
+        if (first < t_.blocks())
+            text += fmt::format(" · red: fallen, first {} at {:.2f} s", t_.name[first], falls_[first]);
+        if (samples_ < t_.time_s.size())
+            text += fmt::format(" · not finite after {:.4g} s", t_.time_s[last_]);
+        return text;
+    }
+
+    const Trajectory& t_;
+    const std::vector<double>& falls_;
+    const std::size_t samples_;
+    const std::vector<std::size_t> chosen_;
+    const std::size_t last_;
+    std::vector<std::size_t> drawn_; ///< all but the ground
+    std::vector<bool> moves_;        ///< of these
+    std::size_t top_ = 0;
+    double reach_ = 0; ///< of the widest block [m]: the ground is drawn so much wider
+    std::array<double, 4> ground_{1e300, -1e300, 1e300, -1e300}; ///< along x, along z [m]
+    ViewBox strip_;                                              ///< of all snapshots
+    double per_metre_ = 1;
+    std::size_t in_row_ = 1;
+};
+
+} // namespace
+
+std::vector<std::size_t> snapshot_samples_in_space(const Trajectory& trajectory, std::size_t snapshots)
+{
+    return choose_samples(whole_samples(trajectory), snapshots,
+                          [&](std::size_t sample, std::size_t from) { return way_between(trajectory, sample, from); });
+}
+
+void plot_strip_in_space(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
+                         const std::filesystem::path& png, std::size_t snapshots)
+{
+    StripInSpace(trajectory, fall_time_s, snapshots).write(title, png);
+}
+
+} // namespace stylobate

@@ -1,0 +1,71 @@
+#include "io/plots/solid_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace stylobate {
+namespace {
+
+/// "#rrggbb", darker.
+std::string shaded(int rgb, double brightness)
+{
+    const auto part = [&](int shift) { return std::lround(((rgb >> shift) & 255) * brightness); };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(16), part(8), part(0));
+}
+
+} // namespace
+
+void draw_solids(DrawingSheet& sheet, const std::vector<DrawnSolid>& solids, const SolidView& view,
+                 const SheetPlace& place)
+{
+    std::vector<PlacedSolid> placed;
+    for (const DrawnSolid& each : solids)
+        placed.push_back(each.solid);
+    const auto on_sheet = [&](const std::vector<ViewPoint>& points) {
+        std::vector<std::array<double, 2>> at;
+        for (const ViewPoint& point : points)
+            at.push_back(place.of(point));
+        return at;
+    };
+    for (const SeenSolid& seen : painted(placed, view)) {
+        const DrawnSolid& each = solids[seen.body];
+        const int colour = each.look == SolidLook::fixed    ? 0xa89a7d
+                           : each.look == SolidLook::lintel ? 0xb9cddb
+                                                            : 0xead9b5;
+        const char* edge = each.fallen ? "#c0271b" : each.look == SolidLook::lintel ? "#27475c" : "#4a3b24";
+        for (const SeenFace& face : seen.faces) {
+            const std::string fill = shaded(colour, face.brightness);
+            // a border in the colour of the face: no light comes between two of them
+            sheet.polygon(on_sheet(face.points), fill, face.smooth ? fill : edge, 0.5);
+        }
+        sheet.polygon(on_sheet(seen.outline), {}, edge, each.fallen ? 1.0 : 0.7);
+    }
+}
+
+void draw_ground(DrawingSheet& sheet, double left, double right, double back, double front, const SolidView& view,
+                 const SheetPlace& place)
+{
+    std::vector<std::array<double, 2>> corners;
+    for (const auto& [x, z] : {std::pair(left, front), {right, front}, {right, back}, {left, back}})
+        corners.push_back(place.of(view.place({x, 0, z})));
+    sheet.polygon(corners, "#d9dde1", "#9aa1a8", 0.5);
+}
+
+void draw_axes(DrawingSheet& sheet, const SolidView& view, double x, double y)
+{
+    constexpr double length = 34, letter = 14;
+    for (const auto& [name, axis] :
+         {std::pair<const char*, SpacePoint>{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}}) {
+        const ViewPoint to = view.place(axis);
+        const double seen = std::hypot(to.x, to.y);
+        if (seen < 0.25)
+            continue;
+        sheet.line(x, y, x + to.x * length, y - to.y * length, "#303030", 1);
+        const double far = length + letter / seen;
+        sheet.text(name, x + to.x * far, y - to.y * far, letter);
+    }
+}
+
+} // namespace stylobate
