@@ -520,8 +520,10 @@ std::string subtitle_of(const Drawing& d)
         fixed += b.fixed;
     }
     const std::size_t blocks = d.layout.blocks.size();
-    return fmt::format("{} block{}{} · depth {} · friction {:.3g} · {} in all", blocks, blocks == 1 ? "" : "s",
-                       fixed > 0 ? fmt::format(", {} fixed", fixed) : "", d.length(d.study.structure.depth_m),
+    const StructureSpec& structure = d.study.structure;
+    return fmt::format("{} block{}{} · {} · friction {:.3g} · {} in all", blocks, blocks == 1 ? "" : "s",
+                       fixed > 0 ? fmt::format(", {} fixed", fixed) : "",
+                       structure.spatial() ? "in space" : "depth " + d.length(structure.depth_m),
                        d.study.contact.friction, mass(sum));
 }
 
