@@ -16,7 +16,7 @@
 namespace stylobate {
 namespace {
 
-constexpr double sheet_width = 1800, edge_left = 60, edge_right = 60, strip_top = 190;
+constexpr double strip_width = 1800, edge_left = 60, edge_right = 60, strip_top = 190;
 constexpr double most_strip = 900, label_room = 46, view_room = 520, caption_room = 50, panel_room = 190;
 constexpr char top_colour[] = "#0072b2", base_colour[] = "#d55e00", fall_colour[] = "#c0271b";
 
@@ -114,7 +114,7 @@ public:
         const double views_top = strip_top + place_snapshots() + 60;
         const double panels_top = views_top + caption_room + view_room + 70;
         DrawingSheet sheet(
-            PictureSize{static_cast<int>(sheet_width), static_cast<int>(panels_top + 2 * (panel_room + 50) + 60)});
+            PictureSize{static_cast<int>(strip_width), static_cast<int>(panels_top + 2 * (panel_room + 50) + 60)});
         draw_snapshots(sheet);
         draw_views(sheet, views_top);
         draw_panel(sheet, "x", panels_top, false);
@@ -167,7 +167,7 @@ private:
             strip_.add({box.left, box.low});
             strip_.add({box.right, box.high});
         }
-        const double room = sheet_width - edge_left - edge_right;
+        const double room = strip_width - edge_left - edge_right;
         double best = 0;
         for (std::size_t rows = 1; rows <= chosen_.size(); ++rows) {
             const std::size_t in_row = (chosen_.size() + rows - 1) / rows;
@@ -187,7 +187,7 @@ private:
     void draw_snapshots(DrawingSheet& sheet) const
     {
         const SolidView view = SolidView::oblique();
-        const double cell = (sheet_width - edge_left - edge_right) / static_cast<double>(in_row_);
+        const double cell = (strip_width - edge_left - edge_right) / static_cast<double>(in_row_);
         const double high = strip_.height() * per_metre_;
         const double span = t_.time_s[chosen_.back()] - t_.time_s[chosen_.front()];
         const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
@@ -224,7 +224,7 @@ private:
                                   View{SolidView::front(), "from the front" + at_end, {}},
                                   View{SolidView::side(), "from the side" + at_end, {}}};
         double scale = std::numeric_limits<double>::infinity();
-        constexpr double room = (sheet_width - edge_left - edge_right) / 3 - 70;
+        constexpr double room = (strip_width - edge_left - edge_right) / 3 - 70;
         for (View& each : views) {
             each.box = box_of(last_, each.view);
             if (&each == views.data())
@@ -272,7 +272,7 @@ private:
 
     void draw_panel(DrawingSheet& sheet, const std::string& along, double top, bool with_times) const
     {
-        constexpr double left = 190, right = sheet_width - 40;
+        constexpr double left = 190, right = strip_width - 40;
         const std::vector<double>& base = t_["base_" + along + "_m"];
         const std::size_t axis = along == "x" ? 0 : 2;
         double least = 0, most = 0;

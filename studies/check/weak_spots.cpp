@@ -387,6 +387,8 @@ Found hardly_damped(const Subject& s)
         text += fmt::format("{}The first mode ({:.3g} Hz) has a damping ratio of {:.2g} %, and the structure hardly "
                             "comes to rest.",
                             text.empty() ? "" : " ", mode.frequency_hz, 100 * mode.damping_ratio);
+    if (s.study().structure.spatial()) // with one contact law
+        return spot(text, "Give a contact.normal_damping_ratio of up to 0.5.");
     const bool centroid =
         s.study().contact.form == ContactForm::area && s.study().contact.damping == DampingAt::centroid;
     return spot(text, fmt::format("Give {}a normal_damping_ratio of up to 0.5, or contact.form = \"rigid\".",
@@ -408,13 +410,15 @@ Found still_moving(const Subject& s)
     if (static_cast<double>(moving) <= many * static_cast<double>(standing))
         return std::nullopt;
     const bool free = s.study().excitation.kind == ExcitationKind::none;
-    return spot(fmt::format("{} of {} of the trial without collapse still moved at the end. Their residual "
-                            "displacements are not known.",
-                            moving, counted(standing, "realization")),
-                fmt::format("Give {}, or more damping (contact.damping = \"ends\").",
-                            free                                           ? "a longer excitation.duration_s"
-                            : s.study().excitation.tail == Tail::structure ? "excitation.tail_s = \"rest\""
-                                                                           : "a longer excitation.tail_s"));
+    return spot(
+        fmt::format("{} of {} of the trial without collapse still moved at the end. Their residual "
+                    "displacements are not known.",
+                    moving, counted(standing, "realization")),
+        fmt::format("Give {}, or more damping ({}).",
+                    free                                           ? "a longer excitation.duration_s"
+                    : s.study().excitation.tail == Tail::structure ? "excitation.tail_s = \"rest\""
+                                                                   : "a longer excitation.tail_s",
+                    s.study().structure.spatial() ? "contact.normal_damping_ratio" : "contact.damping = \"ends\""));
 }
 
 struct Look {
