@@ -30,7 +30,7 @@ double letters(std::string_view text)
 }
 
 /// An axis: its range in values, and where these lie in pixels.
-struct Axis {
+struct FigureAxis {
     double from = std::numeric_limits<double>::infinity();
     double to = -std::numeric_limits<double>::infinity();
     bool log = false;
@@ -310,7 +310,7 @@ private:
                                                            : fmt::format("var(--s{})", colour_number(i));
     }
 
-    static Json axis_json(const Axis& axis, const std::string& label, const std::vector<std::string>& ticks)
+    static Json axis_json(const FigureAxis& axis, const std::string& label, const std::vector<std::string>& ticks)
     {
         return Json::object()
             .member("from", axis.from)
@@ -534,7 +534,7 @@ private:
 
     const Figure& figure_;
     const double height_;
-    Axis x_, y_;
+    FigureAxis x_, y_;
     bool side_by_side_ = false;
     bool empty_ = false;
     double spacing_ = 1; ///< of bars [unit of x]
