@@ -33,7 +33,7 @@ friction = 0.7
 [excitation]
 kind = "noise"
 {shaking}
-
+{mechanisms}
 [surface]
 frequency_hz = {{ from = 2.0, to = 2.0, count = 1, spacing = "linear" }}
 pga_m_s2 = {{ from = {first}, to = {last}, count = 3, spacing = "linear" }}
@@ -43,14 +43,15 @@ drum_offset = {{ distribution = "normal", sd_m = 0.001, per = "block" }}
 """
 
 
-def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, seed=7, realizations=0):
+def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, contact="", mechanisms="", seed=7, realizations=0):
     """@param space: the shape in space; nothing: in the plane.  @param factor: on the PGAs"""
     return STUDY.format(
         seed=seed,
         realizations=realizations,
         damping=damping,
         space=f'dimensions = 3\nshape = "{space}"\n' if space else "depth_m = 1.0\n",
-        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}",
+        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}\n{contact}",
+        mechanisms=mechanisms,
         shaking=shaking,
         first=factor * PGAS[0],
         last=factor * PGAS[-1],
@@ -58,8 +59,10 @@ def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, seed=7, 
 
 
 BOTH = "second_ratio = 0.8"
+SPREAD = {"contact": 'damping_per = "chord"', "mechanisms": "\n[mechanisms]\nface_damping = { share = 0.3333333333333333 }\n"}
 CASES = [  # name, words, settings
     ("plane", "in the plane, along x", {}),
+    ("plane_spread", "the same, with dashpots spread over the faces as in space", SPREAD),
     ("plane_across", "in the plane, by the weaker component (0.8 of the PGA; independent noise)", {"factor": 0.8, "seed": 8}),
     ("one", "round, in space, one component", {"space": "round"}),
     ("both", "round, in space, both components at once", {"space": "round", "shaking": BOTH}),
@@ -68,7 +71,13 @@ CASES = [  # name, words, settings
     ("square_one", "square, one component", {"space": "square"}),
     ("square", "square, both components at once", {"space": "square", "shaking": BOTH}),
     ("soft", "round, both, a tenth of the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e8}),
+    ("stiff", "round, both, ten times the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e10}),
+    ("undamped", "round, both, damping ratio 0.02", {"space": "round", "shaking": BOTH, "damping": 0.02}),
     ("damped", "round, both, damping ratio 0.5", {"space": "round", "shaking": BOTH, "damping": 0.5}),
+    ("ends", "round, both, dashpots at the ends of the faces", {"space": "round", "shaking": BOTH, "contact": 'damping = "ends"'}),
+    ("ends_plane", "in the plane, dashpots at the ends", {"contact": 'damping = "ends"'}),
+    ("ends_stiff", "round, both, dashpots at the ends and ten times the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e10, "contact": 'damping = "ends"'}),
+    ("ends_soft", "round, both, dashpots at the ends and a tenth of the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e8, "contact": 'damping = "ends"'}),
 ]
 
 
