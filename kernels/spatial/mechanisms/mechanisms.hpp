@@ -10,6 +10,7 @@
 #include "kernels/planar/mechanisms/stribeck.hpp"
 #include "kernels/planar/mechanisms/tie.hpp"
 #include "kernels/spatial/mechanisms/dowel.hpp"
+#include "kernels/spatial/mechanisms/face_damping.hpp"
 #include "kernels/spatial/mechanisms/wedge.hpp"
 #include "kernels/spatial/rows.hpp"
 
@@ -69,6 +70,29 @@ public:
         const Matrix<Real> face = minus_identity(w.rotation());
         for (Vector<Real>* each : {&force, &torque})
             *each = detail::select_vector(turned, rotated(face, *each), *each);
+    }
+
+    /// The dashpot along the normal.
+    STYLOBATE_INLINE void dashpot(const BedLoad<Real>& load, Real C_n, BedKind kind, const BedComponents<Real>& rates,
+                                  BedComponents<Real>& resistance) const
+    {
+        spread_dashpot(load, C_n, rates, resistance);
+        const FaceDamping<Real> ends{get(J::face_share), get(J::face_dashpot)};
+        const auto has = (ends.share != Real(0.0)) & (load.force > Real(0.0));
+        if (!any(has))
+            return;
+        const auto half = [&](OfJoint::Field upper, OfJoint::Field lower) {
+            return min_of(rows_.get(upper, joint_), rows_.get(lower, joint_));
+        };
+        const Real reach2 = kind == BedKind::rectangle
+                                ? rectangle_reach2(load, half(OfJoint::upper_half_1, OfJoint::lower_half_1),
+                                                   half(OfJoint::upper_half_2, OfJoint::lower_half_2))
+                                : disc_reach2<Real>();
+        BedComponents<Real> other = resistance;
+        face_dashpot(load, ends, reach2, C_n, rates, other);
+        resistance.normal = select(has, other.normal, resistance.normal);
+        resistance.tilt_x = select(has, other.tilt_x, resistance.tilt_x);
+        resistance.tilt_y = select(has, other.tilt_y, resistance.tilt_y);
     }
 
     /// Largest force of friction.
