@@ -265,7 +265,7 @@ private:
             return bed_force(
                 s.load, law, s.motion, springs,
                 [&](const BedComponents<Real>& rates, BedComponents<Real>& resistance) {
-                    mechanism(j).dashpot(s.load, law.C_n_per_dt, topology_.joint[j].kind, rates, resistance);
+                    mechanism(j).dashpot(s.load, law.C_n_per_dt, topology_.joint[j], rates, resistance);
                 },
                 [&](Real normal, const BedComponents<Real>& rates) {
                     return mechanism(j).friction_limit(s.load, law.mu, normal, rates);
