@@ -11,7 +11,8 @@ namespace stylobate {
 namespace {
 
 /// A column of equal drums on a fixed one; its step bound in 1/w1, w1^2 = k A / m.
-double column_bound(double radius, double half_height, double damping, int drums = 6)
+/// @param ends share of the normal dashpots at the ends of the contacts
+double column_bound(double radius, double half_height, double damping, double ends = 0, int drums = 6)
 {
     const double mass = 1000, k = 1e9;
     Standing s;
@@ -21,6 +22,8 @@ double column_bound(double radius, double half_height, double damping, int drums
         s.bed(below, above, {k, 0.7, damping, mass});
         below = above;
     }
+    for (SolidJoint& joint : s.r.space.joints)
+        joint.mechanisms.face_damping = ends;
     return spatial_step_bound_s(s.r) * std::sqrt(k * std::numbers::pi * radius * radius / mass);
 }
 
