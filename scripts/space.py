@@ -43,14 +43,15 @@ drum_offset = {{ distribution = "normal", sd_m = 0.001, per = "block" }}
 """
 
 
-def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, seed=7, realizations=0):
-    """@param space: the shape in space; nothing: in the plane.  @param factor: on the PGAs"""
+def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, at="", seed=7, realizations=0):
+    """@param space: the shape in space; nothing: in the plane.  @param factor: on the PGAs.  @param at: where the normal
+    dashpots act; nothing: the default"""
     return STUDY.format(
         seed=seed,
         realizations=realizations,
         damping=damping,
         space=f'dimensions = 3\nshape = "{space}"\n' if space else "depth_m = 1.0\n",
-        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}",
+        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}" + (f'\ndamping = "{at}"' if at else ""),
         shaking=shaking,
         first=factor * PGAS[0],
         last=factor * PGAS[-1],
@@ -68,7 +69,15 @@ CASES = [  # name, words, settings
     ("square_one", "square, one component", {"space": "square"}),
     ("square", "square, both components at once", {"space": "square", "shaking": BOTH}),
     ("soft", "round, both, a tenth of the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e8}),
+    ("stiff", "round, both, ten times the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e10}),
+    ("undamped", "round, both, damping ratio 0.02", {"space": "round", "shaking": BOTH, "damping": 0.02}),
     ("damped", "round, both, damping ratio 0.5", {"space": "round", "shaking": BOTH, "damping": 0.5}),
+    ("ends", "round, both, dashpots at the ends", {"space": "round", "shaking": BOTH, "at": "ends"}),
+    ("ends_rigid", "round, both, dashpots at the ends, damping ratio 0.4", {"space": "round", "shaking": BOTH, "at": "ends", "damping": 0.4}),
+    ("ends_soft", "the same, a tenth of the stiffness", {"space": "round", "shaking": BOTH, "at": "ends", "damping": 0.4, "stiffness": 3e8}),
+    ("ends_stiff", "the same, ten times the stiffness", {"space": "round", "shaking": BOTH, "at": "ends", "damping": 0.4, "stiffness": 3e10}),
+    ("ends_one", "round, one component, dashpots at the ends, damping ratio 0.4", {"space": "round", "at": "ends", "damping": 0.4}),
+    ("ends_plane", "in the plane, along x, dashpots at the ends, damping ratio 0.4", {"at": "ends", "damping": 0.4}),
 ]
 
 
