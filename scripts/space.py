@@ -59,6 +59,7 @@ def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, contact=
 
 
 BOTH = "second_ratio = 0.8"
+ENDS = 'damping = "ends"'
 SPREAD = {"contact": 'damping_per = "chord"', "mechanisms": "\n[mechanisms]\nface_damping = { share = 0.3333333333333333 }\n"}
 CASES = [  # name, words, settings
     ("plane", "in the plane, along x", {}),
@@ -74,10 +75,12 @@ CASES = [  # name, words, settings
     ("stiff", "round, both, ten times the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e10}),
     ("undamped", "round, both, damping ratio 0.02", {"space": "round", "shaking": BOTH, "damping": 0.02}),
     ("damped", "round, both, damping ratio 0.5", {"space": "round", "shaking": BOTH, "damping": 0.5}),
-    ("ends", "round, both, dashpots at the ends of the faces", {"space": "round", "shaking": BOTH, "contact": 'damping = "ends"'}),
-    ("ends_plane", "in the plane, dashpots at the ends", {"contact": 'damping = "ends"'}),
-    ("ends_stiff", "round, both, dashpots at the ends and ten times the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e10, "contact": 'damping = "ends"'}),
-    ("ends_soft", "round, both, dashpots at the ends and a tenth of the stiffness", {"space": "round", "shaking": BOTH, "stiffness": 3e8, "contact": 'damping = "ends"'}),
+    ("ends", "round, both, dashpots at the ends", {"space": "round", "shaking": BOTH, "contact": ENDS}),
+    ("ends_rigid", "round, both, dashpots at the ends, damping ratio 0.4", {"space": "round", "shaking": BOTH, "contact": ENDS, "damping": 0.4}),
+    ("ends_soft", "the same, a tenth of the stiffness", {"space": "round", "shaking": BOTH, "contact": ENDS, "damping": 0.4, "stiffness": 3e8}),
+    ("ends_stiff", "the same, ten times the stiffness", {"space": "round", "shaking": BOTH, "contact": ENDS, "damping": 0.4, "stiffness": 3e10}),
+    ("ends_one", "round, one component, dashpots at the ends, damping ratio 0.4", {"space": "round", "contact": ENDS, "damping": 0.4}),
+    ("ends_plane", "in the plane, along x, dashpots at the ends, damping ratio 0.4", {"contact": ENDS, "damping": 0.4}),
 ]
 
 

@@ -66,6 +66,7 @@ struct SolidJoint {
     std::array<double, 2> lower_middle_m{}, upper_middle_m{};
     double inner_ratio = 0; ///< hollow bed (anathyrosis): inner over outer size; 0: the whole face bears
 
+    double area_m2 = 0;                   ///< of the whole bed, by which its stiffness and dashpots are spread
     double normal_stiffness_n_m3 = 0;     ///< k: per area of the bed
     double tangential_stiffness_n_m = 0;  ///< of the whole joint
     double normal_damping_n_s_m3 = 0;     ///< per area

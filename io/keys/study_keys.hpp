@@ -52,8 +52,9 @@ inline const NumberKey tangential_damping("tangential_damping_n_s_m", &ContactSp
                                            .models = in_plane()});
 inline const WordKey<DampingAt> damping("damping", &ContactSpec::damping, damping_at_names,
                                         "where the normal dashpot acts: at the centroid of the overlap (the paper's "
-                                        "model), or at the ends of the contact; in space it is spread over the contact",
-                                        {.used = {compliant()}, .models = in_plane()});
+                                        "model, in the plane alone), or at the ends of the contact",
+                                        {.absent = "\"centroid\"; in space it is spread over the contact",
+                                         .used = {compliant()}});
 inline const WordKey<DampingPer> damping_per("damping_per", &ContactSpec::damping_per, damping_per_names,
                                              "whether the dashpot's coefficient is that of each contact, or grows with "
                                              "the length of the contact",

@@ -25,7 +25,6 @@ constexpr Counterpart of_planar_keys[] = {
     {"tangential_stiffness_n_m", "Give tangential_stiffness_n_m3, the stiffness per area of the bed."},
     {"normal_damping_n_s_m", "Give normal_damping_ratio."},
     {"tangential_damping_n_s_m", "Give tangential_damping_ratio."},
-    {"contact.damping", "Remove it: in space the dashpot is spread over the contact."},
     {"contact.damping_per", "Remove it: in space the dashpot is spread over the contact."},
     {"contact.form", "Remove it: in space plane faces press on each other by the depth of their overlap."},
     {"structure.depth_m",
@@ -85,6 +84,10 @@ void refuse_other_model(const KeyReader& top, const Study& study)
         top.table(study_keys::table.name)
             .refuse(study_keys::kind.name, fmt::format("is not available with {} = 3", model_key),
                     fmt::format("Give another kind, or {} = 2.", model_key));
+    const KeyReader contact = top.table(contact_keys::table.name);
+    if (spatial && contact.has(contact_keys::damping) && contact.read(contact_keys::damping) == DampingAt::centroid)
+        contact.refuse(contact_keys::damping.name, fmt::format("is not available with {} = 3", model_key),
+                       "Give \"ends\", or remove it: in space the dashpot is spread over the contact.");
     const KeyReader outcome = top.table(outcome_keys::table.name);
     if (spatial && outcome.has(outcome_keys::follow) && outcome.read(outcome_keys::follow) == Follow::rest)
         outcome.refuse(outcome_keys::follow.name, fmt::format("is not available with {} = 3", model_key),

@@ -423,7 +423,11 @@ std::string study_text(const Study& study)
     };
     table(study_keys::table.name, entries_of_study(study, use));
     table(structure_keys::table.name, entries_of(study.structure, use));
-    fields(contact_keys::table, study.contact);
+    // in space the default is no word: spread over the contact
+    const bool is_default = study.structure.spatial() && study.contact.damping == DampingAt::centroid;
+    table(contact_keys::table.name, Entries(contact_keys::table)
+                                        .add_fields(contact_keys::table, study.contact,
+                                                    is_default ? use.without({&contact_keys::damping}) : use));
     table(excitation_keys::table.name, entries_of_excitation(study, use));
     if (study.surface)
         table(surface_keys::table.name, entries_of(*study.surface));

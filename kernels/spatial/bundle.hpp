@@ -135,6 +135,8 @@ struct OfJointMechanisms {
         per_dowel_stiffness,        ///< 1 / k_d, 0 without a dowel [m/N]
         dowel_yield,                ///< dowel: F_d [N]
         dowel_gap,                  ///< dowel: [m]
+        face_share,                 ///< face_damping: share of the normal dashpot at the ends of the patch
+        face_dashpot,               ///< face_damping: the most of each end, share C / (2 dt) [N/m]
         wedge,                      ///< wedge: vector part of the face's rotation, along the face (2)
         wedge_at = wedge + 2,       ///< the point about which it is turned, from the anchor (2) [m]
         broken = wedge_at + 2,      ///< adhesion: 1 once it has slipped or opened; step

@@ -93,10 +93,12 @@ STYLOBATE_INLINE BedComponents<Real> bed_rates(const BedLoad<Real>& load, const 
             if_touching(load.friction_radius * w.z)};
 }
 
+} // namespace detail
+
 /// The dashpot along the normal, c v at each point of the patch. If the sum would pull the faces together with more
 /// than the bed's force, all of it is reduced to that.
 template <class Real>
-STYLOBATE_INLINE void normal_dashpot(const BedLoad<Real>& load, Real C_n, const BedComponents<Real>& rates,
+STYLOBATE_INLINE void spread_dashpot(const BedLoad<Real>& load, Real C_n, const BedComponents<Real>& rates,
                                      BedComponents<Real>& resistance)
 {
     const Real zero(0.0), one(1.0);
@@ -111,8 +113,6 @@ STYLOBATE_INLINE void normal_dashpot(const BedLoad<Real>& load, Real C_n, const 
     resistance.tilt_y = c * fma(load.first_y, v, fma(load.second_xy, bx, load.second_yy * by));
 }
 
-} // namespace detail
-
 /// The velocity of friction: sliding at the centre of the pressure, with the torsion as a path at the friction radius.
 /// @return its size in this step, > 0 [m]
 template <class Real>
@@ -124,11 +124,12 @@ STYLOBATE_INLINE Real sliding_of(const BedComponents<Real>& rates)
 /// All of what a pressed bed does to the upper body. Where the faces are apart (`load.force` is 0), everything is 0 and
 /// the springs are lost.
 /// @param springs as the last step left them
+/// @param dashpot_of (rates, resistance): sets the resistance along the normal and its first moments
 /// @param limit_of (normal, rates) -> largest force of friction; 0 where `load.force` is 0 [N]
-template <class Real, class Limit>
+template <class Real, class Dashpot, class Limit>
 STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const FrictionLaw<Real>& law,
                                           const BedMotion<Real>& motion, const FrictionSprings<Real>& springs,
-                                          const Limit& limit_of)
+                                          const Dashpot& dashpot_of, const Limit& limit_of)
 {
     const Real zero(0.0), one(1.0);
     const Real per_N = one / select(load.force > zero, load.force, one);
@@ -138,7 +139,7 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
     BedForce<Real> bed;
     bed.rates = detail::bed_rates(load, motion, centre);
     BedComponents<Real>& resistance = bed.dashpots;
-    detail::normal_dashpot(load, law.C_n_per_dt, bed.rates, resistance);
+    dashpot_of(bed.rates, resistance);
     bed.normal = max_of(load.force - resistance.normal, zero);
 
     // friction: elastic trial, then return to the limit
@@ -168,13 +169,17 @@ STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const Frict
     return bed;
 }
 
-/// The same with Coulomb's limit.
+/// The same with a dashpot that is spread over the patch, and Coulomb's limit.
 template <class Real>
 STYLOBATE_INLINE BedForce<Real> bed_force(const BedLoad<Real>& load, const FrictionLaw<Real>& law,
                                           const BedMotion<Real>& motion, const FrictionSprings<Real>& springs)
 {
-    return bed_force(load, law, motion, springs,
-                     [&law](Real normal, const BedComponents<Real>&) { return law.mu * normal; });
+    return bed_force(
+        load, law, motion, springs,
+        [&](const BedComponents<Real>& rates, BedComponents<Real>& resistance) {
+            spread_dashpot(load, law.C_n_per_dt, rates, resistance);
+        },
+        [&law](Real normal, const BedComponents<Real>&) { return law.mu * normal; });
 }
 
 /// Energy of the springs of friction [J].

@@ -262,9 +262,14 @@ private:
                                                  const FrictionSprings<Real>& springs) const
     {
         if constexpr (mechanisms)
-            return bed_force(s.load, law, s.motion, springs, [&](Real normal, const BedComponents<Real>& rates) {
-                return mechanism(j).friction_limit(s.load, law.mu, normal, rates);
-            });
+            return bed_force(
+                s.load, law, s.motion, springs,
+                [&](const BedComponents<Real>& rates, BedComponents<Real>& resistance) {
+                    mechanism(j).dashpot(s.load, law.C_n_per_dt, topology_.joint[j], rates, resistance);
+                },
+                [&](Real normal, const BedComponents<Real>& rates) {
+                    return mechanism(j).friction_limit(s.load, law.mu, normal, rates);
+                });
         else
             return bed_force(s.load, law, s.motion, springs);
     }

@@ -167,9 +167,13 @@ std::vector<ContactLaw> contact_laws(const Study& study)
     ContactLaw softer{.name = "softer", .words = "a third of the normal and the tangential stiffness"};
     ContactLaw stiffer{.name = "stiffer", .words = "three times the normal and the tangential stiffness"};
     ContactLaw hard{.name = "rigid", .words = "rigid contacts"};
-    ContactLaw damped{.name = ends ? "centroid" : "ends",
-                      .words = ends ? "the normal dashpots at the centroid of the contact"
-                                    : "the normal dashpots at the ends of the contact"};
+    const bool spatial = study.structure.spatial();
+    ContactLaw damped{.name = !ends     ? "ends"
+                              : spatial ? "spread"
+                                        : "centroid",
+                      .words = !ends     ? "the normal dashpots at the ends of the contact"
+                               : spatial ? "the normal dashpots spread over the contact"
+                                         : "the normal dashpots at the centroid of the contact"};
     if (!stiff) {
         softer.why_not = stiffer.why_not = damped.why_not = no_stiffness;
         hard.why_not = "it is the law of the study";
@@ -177,8 +181,9 @@ std::vector<ContactLaw> contact_laws(const Study& study)
     }
     complete(softer, scaled(study, 1 / stiffness_factor));
     complete(stiffer, scaled(study, stiffness_factor));
-    if (study.structure.spatial()) {
-        hard.why_not = damped.why_not = "structures in space have one contact law";
+    if (spatial) {
+        hard.why_not = "structures in space have no rigid contacts";
+        complete(damped, damped_elsewhere(study));
         return {softer, stiffer, hard, damped};
     }
     const bool spread = std::ranges::any_of(study.perturbations, is_compliant);

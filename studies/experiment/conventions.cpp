@@ -49,9 +49,9 @@ std::string contact_words(const Study& study)
         return fmt::format("rigid contacts with restitution {:.3g} ({})", contact.restitution,
                            contact.restitution_law == RestitutionLaw::newton ? "Newton" : "Poisson");
     if (study.structure.spatial())
-        return fmt::format("plane faces that press on each other by {}, dashpots spread over the contact with {}",
+        return fmt::format("plane faces that press on each other by {}, dashpots {} the contact with {}",
                            value_text(contact.normal_stiffness_n_m3, " N/m³", drawn(study, Quantity::normal_stiffness)),
-                           ratio_words(study));
+                           contact.damping == DampingAt::ends ? "at the ends of" : "spread over", ratio_words(study));
     const bool area = contact.form == ContactForm::area;
     const char* form = area                                      ? "contact by area"
                        : contact.form == ContactForm::two_corner ? "contact at two corners"

@@ -59,7 +59,8 @@ private:
         if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
             return path == model_key ? kind->second : toml_quoted(kind->second);
         // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
-        if (path == "contact.damping" && comes_to_rest_)
+        // In space they are spread, and do.
+        if (path == "contact.damping" && comes_to_rest_ && use_.kinds.at(model_key) == "2")
             return toml_quoted(word_for(damping_at_names, DampingAt::ends));
         if (key.example)
             return *key.example;

@@ -75,6 +75,7 @@ bool has_rows(Mechanism mechanism)
 {
     switch (mechanism) {
     case Mechanism::stribeck:
+    case Mechanism::face_damping:
     case Mechanism::friction_wear:
     case Mechanism::adhesion:
     case Mechanism::dowel:
@@ -101,9 +102,10 @@ SpatialBuilder::SpatialBuilder(const Study& study)
         if (acting.rule->models == MechanismModels::planar)
             throw InputError(fmt::format("mechanisms.{}: is not available with structure.dimensions = 3. Remove it.",
                                          acting.rule->name));
-    with_mechanisms_ = std::any_of(mechanisms_.begin(), mechanisms_.end(), [](const ActingMechanism& acting) {
-        return acting.may_act && has_rows(acting.rule->mechanism);
-    });
+    with_mechanisms_ = study.contact.damping == DampingAt::ends ||
+                       std::any_of(mechanisms_.begin(), mechanisms_.end(), [](const ActingMechanism& acting) {
+                           return acting.may_act && has_rows(acting.rule->mechanism);
+                       });
 }
 
 Realization SpatialBuilder::build(RealizationValues values, RealizationHeader header) const
@@ -268,11 +270,14 @@ void SpatialBuilder::give_law(const RealizationValues& values, const Realization
     const DampingRatios ratio = damping_ratios(*study_, values, own);
     const double tangential = values[Quantity::tangential_stiffness][value];
     joint.friction = values[Quantity::friction][value];
+    joint.area_m2 = area;
     joint.normal_stiffness_n_m3 = values[Quantity::normal_stiffness][value];
     joint.tangential_stiffness_n_m = tangential * area;
     // critical for the mass on the springs of the whole area, spread over it
     joint.normal_damping_n_s_m3 = 2 * ratio.normal * std::sqrt(joint.normal_stiffness_n_m3 * mass / area);
     joint.tangential_damping_n_s_m3 = 2 * ratio.tangential * std::sqrt(tangential * mass / area);
+    if (study_->contact.damping == DampingAt::ends)
+        joint.mechanisms.face_damping = 1;
 }
 
 /// The beds.

@@ -13,7 +13,7 @@ using JointRows = spatial::OfJointMechanisms;
 bool acts(const JointMechanisms& e)
 {
     return e.dynamic_ratio != 1 || e.wear_per_m != 0 || e.adhesion_pa != 0 || e.dowel_stiffness_n_m != 0 ||
-           e.wedge_rad != 0 || e.wedge_x_rad != 0;
+           e.face_damping != 0 || e.wedge_rad != 0 || e.wedge_x_rad != 0;
 }
 
 bool acts(const BlockMechanisms& e)
@@ -63,6 +63,9 @@ void store_solid_mechanisms(const Realization& r, const SolidTopology& topology,
         b.at(JointRows::per_dowel_stiffness, j, lane) = e.dowel_stiffness_n_m > 0 ? 1 / e.dowel_stiffness_n_m : 0;
         b.at(JointRows::dowel_yield, j, lane) = e.dowel_yield_n;
         b.at(JointRows::dowel_gap, j, lane) = e.dowel_gap_m;
+        b.at(JointRows::face_share, j, lane) = e.face_damping;
+        b.at(JointRows::face_dashpot, j, lane) =
+            e.face_damping * joint.normal_damping_n_s_m3 * joint.area_m2 / (2 * dt);
         if (joint.normal != Normal::y)
             continue;
         using K = spatial::OfJoint;

@@ -167,6 +167,31 @@ struct Axes {
     }
 };
 
+/// The normal dashpot of a patch with coefficient 1 per area, by lift of the middle of the face and tilts: spread over
+/// the patch, and a share of it at the ends (kernels/spatial/mechanisms/face_damping.hpp).
+/// @param whole area of the face
+Eigen::Matrix3d dashpot_moments(const Pressed& pressed, const Eigen::Vector2d& slope, double reach2, bool fades,
+                                double whole, double share)
+{
+    const auto outer = [](const Eigen::Vector2d& at) {
+        const Eigen::Vector3d row(1, at.x(), at.y());
+        return Eigen::Matrix3d(row * row.transpose());
+    };
+    Eigen::Matrix3d spread;
+    spread << pressed.area, pressed.first.transpose(), pressed.first, pressed.second;
+    if (share == 0)
+        return spread;
+    const Eigen::Vector2d centre = pressed.first / pressed.area;
+    const Eigen::Matrix2d J = pressed.second - pressed.first * centre.transpose();
+    const Eigen::Vector2d along = J * slope;
+    const double moment = slope.dot(along);
+    const Eigen::Vector2d end = std::sqrt(reach2 / (pressed.area * moment)) * along;
+    Eigen::Matrix3d at_ends =
+        (fades ? std::min(pressed.area, whole / 2) : whole / 2) * (outer(centre + end) + outer(centre - end));
+    at_ends.bottomRightCorner<2, 2>() += J - along * along.transpose() / moment;
+    return (1 - share) * spread + share * at_ends;
+}
+
 struct Resistance {
     Matrix6 K = Matrix6::Zero(), C = Matrix6::Zero();
 };
@@ -304,12 +329,17 @@ private:
                 Pressed pressed = pressed_part(1);
                 if (contact_states[s] > -face.inner_ratio && face.inner_ratio > 0)
                     pressed = without(pressed, pressed_part(face.inner_ratio));
-                joint.of[s].push_back(resistance(mine, face, pressed));
+                // a rectangle is as deep at both sides of its corner
+                const Eigen::Vector2d slope =
+                    face.round ? towards : Eigen::Vector2d(corner.cwiseQuotient(face.half).normalized());
+                joint.of[s].push_back(resistance(mine, face, pressed, slope));
             }
         return joint;
     }
 
-    Resistance resistance(const Mine& mine, const CommonFace& face, const Pressed& pressed) const
+    /// @param slope along which the depth of the patch grows
+    Resistance resistance(const Mine& mine, const CommonFace& face, const Pressed& pressed,
+                          const Eigen::Vector2d& slope) const
     {
         const SolidJoint& joint = *mine.joint;
         const Axes axes(joint.normal);
@@ -319,7 +349,10 @@ private:
         rows << lift, by_first, by_second;
         Eigen::Matrix3d moments;
         moments << pressed.area, pressed.first.transpose(), pressed.first, pressed.second;
-        const Matrix6 normal = rows * moments * rows.transpose();
+        const bool round = joint.lower_face.round || joint.upper_face.round;
+        const double inner2 = face.inner_ratio * face.inner_ratio;
+        const Eigen::Matrix3d dashpots = dashpot_moments(pressed, slope, (face.round ? 4 : 6) / (1 + inner2), round,
+                                                         joint.area_m2, joint.mechanisms.face_damping);
 
         const Point at = arm(joint, face.middle + pressed.centre);
         const Row6 first = motion(axes.first, at), second = motion(axes.second, at),
@@ -327,9 +360,9 @@ private:
         const Matrix6 slide = first * first.transpose() + second * second.transpose(), twist = spin * spin.transpose();
         const double f = mine.factor;
         Resistance of;
-        of.K = f * (joint.normal_stiffness_n_m3 * normal +
+        of.K = f * (joint.normal_stiffness_n_m3 * rows * moments * rows.transpose() +
                     joint.tangential_stiffness_n_m * (slide + spatial::torsion_ratio<double>() * twist));
-        of.C = f * (joint.normal_damping_n_s_m3 * normal +
+        of.C = f * (joint.normal_damping_n_s_m3 * rows * dashpots * rows.transpose() +
                     joint.tangential_damping_n_s_m3 * pressed.area * (slide + twist));
         return of;
     }

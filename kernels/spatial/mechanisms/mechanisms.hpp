@@ -10,6 +10,7 @@
 #include "kernels/planar/mechanisms/stribeck.hpp"
 #include "kernels/planar/mechanisms/tie.hpp"
 #include "kernels/spatial/mechanisms/dowel.hpp"
+#include "kernels/spatial/mechanisms/face_damping.hpp"
 #include "kernels/spatial/mechanisms/wedge.hpp"
 #include "kernels/spatial/rows.hpp"
 
@@ -71,6 +72,25 @@ public:
             *each = detail::select_vector(turned, rotated(face, *each), *each);
     }
 
+    /// The dashpot along the normal.
+    STYLOBATE_INLINE void dashpot(const BedLoad<Real>& load, Real C_n, const TopologyJoint& joint,
+                                  const BedComponents<Real>& rates, BedComponents<Real>& resistance) const
+    {
+        spread_dashpot(load, C_n, rates, resistance);
+        const Real share = get(J::face_share);
+        const auto has = (share != Real(0.0)) & (load.force > Real(0.0));
+        if (!any(has))
+            return;
+        Real each = get(J::face_dashpot);
+        if (joint.kind != BedKind::rectangle)
+            each = min_of(share * C_n * load.area, each);
+        BedComponents<Real> other = resistance;
+        face_dashpot(load, FaceDamping<Real>{share, each, reach2(load, joint)}, C_n, rates, other);
+        resistance.normal = select(has, other.normal, resistance.normal);
+        resistance.tilt_x = select(has, other.tilt_x, resistance.tilt_x);
+        resistance.tilt_y = select(has, other.tilt_y, resistance.tilt_y);
+    }
+
     /// Largest force of friction.
     STYLOBATE_INLINE Real friction_limit(const BedLoad<Real>& load, Real mu, Real normal,
                                          const BedComponents<Real>& rates) const
@@ -123,6 +143,17 @@ private:
     STYLOBATE_INLINE Wedge<Real> wedge() const
     {
         return {get(J::wedge), get(J::wedge, 1), get(J::wedge_at), get(J::wedge_at, 1)};
+    }
+    STYLOBATE_INLINE Real reach2(const BedLoad<Real>& load, const TopologyJoint& joint) const
+    {
+        const Real inner = joint.hollow ? rows_.get(OfJoint::inner_ratio, joint_) : Real(0.0);
+        if (joint.kind != BedKind::rectangle)
+            return disc_reach2(inner);
+        const auto half = [&](OfJoint::Field upper, OfJoint::Field lower) {
+            return min_of(rows_.get(upper, joint_), rows_.get(lower, joint_));
+        };
+        return rectangle_reach2(load.slope_x, load.slope_y, half(OfJoint::upper_half_1, OfJoint::lower_half_1),
+                                half(OfJoint::upper_half_2, OfJoint::lower_half_2), inner);
     }
     STYLOBATE_INLINE static auto is_wedge(const Wedge<Real>& w) { return (w.e_1 != Real(0.0)) | (w.e_2 != Real(0.0)); }
 

@@ -162,6 +162,7 @@ private:
     }
     static void give(const BedLaw& law, double area, SolidJoint& j)
     {
+        j.area_m2 = area;
         j.normal_stiffness_n_m3 = law.k;
         j.tangential_stiffness_n_m = law.k * area;
         j.friction = law.friction;

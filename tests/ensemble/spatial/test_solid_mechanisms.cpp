@@ -50,6 +50,7 @@ SolidJoint bed(const SpatialStructure& of, int lower, double area_m2, double mas
                  above.centre_m[2] - above.eccentricity_m[1]};
     j.lower_face = below.top;
     j.upper_face = above.bottom;
+    j.area_m2 = area_m2;
     j.normal_stiffness_n_m3 = 1e9;
     j.tangential_stiffness_n_m = 1e9 * area_m2;
     j.normal_damping_n_s_m3 = j.tangential_damping_n_s_m3 = 2 * 0.3 * std::sqrt(1e9 * mass_kg / area_m2);
@@ -133,6 +134,7 @@ TEST(SolidMechanisms, TheStepWithMechanismsRunsWhereOneHasRows)
     EXPECT_TRUE(joint(&JointMechanisms::wear_per_m, 1));
     EXPECT_TRUE(joint(&JointMechanisms::adhesion_pa, 1));
     EXPECT_TRUE(joint(&JointMechanisms::dowel_stiffness_n_m, 1));
+    EXPECT_TRUE(joint(&JointMechanisms::face_damping, 0.1));
     EXPECT_TRUE(joint(&JointMechanisms::wedge_rad, -1e-3));
     EXPECT_TRUE(joint(&JointMechanisms::wedge_x_rad, 1e-3));
     EXPECT_TRUE(body(&BlockMechanisms::tie_n_m, 1));
@@ -206,6 +208,31 @@ TEST(SolidMechanisms, ABeamOnAWedgeOfARoundDrumTiltsTheSameWay)
     Stepped beside(offset);
     beside.run(600);
     EXPECT_NEAR(beside.vector(B::x, 2).y, aside * about_z, 2e-4);
+}
+
+TEST(SolidMechanisms, EachEndHasHalfOfTheDashpotOfTheFace)
+{
+    // one step of a block that turns: c A / 2 at both edges, b from the middle, resist with c A b2, and a dashpot that
+    // is spread with c A b2 / 3
+    const auto braking = [](double share) { // moment per rate of rotation
+        Realization r = block(false);
+        r.space.joints[0].mechanisms.face_damping = share;
+        r.space.joints[0].friction = 0;
+        const auto gain = [&](double rate) {
+            Stepped stepped(r);
+            stepped.bundle.at(B::y, 1, 0) = -1e-3; // pressed all over
+            stepped.bundle.at(B::q_z, 1, 0) = 1e-6;
+            const double l = rate * r.step_s * r.space.solids[1].inertia_kg_m2[2];
+            stepped.bundle.at(B::l_z, 1, 0) = l;
+            kernels(Isa::scalar).spatial.run(stepped.topology.kernel(), stepped.bundle, 0, 1);
+            return stepped.vector(B::l_x, 1).z - l;
+        };
+        const double rate = 1e-4;
+        return (gain(0) - gain(rate)) / (rate * r.step_s * r.step_s);
+    };
+    const double c = 2 * 0.3 * std::sqrt(1e9 * 2000 / 0.64), b = 0.4;
+    EXPECT_NEAR(braking(1) / (c * 0.64 * b * b), 1, 1e-3);
+    EXPECT_NEAR(braking(0.25) / (c * 0.64 * b * b), 0.25 + 0.75 / 3, 1e-3);
 }
 
 TEST(SolidMechanisms, ATiePullsBackHorizontally)

@@ -223,6 +223,7 @@ TEST(SpatialBuilder, Mechanisms)
         nominal(in_space(free_drums, "[mechanisms]\n"
                                      "stribeck = { dynamic_friction = 0.35, velocity_m_s = 0.02 }\n"
                                      "joint_friction = { joint = 1, ratio = 0.5 }\n"
+                                     "face_damping = { joint = 1, share = 0.5 }\n"
                                      "friction_wear = { joint = 2, rate_per_m = 0.3 }\n"
                                      "adhesion = { joint = 3, strength_pa = 2e4 }\n"
                                      "dowel = { joint = 4, stiffness_n_m = 1e8, yield_n = 5e4 }\n"
@@ -234,6 +235,7 @@ TEST(SpatialBuilder, Mechanisms)
     EXPECT_DOUBLE_EQ(joints[0].mechanisms.dynamic_ratio, 0.5);
     EXPECT_EQ(joints[0].mechanisms.stribeck_velocity_m_s, 0.02);
     EXPECT_DOUBLE_EQ(joints[1].friction, 0.35);
+    EXPECT_EQ(joints[1].mechanisms.face_damping, 0.5);
     EXPECT_EQ(joints[2].mechanisms.wear_per_m, 0.3);
     EXPECT_EQ(joints[3].mechanisms.adhesion_pa, 2e4);
     EXPECT_EQ(joints[4].mechanisms.dowel_yield_n, 5e4);
@@ -256,12 +258,25 @@ TEST(SpatialBuilder, AStudyWithMechanismsOfTheStepIsMarkedSo)
         return nominal(in_space(free_drums, "[mechanisms]\n" + mechanism + "\n")).space.with_mechanisms;
     };
     EXPECT_TRUE(marked("friction_wear = { joint = 2, rate_per_m = 0.3 }"));
+    EXPECT_TRUE(marked("face_damping = { share = 0.1 }"));
     EXPECT_TRUE(marked("wedge = { joint = 5, angle_x_rad = 0.002 }"));
     EXPECT_TRUE(marked("tie = { block = 1, stiffness_n_m = 1e5 }"));
     // values of the plain step
     EXPECT_FALSE(marked("joint_friction = { joint = 1, ratio = 0.5 }"));
     EXPECT_FALSE(marked("eccentricity = { block = 2, offset_m = 0.03 }"));
     EXPECT_FALSE(nominal(in_space(free_drums)).space.with_mechanisms);
+}
+
+TEST(SpatialBuilder, DashpotsAtTheEndsAreThoseOfEveryJoint)
+{
+    Study study = in_space(free_drums);
+    study.contact.damping = DampingAt::ends;
+    const Realization r = nominal(study);
+    EXPECT_TRUE(r.space.with_mechanisms);
+    for (const SolidJoint& joint : r.space.joints) {
+        EXPECT_EQ(joint.mechanisms.face_damping, 1);
+        EXPECT_NEAR(joint.area_m2, std::numbers::pi * 0.25, 1e-12);
+    }
 }
 
 TEST(SpatialBuilder, StructuresThatCannotBeBuilt)

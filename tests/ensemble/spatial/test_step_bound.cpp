@@ -11,7 +11,8 @@ namespace stylobate {
 namespace {
 
 /// A column of equal drums on a fixed one; its step bound in 1/w1, w1^2 = k A / m.
-double column_bound(double radius, double half_height, double damping, int drums = 6)
+/// @param ends share of the normal dashpots at the ends of the contacts
+double column_bound(double radius, double half_height, double damping, double ends = 0, int drums = 6)
 {
     const double mass = 1000, k = 1e9;
     Standing s;
@@ -21,6 +22,8 @@ double column_bound(double radius, double half_height, double damping, int drums
         s.bed(below, above, {k, 0.7, damping, mass});
         below = above;
     }
+    for (SolidJoint& joint : s.r.space.joints)
+        joint.mechanisms.face_damping = ends;
     return spatial_step_bound_s(s.r) * std::sqrt(k * std::numbers::pi * radius * radius / mass);
 }
 
@@ -294,6 +297,92 @@ TEST(SpatialStepBound, OfTies)
         for (const double part : {0.98, 1.02})
             expect_bounded(*tied(part * bound, tie), 1, 0.7, part < 1);
     }
+}
+
+// ---- dashpots at the ends -------------------------------------------------------------------------------------------
+
+// A slab whose dashpots govern, with C of the whole face. Spread ones resist a lift most, 4 m = 2 dt C. The ends of a
+// disc resist a turn at full contact, 4 I = 2 dt C R2. A square that stands on a corner has all of C there, against its
+// lift and its turn together: 4 = 2 dt C (1 / m + 2 b2 / I).
+TEST(SpatialStepBound, DashpotsAtTheEndsHaveTheirLever)
+{
+    const double b = 0.5, height = 0.1, kg = 1000, ratio = 100;
+    for (const bool round : {true, false})
+        for (const double share : {0.0, 1.0}) {
+            Standing s;
+            const int base = s.body({0, -1, 0}, b, b, 1, kg, round, true),
+                      slab = s.body({0, 0, 0}, b, b, height, kg, round);
+            SolidJoint& bed = s.r.space.joints[static_cast<std::size_t>(s.bed(base, slab, {1, 0.7, ratio, kg}))];
+            bed.tangential_stiffness_n_m = bed.tangential_damping_n_s_m3 = 0;
+            bed.mechanisms.face_damping = share;
+            const double C = bed.normal_damping_n_s_m3 * bed.area_m2,
+                         turn = b * b / (s.solid(slab).inertia_kg_m2[0] / kg), most = round ? turn : 1 + 2 * turn;
+            EXPECT_GT(most, 3);
+            EXPECT_NEAR(spatial_step_bound_s(s.r) * C / (2 * kg) * (share > 0 ? most : 1), 1, 2e-3) << round << share;
+        }
+}
+
+TEST(SpatialStepBound, AShareLiesBetweenNoneAndAll)
+{
+    for (const double damping : {0.3, 0.5}) {
+        const double none = column_bound(0.5, 0.5, damping), half = column_bound(0.5, 0.5, damping, 0.5),
+                     all = column_bound(0.5, 0.5, damping, 1);
+        EXPECT_LT(all, half) << damping;
+        EXPECT_LT(half, none) << damping;
+        EXPECT_EQ(column_bound(0.5, 0.5, 0, 1), column_bound(0.5, 0.5, 0)); // without dashpots there are none
+    }
+}
+
+/// Squares of the velocity and of the rotation at the edge of a block that was pushed at rest, over that of the push.
+/// (Kinetic energy is a product of two steps, and negative where they alternate.)
+struct Pushed {
+    double most, last;
+};
+
+Pushed push(bool round, double b, double half, double damping, double part_of_bound)
+{
+    using namespace spatial;
+    const double k = 3e9, area = (round ? std::numbers::pi : 4) * b * b, kg = 2700 * area * 2 * half,
+                 c = 2 * damping * std::sqrt(k * area * kg);
+    Standing held;
+    const int ground = held.body({0, -1, 0}, 10 * b, 10 * b, 1, 1, round, true),
+              block = held.body({0, 0, 0}, b, b, 2 * half, kg, round);
+    held.bed(ground, block, {k, 10, damping, kg});
+    held.r.space.joints[0].mechanisms.face_damping = 1;
+    Scene s(part_of_bound * spatial_step_bound_s(held.r));
+    s.use_mechanisms();
+    if (round) {
+        s.drum({0, -1, 0}, 10 * b, 2, 1, true);
+        s.drum({0, half, 0}, b, 2 * half, kg);
+    } else {
+        s.box({0, -1, 0}, {20 * b, 2, 20 * b}, 1, true);
+        s.box({0, half, 0}, {2 * b, 2 * half, 2 * b}, kg);
+    }
+    s.joint(0, 1, round ? BedKind::disc : BedKind::rectangle, {0, 0, 0}, {k, k * area, 10, c, c});
+    s.build();
+    s.at(spatial::OfJointMechanisms::face_share, 0) = 1;
+    s.at(spatial::OfJointMechanisms::face_dashpot, 0) = c / (2 * s.step_s());
+    s.set_vector(spatial::OfBody::x, 1, {0, -kg * Scene::gravity_m_s2 / (k * area), 0});
+    const double v = 1e-3;
+    s.set_motion(1, {v, 0.2 * v, 0.7 * v}, {v / b, v / b, v / b});
+    Pushed of{};
+    for (int i = 0; i < 5000; ++i) {
+        s.run(1);
+        const Vec moves = s.velocity(1), turns = b * s.omega(1);
+        of.last = (dot(moves, moves) + dot(turns, turns)) / (v * v);
+        of.most = std::max(of.most, of.last);
+    }
+    return of;
+}
+
+TEST(SpatialStepBound, BlocksWithDashpotsAtTheEndsAreStableBelowIt)
+{
+    for (const bool round : {true, false})
+        for (const double half : {0.3, 0.5, 1.8})
+            for (const double damping : {0.1, 0.3, 0.5, 1.0}) {
+                EXPECT_LT(push(round, 0.5, half, damping, 0.95).last, 1e-5) << round << ' ' << half << ' ' << damping;
+                EXPECT_GT(push(round, 0.5, half, damping, 1.3).most, 10) << round << ' ' << half << ' ' << damping;
+            }
 }
 
 TEST(SpatialStepBound, TheStructureAtFullContactIsRefused)

@@ -180,7 +180,9 @@ TEST(StudyInSpace, RefusesKeysOfThePlane)
     const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
         {"contact.normal_stiffness_n_m2=1e9", {"is not used by structure.dimensions = 3", "normal_stiffness_n_m3"}},
         {"contact.form=rigid", {"contact.form", "is not used by structure.dimensions = 3"}},
-        {"contact.damping=ends", {"spread over the contact"}},
+        {"contact.damping=centroid",
+         {"contact.damping", "is not available with structure.dimensions = 3", "spread over the contact"}},
+        {"contact.damping_per=chord", {"contact.damping_per", "spread over the contact"}},
         {"contact.restitution=0.5", {"structure.dimensions = 2"}},
         {"structure.depth_m=1", {"structure.depth_m = 1 is not used by structure.dimensions = 3", "drum_depth_m"}},
         {"run.precision=single", {"run.precision", "double precision"}},
@@ -241,10 +243,11 @@ TEST(StudyInSpace, TextsDifferWhereStudiesDo)
     const std::string base = read(six_drums).text;
     for (const std::string setting :
          {"structure.shape=square", "structure.bed_inner_ratio=0.5", "structure.top_width_m=0.9",
-          "contact.normal_stiffness_n_m3=2e9", "contact.tangential_stiffness_n_m3=2e9",
-          "initial.tilt_direction_rad=0.5", "structure.capital={ width_m = 1.2, height_m = 0.2 }",
-          "mechanisms.wedge={ angle_x_rad = 0.01 }", "mechanisms.eccentricity={ offset_z_m = 0.01 }",
-          "mechanisms.adhesion={ strength_pa = 1e4 }", "mechanisms.drum_offset={ block = 2, offset_z_m = 0.01 }"}) {
+          "contact.normal_stiffness_n_m3=2e9", "contact.damping=ends", "mechanisms.face_damping={ share = 0.5 }",
+          "contact.tangential_stiffness_n_m3=2e9", "initial.tilt_direction_rad=0.5",
+          "structure.capital={ width_m = 1.2, height_m = 0.2 }", "mechanisms.wedge={ angle_x_rad = 0.01 }",
+          "mechanisms.eccentricity={ offset_z_m = 0.01 }", "mechanisms.adhesion={ strength_pa = 1e4 }",
+          "mechanisms.drum_offset={ block = 2, offset_z_m = 0.01 }"}) {
         const Study changed = parse_study(in_space(six_drums), "temple.toml", {setting});
         EXPECT_NE(changed.text, base) << setting;
         EXPECT_EQ(parse_study(changed.text, "again.toml").text, changed.text) << setting;

@@ -485,6 +485,13 @@ std::vector<Case> cases()
                      s.at(J::dowel_gap, j) = 2e-5;
                  });
              }},
+            {"face_damping",
+             [](Scene& s) {
+                 each_joint(s, [&s](int j) {
+                     s.at(J::face_share, j) = 0.6;
+                     s.at(J::face_dashpot, j) = 0.6 * 2e4 / (2 * s.step_s());
+                 });
+             }},
             {"wedge",
              [](Scene& s) {
                  set_wedge(s, 1, 1e-4, -2e-4);

@@ -125,6 +125,11 @@ private:
                 for (int f = J::wedge; f < J::broken; ++f)
                     s.at(J::wedge, j, f - J::wedge) = uniform(-0.02, 0.02);
         }
+        for (int j = 0; j < s.topology().joints; ++j)
+            if (gives(6)) {
+                s.at(J::face_share, j) = uniform(0, 1);
+                s.at(J::face_dashpot, j) = uniform(0, 1e4) / dt;
+            }
         for (int i = s.topology().fixed; i < s.topology().bodies; ++i)
             if (gives(5)) {
                 s.at(M::tie_spring, i) = dt * dt * uniform(-1e2, 1e3);

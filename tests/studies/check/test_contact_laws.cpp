@@ -121,6 +121,12 @@ TEST(ContactLaws, StateWhyOneDoesNotApply)
     EXPECT_EQ(without(read_study(inputs + "rigid_column.toml")), "softer stiffer rigid ends ");
     const std::vector<ContactLaw> of_ends = contact_laws(column({"contact.damping=\"ends\""}));
     EXPECT_EQ(law_called(of_ends, "centroid").study->contact.damping, DampingAt::centroid);
+    // in space there are no rigid contacts, and the other dashpots are spread
+    const Study space = read_study(inputs + "round_column.toml");
+    EXPECT_EQ(without(space), "rigid ");
+    const Study space_ends = *law_called(contact_laws(space), "ends").study;
+    EXPECT_EQ(space_ends.contact.damping, DampingAt::ends);
+    EXPECT_EQ(law_called(contact_laws(space_ends), "spread").study->text, space.text);
     const std::vector<std::string> sentences = laws_left_out(contact_laws(column({"contact.form=\"two_corner\""})));
     ASSERT_EQ(sentences.size(), 1U);
     EXPECT_TRUE(sentences[0].starts_with("ends (")) << sentences[0];

@@ -49,6 +49,9 @@ TEST(Conventions, OfTheSmallScaleColumn)
 TEST(Conventions, NameWhatAStudyChanges)
 {
     expect_parts(column({"contact.damping=\"ends\""}), {"dashpots at the ends of the contact"});
+    expect_parts(line_of("round_column.toml", {}), {"dashpots spread over the contact with"});
+    expect_parts(line_of("round_column.toml", {"contact.damping=\"ends\""}),
+                 {"dashpots at the ends of the contact with"});
     expect_parts(column({"contact.form=\"two_corner\""}), {"contact at two corners", "dashpots at its points"});
     expect_parts(column({"contact.form=\"points\""}), {"contact at points", "dashpots at its points"});
     expect_parts(column({"excitation.cycles=20", "excitation.ramp_cycles=1"}),
