@@ -179,7 +179,12 @@ private:
         for (std::size_t k = 0; k <= chosen_.back(); ++k)
             plan_.add(SolidView::above().place(solid_of(t_, k, top_).middle));
         const double room = strip_width - edge_left - edge_right;
-        const double wide = 1.06 * std::max(strip_.width(), plan_.width()), high = strip_.height() + plan_.height();
+        const double high = strip_.height() + plan_.height();
+        for (const auto& [box, view] : {std::pair{strip_, SolidView::oblique()}, {plan_, SolidView::above()}}) {
+            left_of_middle_ = std::max(left_of_middle_, ground_middle(view) - box.left);
+            right_of_middle_ = std::max(right_of_middle_, box.right - ground_middle(view));
+        }
+        const double wide = 1.06 * (left_of_middle_ + right_of_middle_);
         double best = 0;
         for (std::size_t rows = 1; rows <= chosen_.size(); ++rows) {
             const std::size_t in_row = (chosen_.size() + rows - 1) / rows;
@@ -195,6 +200,12 @@ private:
         return static_cast<double>(rows) * row_height();
     }
 
+    /// Of the ground, to the right in a view [m].
+    double ground_middle(const SolidView& view) const
+    {
+        return view.place({(ground_[0] + ground_[1]) / 2, 0, (ground_[2] + ground_[3]) / 2}).x;
+    }
+
     double row_height() const { return (strip_.height() + plan_.height()) * per_metre_ + label_room + plan_gap; }
 
     /// Each obliquely, its time below it, and the plan with the orbit so far.
@@ -204,21 +215,20 @@ private:
         const double cell = (strip_width - edge_left - edge_right) / static_cast<double>(in_row_);
         const double span = t_.time_s[chosen_.back()] - t_.time_s[chosen_.front()];
         const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
-        const auto left_in = [&](double middle, const ViewBox& box) {
-            return middle - (box.left + box.right) / 2 * per_metre_;
-        };
         for (std::size_t n = 0; n < chosen_.size(); ++n) {
-            const double middle = edge_left + cell * (static_cast<double>(n % in_row_) + 0.5);
+            const double middle = edge_left + cell * (static_cast<double>(n % in_row_) + 0.5) +
+                                  (left_of_middle_ - right_of_middle_) / 2 * per_metre_; // of the ground
             const double top = strip_top + static_cast<double>(n / in_row_) * row_height();
             const double bottom = top + strip_.height() * per_metre_;
-            const SheetPlace place = {left_in(middle, strip_), bottom + strip_.low * per_metre_, per_metre_};
+            const SheetPlace place = {middle - ground_middle(view) * per_metre_, bottom + strip_.low * per_metre_,
+                                      per_metre_};
             draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
             draw_solids(sheet, solids(chosen_[n]), view, place);
-            sheet.text(fmt::format("{:.{}f} s", t_.time_s[chosen_[n]], decimals),
-                       place.of(view.place({(ground_[0] + ground_[1]) / 2, 0, (ground_[2] + ground_[3]) / 2}))[0],
-                       bottom + 22, std::min(19.0, cell / 9));
+            sheet.text(fmt::format("{:.{}f} s", t_.time_s[chosen_[n]], decimals), middle, bottom + 22,
+                       std::min(19.0, cell / 9));
             draw_plan_at(sheet, chosen_[n],
-                         {left_in(middle, plan_), bottom + label_room + plan_.high * per_metre_, per_metre_});
+                         {middle - ground_middle(SolidView::above()) * per_metre_,
+                          bottom + label_room + plan_.high * per_metre_, per_metre_});
         }
         draw_axes(sheet, view, edge_left, strip_top - 14);
     }
@@ -386,7 +396,8 @@ private:
     double reach_ = 0; ///< of the widest block [m]: the ground is drawn so much wider
     std::array<double, 4> ground_{1e300, -1e300, 1e300, -1e300}; ///< along x, along z [m]
     ViewBox strip_, plan_;                                       ///< of all snapshots, obliquely and from above
-    double per_metre_ = 1;                                       ///< of the strip
+    double left_of_middle_ = 0, right_of_middle_ = 0; ///< room that a snapshot needs beside its ground's middle [m]
+    double per_metre_ = 1;                            ///< of the strip
     std::array<View, 3> views_{
         {{SolidView::front(), "from the front"}, {SolidView::side(), "from the side"}, {SolidView::above(), "plan"}}};
     double view_scale_ = 1, views_high_ = 0; ///< pixels per metre; pixels
