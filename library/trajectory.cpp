@@ -124,6 +124,8 @@ public:
                                  height + 16, time_s);
     }
 
+    const std::vector<inner::ShadedPolygon>& polygons() const { return polygons_; }
+
 private:
     double left_ = 0, right_ = 0, low_ = 0, high_ = 0;
     std::vector<inner::ShadedPolygon> polygons_;
@@ -209,6 +211,19 @@ Trajectory replay(const Result& result, std::uint64_t index, const std::vector<s
             throw Stopped(fmt::format("realization {} was stopped", index));
         }
     });
+}
+
+std::vector<std::vector<inner::ShadedPolygon>> seen_in_space(const Trajectory& t,
+                                                             const std::vector<std::size_t>& samples)
+{
+    const inner::Trajectory drawn = drawn_from(t);
+    std::vector<std::vector<inner::ShadedPolygon>> seen;
+    for (const std::size_t sample : samples) {
+        if (sample >= t.time_s.size() || !inner::is_spatial(drawn))
+            throw std::out_of_range("a trajectory in the plane, or one without this sample");
+        seen.push_back(scene_in_space(t, drawn, sample).polygons());
+    }
+    return seen;
 }
 
 void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& file)

@@ -100,17 +100,58 @@ class Replay:
                 f"{len(self.blocks)} blocks>")
 
 
-def animation(replay, seconds, fps):
-    """`Result.animate`."""
+def _frames(replay, seconds, fps):
+    """Samples of the frames of an animation."""
+    import numpy as np
+
+    time = replay.time_s
+    length = float(time[-1] - time[0]) if seconds is None else seconds
+    frames = np.linspace(time[0], time[-1], max(2, int(round(length * fps))))
+    return np.clip(np.searchsorted(time, frames, side="right") - 1, 0, len(time) - 1)
+
+
+def _animation_in_space(replay, seconds, fps):
     import matplotlib.pyplot as plt
     import numpy as np
     from matplotlib.animation import FuncAnimation
     from matplotlib.collections import PolyCollection
 
-    time, corners = replay.time_s, replay.corners()
-    length = float(time[-1] - time[0]) if seconds is None else seconds
-    frames = np.linspace(time[0], time[-1], max(2, int(round(length * fps))))
-    samples = np.clip(np.searchsorted(time, frames, side="right") - 1, 0, len(time) - 1)
+    samples = _frames(replay, seconds, fps)
+    frames = replay._core.seen_in_space([int(sample) for sample in samples])
+    figure = plt.figure()
+    ax = figure.subplots()
+    blocks = PolyCollection([])
+    ax.add_collection(blocks)
+    points = np.concatenate([points for seen in frames for points, *_ in seen])
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = 0.05 * float((high - low).max())
+    ax.set_xlim(low[0] - margin, high[0] + margin)
+    ax.set_ylim(low[1] - margin, high[1] + margin)
+    ax.set_aspect("equal")
+    ax.set_axis_off()  # obliquely no axis of the structure is one of the picture
+    title = ax.set_title("")
+
+    def draw(frame):
+        points, fills, lines, widths = zip(*frames[frame])
+        blocks.set_verts(points)
+        blocks.set_facecolor([fill or "none" for fill in fills])
+        blocks.set_edgecolor(lines)
+        blocks.set_linewidth(widths)
+        title.set_text(f"{replay.time_s[samples[frame]]:.2f} s")
+        return blocks, title
+
+    return FuncAnimation(figure, draw, frames=len(samples), interval=1000 / fps)
+
+
+def animation(replay, seconds, fps):
+    """`Result.animate`."""
+    import matplotlib.pyplot as plt
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.collections import PolyCollection
+
+    if replay.dimensions == 3:
+        return _animation_in_space(replay, seconds, fps)
+    corners, samples = replay.corners(), _frames(replay, seconds, fps)
     colours = ["#a89878" if fixed else "#9db4cc" if epistyle else "#e6dcc3"
                for fixed, epistyle in zip(replay.fixed, replay.epistyle)]
     figure = plt.figure()
@@ -130,7 +171,7 @@ def animation(replay, seconds, fps):
     def draw(frame):
         sample = samples[frame]
         blocks.set_verts(list(corners[sample]))
-        title.set_text(f"{time[sample]:.2f} s")
+        title.set_text(f"{replay.time_s[sample]:.2f} s")
         return blocks, title
 
-    return FuncAnimation(figure, draw, frames=len(frames), interval=1000 / fps)
+    return FuncAnimation(figure, draw, frames=len(samples), interval=1000 / fps)

@@ -224,12 +224,9 @@ class Result:
     def animate(self, index, seconds=None, fps=25):
         """A matplotlib.animation.FuncAnimation of realization `index`; `save("fall.gif", writer="pillow")` writes it.
 
-        seconds: length of the animation; None: as long as the shaking, in real time.
-        InputError: for a structure in space, of which there is no picture in motion yet.
+        seconds: length of the animation; None: as long as the shaking, in real time. A structure in space is
+        seen obliquely from above.
         """
-        if self.dimensions != 2:
-            raise _core.InputError("animate: a structure in space has no picture in motion yet; replay(index) gives its "
-                                   "places, attitudes and corners")
         return animation(self.replay(index), seconds, fps)
 
     def __repr__(self):
