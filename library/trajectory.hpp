@@ -1,13 +1,16 @@
 #pragma once
-/// The lists of numbers of the public trajectory by the channels of the engine's.
+/// The lists of numbers of the public trajectory by the channels of the engine's, and what its pictures in space show.
 
+#include "io/plots/solid_sheet.hpp"
 #include "io/store/result_layout.hpp"
 #include "stylobate/trajectory.hpp"
 
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace stylobate::api {
 
@@ -52,5 +55,11 @@ void visit_channels(T& trajectory, F&& f)
     for (const TrajectoryChannel& channel : trajectory_channels(trajectory.dimensions))
         f(channel, trajectory.*list_of(channel.name));
 }
+
+/// What `write_svg` draws of a structure in space at some samples: polygons in the order in which they are painted, the
+/// ground first; metres to the right and upwards as seen obliquely from above.
+/// @throws InputError as `write_svg`   @throws std::out_of_range if there is no such sample
+std::vector<std::vector<ShadedPolygon>> seen_in_space(const Trajectory& trajectory,
+                                                      const std::vector<std::size_t>& samples);
 
 } // namespace stylobate::api

@@ -71,14 +71,13 @@ Trajectory replay(const Experiment& experiment, std::uint64_t index);
 Trajectory replay(const Result& result, std::uint64_t index, const std::vector<std::string>& settings = {},
                   const std::function<bool()>& go_on = {});
 
-/// Draws the structure at a time, to scale, in the frame of the base: a vector picture for any browser. A file that is
-/// there is replaced.
-/// @throws InputError if the structure is in space, if the arrays do not fit each other, or if the file cannot be
-/// written
+/// Draws the structure at a time, to scale, in the frame of the base: a vector picture for any browser. A structure in
+/// space is seen obliquely from above. A file that is there is replaced.
+/// @throws InputError if the arrays do not fit each other, or if the file cannot be written
 void write_svg(const Trajectory& trajectory, double time_s, const std::filesystem::path& file);
 
 /// Draws a strip of snapshots with the displacements below (PNG, by gnuplot), as `stylobate export --picture strip`.
-/// @throws InputError if the structure is in space, if gnuplot is missing, or the file cannot be written
+/// @throws InputError if gnuplot is missing, or the file cannot be written
 void write_strip(const Trajectory& trajectory, const std::filesystem::path& png,
                  const std::optional<std::string>& title = {});
 

@@ -16,13 +16,17 @@
 namespace stylobate {
 namespace {
 
-constexpr double strip_width = 1800, edge_left = 60, edge_right = 60, strip_top = 190;
-constexpr double most_strip = 900, label_room = 46, view_room = 520, caption_room = 50, panel_room = 190;
+constexpr double strip_width = 1800, edge_left = 60, edge_right = 60, strip_top = 205, plan_gap = 14;
+constexpr double one_row = 700, most_strip = 1300, label_room = 46, most_view = 520, caption_room = 50,
+                 panel_room = 190;
+constexpr double view_cell = (strip_width - edge_left - edge_right) / 3;
 constexpr char top_colour[] = "#0072b2", base_colour[] = "#d55e00", fall_colour[] = "#c0271b";
 
 /// Samples before the first that is not finite.
+/// @throws InputError as `plot_strip`
 std::size_t whole_samples(const Trajectory& t)
 {
+    check_trajectory(t, {});
     const auto whole = [&](std::size_t k) {
         bool finite = std::isfinite(t.time_s[k] + t["base_x_m"][k] + t["base_y_m"][k] + t["base_z_m"][k]);
         for (std::size_t i = 0; finite && i < t.blocks(); ++i)
@@ -102,6 +106,10 @@ public:
                 ground_[3] = std::max(ground_[3], corner[2]);
             }
         }
+        if (drawn_.empty())
+            throw InputError(fmt::format("the trajectory of realization {} has no block above its base.\n"
+                                         "  Replay the realization into a new file.",
+                                         t.index));
         if (std::ranges::none_of(moves_, [](bool moves) { return moves; })) {
             moves_.assign(moves_.size(), true); // where nothing moves, fixed blocks cannot be told from free ones
             top_ = drawn_.back();
@@ -112,7 +120,7 @@ public:
     void write(const std::string& title, const std::filesystem::path& png)
     {
         const double views_top = strip_top + place_snapshots() + 60;
-        const double panels_top = views_top + caption_room + view_room + 70;
+        const double panels_top = views_top + place_views() + 70;
         DrawingSheet sheet(
             PictureSize{static_cast<int>(strip_width), static_cast<int>(panels_top + 2 * (panel_room + 50) + 60)});
         draw_snapshots(sheet);
@@ -162,18 +170,26 @@ private:
     /// In as many rows as let them be large. @returns the height of the strip [pixels]
     double place_snapshots()
     {
-        for (const std::size_t sample : chosen_) {
-            const ViewBox box = box_of(sample, SolidView::oblique());
-            strip_.add({box.left, box.low});
-            strip_.add({box.right, box.high});
-        }
+        for (const std::size_t sample : chosen_)
+            for (const auto& [box, view] : {std::pair{&strip_, SolidView::oblique()}, {&plan_, SolidView::above()}}) {
+                const ViewBox seen = box_of(sample, view);
+                box->add({seen.left, seen.low});
+                box->add({seen.right, seen.high});
+            }
+        for (std::size_t k = 0; k <= chosen_.back(); ++k)
+            plan_.add(SolidView::above().place(solid_of(t_, k, top_).middle));
         const double room = strip_width - edge_left - edge_right;
+        const double high = strip_.height() + plan_.height();
+        for (const auto& [box, view] : {std::pair{strip_, SolidView::oblique()}, {plan_, SolidView::above()}}) {
+            left_of_middle_ = std::max(left_of_middle_, ground_middle(view) - box.left);
+            right_of_middle_ = std::max(right_of_middle_, box.right - ground_middle(view));
+        }
+        const double wide = 1.06 * (left_of_middle_ + right_of_middle_);
         double best = 0;
         for (std::size_t rows = 1; rows <= chosen_.size(); ++rows) {
             const std::size_t in_row = (chosen_.size() + rows - 1) / rows;
-            const double each = (rows == 1 ? 480 : most_strip / static_cast<double>(rows)) - label_room;
-            const double scale =
-                std::min(room / static_cast<double>(in_row) / (1.06 * strip_.width()), each / strip_.height());
+            const double each = (rows == 1 ? one_row : most_strip / static_cast<double>(rows)) - label_room - plan_gap;
+            const double scale = std::min(room / static_cast<double>(in_row) / wide, each / high);
             if (scale > 1.15 * best) { // more rows only where they are much larger
                 best = scale;
                 in_row_ = in_row;
@@ -181,27 +197,52 @@ private:
         }
         per_metre_ = best;
         const std::size_t rows = (chosen_.size() + in_row_ - 1) / in_row_;
-        return static_cast<double>(rows) * (strip_.height() * per_metre_ + label_room);
+        return static_cast<double>(rows) * row_height();
     }
 
+    /// Of the ground, to the right in a view [m].
+    double ground_middle(const SolidView& view) const
+    {
+        return view.place({(ground_[0] + ground_[1]) / 2, 0, (ground_[2] + ground_[3]) / 2}).x;
+    }
+
+    double row_height() const { return (strip_.height() + plan_.height()) * per_metre_ + label_room + plan_gap; }
+
+    /// Each obliquely, its time below it, and the plan with the orbit so far.
     void draw_snapshots(DrawingSheet& sheet) const
     {
         const SolidView view = SolidView::oblique();
         const double cell = (strip_width - edge_left - edge_right) / static_cast<double>(in_row_);
-        const double high = strip_.height() * per_metre_;
         const double span = t_.time_s[chosen_.back()] - t_.time_s[chosen_.front()];
         const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
         for (std::size_t n = 0; n < chosen_.size(); ++n) {
-            const double middle = edge_left + cell * (static_cast<double>(n % in_row_) + 0.5);
-            const double bottom = strip_top + high + static_cast<double>(n / in_row_) * (high + label_room);
-            const SheetPlace place = {middle - (strip_.left + strip_.right) / 2 * per_metre_,
-                                      bottom + strip_.low * per_metre_, per_metre_};
+            const double middle = edge_left + cell * (static_cast<double>(n % in_row_) + 0.5) +
+                                  (left_of_middle_ - right_of_middle_) / 2 * per_metre_; // of the ground
+            const double top = strip_top + static_cast<double>(n / in_row_) * row_height();
+            const double bottom = top + strip_.height() * per_metre_;
+            const SheetPlace place = {middle - ground_middle(view) * per_metre_, bottom + strip_.low * per_metre_,
+                                      per_metre_};
             draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
             draw_solids(sheet, solids(chosen_[n]), view, place);
             sheet.text(fmt::format("{:.{}f} s", t_.time_s[chosen_[n]], decimals), middle, bottom + 22,
                        std::min(19.0, cell / 9));
+            draw_plan_at(sheet, chosen_[n],
+                         {middle - ground_middle(SolidView::above()) * per_metre_,
+                          bottom + label_room + plan_.high * per_metre_, per_metre_});
         }
         draw_axes(sheet, view, edge_left, strip_top - 14);
+    }
+
+    /// The plan at a sample, with the orbit of the top up to it.
+    void draw_plan_at(DrawingSheet& sheet, std::size_t sample, const SheetPlace& place) const
+    {
+        const SolidView view = SolidView::above();
+        draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
+        draw_solids(sheet, solids(sample), view, place);
+        std::vector<std::array<double, 2>> orbit;
+        for (const std::size_t k : thinned(sample, 300))
+            orbit.push_back(place.of(view.place(solid_of(t_, k, top_).middle)));
+        sheet.path(orbit, top_colour, 1.2);
     }
 
     /// Displacement of the top from its place as built [m].
@@ -211,62 +252,63 @@ private:
         return solid_of(t_, sample, top_).middle[along] - rest;
     }
 
-    /// The plan with the orbit, and both elevations at the end.
+    struct View {
+        SolidView view;
+        const char* name;
+        ViewBox box = {};
+    };
+    bool is_plan(const View& each) const { return &each == &views_.back(); }
+
+    /// To one scale. @returns their height [pixels]
+    double place_views()
+    {
+        double tallest = 0;
+        view_scale_ = std::numeric_limits<double>::infinity();
+        for (View& each : views_) {
+            each.box = box_of(last_, each.view);
+            for (std::size_t k = 0; is_plan(each) && k < samples_; ++k)
+                each.box.add(each.view.place(solid_of(t_, k, top_).middle));
+            view_scale_ = std::min({view_scale_, (view_cell - 140) / each.box.width(),
+                                    most_view / each.box.height()}); // 140: for the axes
+            tallest = std::max(tallest, each.box.height());
+        }
+        views_high_ = std::max(tallest * view_scale_, 120.0);
+        return caption_room + views_high_;
+    }
+
+    /// Both elevations and the plan at the end.
     void draw_views(DrawingSheet& sheet, double top) const
     {
-        struct View {
-            SolidView view;
-            std::string caption;
-            ViewBox box;
-        };
-        const std::string at_end = fmt::format(", {:.4g} s", t_.time_s[last_]);
-        std::array<View, 3> views{View{SolidView::above(), "plan" + at_end + ", with the orbit of the top", {}},
-                                  View{SolidView::front(), "from the front" + at_end, {}},
-                                  View{SolidView::side(), "from the side" + at_end, {}}};
-        double scale = std::numeric_limits<double>::infinity();
-        constexpr double room = (strip_width - edge_left - edge_right) / 3 - 70;
-        for (View& each : views) {
-            each.box = box_of(last_, each.view);
-            if (&each == views.data())
-                for (std::size_t k = 0; k < samples_; ++k)
-                    each.box.add(each.view.place(solid_of(t_, k, top_).middle));
-            scale = std::min({scale, room / each.box.width(), view_room / each.box.height()});
-        }
-        for (std::size_t n = 0; n < views.size(); ++n) {
-            const auto& [view, caption, box] = views[n];
-            const double middle = edge_left + (room + 70) * (static_cast<double>(n) + 0.5);
-            const double center = top + caption_room + view_room / 2;
-            const SheetPlace place = {middle - (box.left + box.right) / 2 * scale,
-                                      n == 0 ? center + (box.low + box.high) / 2 * scale
-                                             : top + caption_room + view_room + box.low * scale,
-                                      scale};
-            sheet.text(caption, middle, top, DrawingSheet::fitting(caption, room + 40, 17));
-            draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
-            draw_solids(sheet, solids(last_), view, place);
-            draw_axes(sheet, view, edge_left + (room + 70) * static_cast<double>(n) + 10, top + caption_room + 10);
-            if (n == 0)
-                draw_orbit(sheet, view, place);
+        const double first = top + caption_room, scale = view_scale_;
+        for (std::size_t n = 0; n < views_.size(); ++n) {
+            const auto& [view, name, box] = views_[n];
+            const bool plan = is_plan(views_[n]);
+            const double left = edge_left + view_cell * static_cast<double>(n), middle = left + view_cell / 2;
+            const double origin = plan ? first + views_high_ / 2 + (box.low + box.high) / 2 * scale
+                                       : first + views_high_ + box.low * scale;
+            const std::string caption =
+                fmt::format("{}, {:.4g} s{}", name, t_.time_s[last_], plan ? ", with the orbit of the top" : "");
+            const SheetPlace place = {middle - (box.left + box.right) / 2 * scale, origin, scale};
+            sheet.text(caption, middle, top, DrawingSheet::fitting(caption, view_cell - 30, 17));
+            if (plan) {
+                draw_plan_at(sheet, last_, place);
+            } else {
+                draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
+                draw_solids(sheet, solids(last_), view, place);
+            }
+            draw_axes(sheet, view, left + (view.azimuth_rad > 0 ? 45 : 5), first + 10); // z is to the left
         }
     }
 
-    void draw_orbit(DrawingSheet& sheet, const SolidView& view, const SheetPlace& place) const
+    /// Samples up to one that a curve is drawn through: more than `most` of the whole could not be told apart.
+    std::vector<std::size_t> thinned(std::size_t last, std::size_t most) const
     {
-        std::vector<std::array<double, 2>> orbit;
-        for (const std::size_t k : thinned())
-            orbit.push_back(place.of(view.place(solid_of(t_, k, top_).middle)));
-        sheet.path(orbit, top_colour, 1.2);
-    }
-
-    /// Samples that a curve is drawn through: more cannot be told apart.
-    std::vector<std::size_t> thinned() const
-    {
-        constexpr std::size_t most = 1000;
         std::vector<std::size_t> kept;
         const std::size_t stride = samples_ / most + 1;
-        for (std::size_t k = 0; k < samples_; k += stride)
+        for (std::size_t k = 0; k <= last; k += stride)
             kept.push_back(k);
-        if (kept.back() != last_)
-            kept.push_back(last_);
+        if (kept.back() != last)
+            kept.push_back(last);
         return kept;
     }
 
@@ -313,7 +355,7 @@ private:
                 return std::array<double, 2>{x(t_.time_s[k]), y(of_top ? moved(k, axis) : base[k])};
             };
             std::vector<std::array<double, 2>> curve;
-            for (const std::size_t k : thinned())
+            for (const std::size_t k : thinned(last_, 1000))
                 curve.push_back(place(k));
             sheet.path(curve, of_top ? top_colour : base_colour, 1);
             for (const std::size_t k : chosen_) {
@@ -327,12 +369,17 @@ private:
     {
         std::string text = fmt::format("{} · frame of the base · blue: centre of {}, from upright · orange: base",
                                        counted(drawn_.size(), "block"), t_.name[top_]);
-        std::size_t first = t_.blocks();
-        for (std::size_t i = 0; i < falls_.size(); ++i)
-            if (has_fallen(falls_, i, t_.time_s[last_]) && (first == t_.blocks() || falls_[i] < falls_[first]))
-                first = i;
-        if (first < t_.blocks())
-            text += fmt::format(" · red: fallen, first {} at {:.2f} s", t_.name[first], falls_[first]);
+        std::vector<std::size_t> first; // one, or several in the same step
+        for (std::size_t i = 0; i < falls_.size(); ++i) {
+            if (!has_fallen(falls_, i, t_.time_s[last_]) || (!first.empty() && falls_[i] > falls_[first[0]]))
+                continue;
+            if (!first.empty() && falls_[i] < falls_[first[0]])
+                first.clear();
+            first.push_back(i);
+        }
+        if (!first.empty())
+            text += fmt::format(" · red: fallen, first {} at {:.2f} s",
+                                first.size() > 1 ? "several together" : t_.name[first[0]], falls_[first[0]]);
         if (samples_ < t_.time_s.size())
             text += fmt::format(" · not finite after {:.4g} s", t_.time_s[last_]);
         return text;
@@ -348,8 +395,12 @@ private:
     std::size_t top_ = 0;
     double reach_ = 0; ///< of the widest block [m]: the ground is drawn so much wider
     std::array<double, 4> ground_{1e300, -1e300, 1e300, -1e300}; ///< along x, along z [m]
-    ViewBox strip_;                                              ///< of all snapshots
-    double per_metre_ = 1;
+    ViewBox strip_, plan_;                                       ///< of all snapshots, obliquely and from above
+    double left_of_middle_ = 0, right_of_middle_ = 0; ///< room that a snapshot needs beside its ground's middle [m]
+    double per_metre_ = 1;                            ///< of the strip
+    std::array<View, 3> views_{
+        {{SolidView::front(), "from the front"}, {SolidView::side(), "from the side"}, {SolidView::above(), "plan"}}};
+    double view_scale_ = 1, views_high_ = 0; ///< pixels per metre; pixels
     std::size_t in_row_ = 1;
 };
 

@@ -15,7 +15,7 @@
 namespace stylobate {
 namespace {
 
-constexpr double sheet_width = 1800, room_left = 310, room_right = 80, room_between = 150, above_drawing = 230;
+constexpr double sheet_width = 1800, room_left = 310, room_right = 80, room_between = 150, above_drawing = 250;
 constexpr double most_high = 720, most_deep = 560; ///< of an elevation, of the plan
 constexpr double floor_px = 22, dimension_row = 64;
 constexpr char red[] = "#c0271b";
@@ -81,9 +81,9 @@ double place_views(SpaceDrawing& d)
     d.front = {left - d.x.from * scale, d.ground, scale};
     // from the side z is to the left: the front of the structure comes first
     d.side = {left + d.x.length() * scale + room_between + d.z.to * scale, d.ground, scale};
-    const double plan_top = d.ground + floor_px + 2 * dimension_row + 60;
+    const double plan_top = d.ground + floor_px + 2 * dimension_row + 105;
     d.plan = {d.front.x, plan_top - d.z.from * scale, scale};
-    return plan_top + d.z.length() * scale + 70;
+    return plan_top + d.z.length() * scale + 85;
 }
 
 /// What of a bed is not that of [contact]; nullopt if nothing is.
@@ -169,17 +169,48 @@ std::vector<double> different(std::vector<double> values)
     return values;
 }
 
-/// Below an elevation: distances of the axes, and the whole length. @param x of a length in metres [pixels]
+/// Below an elevation: distances of the axes, of one column the size of its foot, and the whole length.
+/// @param foot of the first column   @param x of a length in metres [pixels]
 template <class Place>
-void draw_lengths(const SpaceDrawing& d, DrawingSheet& sheet, const std::vector<double>& axes, const Range& all,
-                  const Place& x)
+void draw_lengths(const SpaceDrawing& d, DrawingSheet& sheet, const std::vector<double>& axes, const Range& foot,
+                  const Range& all, const Place& x)
 {
     double y = d.ground + floor_px + 26;
     for (std::size_t i = 0; i + 1 < axes.size(); ++i)
         sheet.across(x(axes[i]), x(axes[i + 1]), y, d.length(std::fabs(axes[i + 1] - axes[i])));
-    if (axes.size() > 1)
+    const bool has_foot = d.columns.size() == 1 && !same(foot.length(), all.length());
+    if (has_foot)
+        sheet.across(x(foot.from), x(foot.to), y, d.length(foot.length()));
+    if (axes.size() > 1 || has_foot)
         y += dimension_row;
-    sheet.across(std::min(x(all.from), x(all.to)), std::max(x(all.from), x(all.to)), y, d.length(all.length()));
+    sheet.across(x(all.from), x(all.to), y, d.length(all.length()));
+}
+
+/// The outlines of the columns' feet in the plan, dashed: what lies on them hides them.
+void draw_feet(const SpaceDrawing& d, DrawingSheet& sheet)
+{
+    constexpr double dash = 7; // and as much between two of them [pixels]
+    for (const auto& column : d.columns) {
+        const PlacedSolid foot = solid_of(d.block(column.front()));
+        std::vector<std::array<double, 2>> ring;
+        for (const SpacePoint& p : foot.shape.ring(false))
+            ring.push_back(d.plan.of(SolidView::above().place({p[0] + foot.middle[0], 0, p[2] + foot.middle[2]})));
+        double gone = 0; // along the outline
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const auto &a = ring[i], &b = ring[(i + 1) % ring.size()];
+            const double side = std::hypot(b[0] - a[0], b[1] - a[1]), end = gone + side;
+            const auto at = [&](double way) {
+                const double share = (way - (end - side)) / side;
+                return std::array{a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+            };
+            while (gone < end) {
+                const double mark = std::floor(gone / dash + 1e-9), next = std::min(end, (mark + 1) * dash);
+                if (std::fmod(mark, 2) == 0)
+                    sheet.path({at(gone), at(next)}, "#4a3b24", 0.6);
+                gone = next;
+            }
+        }
+    }
 }
 
 void draw_plan_view(const SpaceDrawing& d, DrawingSheet& sheet)
@@ -187,6 +218,9 @@ void draw_plan_view(const SpaceDrawing& d, DrawingSheet& sheet)
     const double over = std::max(24.0, 0.04 * d.x.length() * d.plan.per_metre) / d.plan.per_metre;
     draw_ground(sheet, d.x.from - over, d.x.to + over, d.z.from - over, d.z.to + over, SolidView::above(), d.plan);
     draw_solids(sheet, d.solids, SolidView::above(), d.plan);
+    draw_feet(d, sheet);
+    sheet.text("plan", d.plan.x + d.x.middle() * d.plan.per_metre, d.plan.y + (d.z.from - over) * d.plan.per_metre - 22,
+               16);
     const double right = d.plan.x + (d.x.to + over) * d.plan.per_metre;
     draw_axes(sheet, SolidView::above(), right + 40, d.plan.y + d.z.from * d.plan.per_metre);
     if (d.columns.size() < 2)
@@ -318,10 +352,13 @@ void plot_structure_in_space(const Study& study, const std::string& title, const
         axes_x.push_back(d.block(column.front()).axis_m);
         axes_z.push_back(-d.block(column.front()).axis_z_m); // z is to the left
     }
-    draw_lengths(d, sheet, different(axes_x), d.x, [&](double x) { return d.front.x + x * d.front.per_metre; });
-    draw_lengths(d, sheet, different(axes_z), {-d.z.to, -d.z.from},
+    const PlacedSolid foot = solid_of(d.block(d.columns.front().front()));
+    const auto about = [](double middle, double half) { return Range{middle - half, middle + half}; };
+    draw_lengths(d, sheet, different(axes_x), about(foot.middle[0], foot.shape.bottom.x), d.x,
+                 [&](double x) { return d.front.x + x * d.front.per_metre; });
+    draw_lengths(d, sheet, different(axes_z), about(-foot.middle[2], foot.shape.bottom.z), {-d.z.to, -d.z.from},
                  [&](double z) { return d.side.x + z * d.side.per_metre; });
-    const double caption = above_drawing - 60;
+    const double caption = above_drawing - 55;
     const auto middle = [](const SheetPlace& place, double from, double to) {
         return place.x + (from + to) / 2 * place.per_metre;
     };

@@ -17,30 +17,36 @@ std::string shaded(int rgb, double brightness)
 
 } // namespace
 
-void draw_solids(DrawingSheet& sheet, const std::vector<DrawnSolid>& solids, const SolidView& view,
-                 const SheetPlace& place)
+std::vector<ShadedPolygon> shaded_solids(const std::vector<DrawnSolid>& solids, const SolidView& view)
 {
     std::vector<PlacedSolid> placed;
     for (const DrawnSolid& each : solids)
         placed.push_back(each.solid);
-    const auto on_sheet = [&](const std::vector<ViewPoint>& points) {
-        std::vector<std::array<double, 2>> at;
-        for (const ViewPoint& point : points)
-            at.push_back(place.of(point));
-        return at;
-    };
-    for (const SeenSolid& seen : painted(placed, view)) {
+    std::vector<ShadedPolygon> polygons;
+    for (SeenSolid& seen : painted(placed, view)) {
         const DrawnSolid& each = solids[seen.body];
         const int colour = each.look == SolidLook::fixed    ? 0xa89a7d
                            : each.look == SolidLook::lintel ? 0xb9cddb
                                                             : 0xead9b5;
         const char* edge = each.fallen ? "#c0271b" : each.look == SolidLook::lintel ? "#27475c" : "#4a3b24";
-        for (const SeenFace& face : seen.faces) {
+        for (SeenFace& face : seen.faces) {
             const std::string fill = shaded(colour, face.brightness);
             // a border in the colour of the face: no light comes between two of them
-            sheet.polygon(on_sheet(face.points), fill, face.smooth ? fill : edge, 0.5);
+            polygons.push_back({std::move(face.points), fill, face.smooth ? fill : edge, 0.5});
         }
-        sheet.polygon(on_sheet(seen.outline), {}, edge, each.fallen ? 1.0 : 0.7);
+        polygons.push_back({std::move(seen.outline), "", edge, each.fallen ? 1.0 : 0.7});
+    }
+    return polygons;
+}
+
+void draw_solids(DrawingSheet& sheet, const std::vector<DrawnSolid>& solids, const SolidView& view,
+                 const SheetPlace& place)
+{
+    for (const ShadedPolygon& polygon : shaded_solids(solids, view)) {
+        std::vector<std::array<double, 2>> on_sheet;
+        for (const ViewPoint& point : polygon.points)
+            on_sheet.push_back(place.of(point));
+        sheet.polygon(on_sheet, polygon.fill, polygon.line, polygon.line_width);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "io/plots/solid_view.hpp"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace stylobate {
@@ -26,7 +27,17 @@ struct DrawnSolid {
     bool fallen = false; ///< its outline is red
 };
 
-/// Shaded, those in front over those behind.
+/// Of a face or an outline, in the unit of the solids.
+struct ShadedPolygon {
+    std::vector<ViewPoint> points;
+    std::string fill, line; ///< "#rrggbb"; "": none
+    double line_width = 1;
+};
+
+/// The faces and outlines of solids, in the order in which they are painted: those in front over those behind.
+std::vector<ShadedPolygon> shaded_solids(const std::vector<DrawnSolid>& solids, const SolidView& view);
+
+/// `shaded_solids`, on a sheet.
 void draw_solids(DrawingSheet& sheet, const std::vector<DrawnSolid>& solids, const SolidView& view,
                  const SheetPlace& place);
 

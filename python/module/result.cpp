@@ -125,6 +125,21 @@ void add_trajectory(py::module_& module)
         });
         return all;
     });
+    // of each sample the polygons that are painted: (points, fill, line, width); "": no fill
+    trajectory.def("seen_in_space", [](const T& of, const std::vector<std::size_t>& samples) {
+        py::list all;
+        for (const std::vector<ShadedPolygon>& polygons : sb::seen_in_space(of, samples)) {
+            py::list seen;
+            for (const ShadedPolygon& polygon : polygons) {
+                py::list points;
+                for (const ViewPoint& point : polygon.points)
+                    points.append(py::make_tuple(point.x, point.y));
+                seen.append(py::make_tuple(points, polygon.fill, polygon.line, polygon.line_width));
+            }
+            all.append(seen);
+        }
+        return all;
+    });
     trajectory.def_readonly("name", &T::name)
         .def_readonly("fixed", &T::fixed)
         .def_readonly("epistyle", &T::epistyle)
