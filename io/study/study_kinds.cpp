@@ -127,7 +127,10 @@ SurfaceSpec read_surface(const KeyReader& keys, std::uint64_t most)
 {
     using namespace surface_keys;
     SurfaceSpec surface;
-    surface.frequency_hz = read_axis(keys, frequency, frequency_range);
+    if (keys.has(direction))
+        surface.direction_deg = read_axis(keys, direction, azimuth_range);
+    else
+        surface.frequency_hz = read_axis(keys, frequency, frequency_range);
     surface.pga_m_s2 = read_axis(keys, pga, acceleration_range);
     if (keys.has(adaptive))
         surface.adaptive = read_adaptive(keys.table(adaptive), static_cast<std::uint64_t>(surface.cells()), most);
