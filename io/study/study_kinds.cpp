@@ -112,6 +112,9 @@ Axis read_axis(const KeyReader& table, const AxisKey& key, const Range& range)
         keys.read_within(*end, range);
     Axis axis;
     keys.read_fields(key, axis);
+    if (axis.spacing == Spacing::log && !(axis.from > 0))
+        keys.refuse("spacing", fmt::format("is \"log\", but from = {} is not above 0", axis.from),
+                    "Give spacing = \"linear\".");
     if (axis.from > axis.to)
         keys.refuse("from", fmt::format("is above to = {}", axis.to), "Axes run upwards.");
     if (axis.count == 1 && axis.from != axis.to)
