@@ -53,8 +53,8 @@ Result Result::from_file(const std::filesystem::path& file)
         if (!data.complete)
             data.finish();
         else
-            data.finish(header.frequency_hz.empty() ? std::nullopt : std::optional(reader.surface()),
-                        reader.table("rare"), reader.table("fragility"));
+            data.finish(header.cells() == 0 ? std::nullopt : std::optional(reader.surface()), reader.table("rare"),
+                        reader.table("fragility"));
         return Inside::make<Result>(std::move(data));
     });
 }
@@ -185,9 +185,9 @@ Result::Data::Data(inner::ResultHeader of, inner::Study from, std::string called
              header.kind == "replay" ? inner::MotionGroups{} : inner::motion_groups(study, header.motions)),
       trials_(header.kind == "replay" ? study.total() : study.originals())
 {
-    if (!header.frequency_hz.empty())
+    if (header.cells() > 0)
         for (std::size_t i = 0; i < inner::limit_state_names().size(); ++i)
-            counts_.emplace_back(header.frequency_hz, header.pga_m_s2, static_cast<inner::LimitState>(i));
+            counts_.emplace_back(header, static_cast<inner::LimitState>(i));
 }
 
 void Result::Data::count_the_first(const std::function<bool(std::uint64_t)>& has)
@@ -223,7 +223,7 @@ void Result::Data::add(const inner::Tally& tally)
     limits = inner::LimitCounts(tally);
     invalid = tally.all_invalid();
     for (std::size_t i = 0; i < counts_.size(); ++i)
-        counts_[i] = inner::SurfaceCounts(inner::surface_of(header, tally, static_cast<inner::LimitState>(i)));
+        counts_[i] = inner::SurfaceCounts::of(inner::surface_of(header, tally, static_cast<inner::LimitState>(i)));
 }
 
 void Result::Data::finish(std::optional<inner::SurfaceTable> surface, const inner::Table& of_rare,
@@ -272,16 +272,18 @@ Share share_of(const stylobate::Share& share)
 
 Surface surface_of(const stylobate::SurfaceTable& table, const std::string& limit_state)
 {
-    return {limit_state,     table.interval,    table.frequency_hz, table.pga_m_s2, table.trials,
-            table.collapses, table.probability, table.lower,        table.upper};
+    return {limit_state,  table.interval,  table.frequency_hz, table.direction_deg, table.pga_m_s2,
+            table.trials, table.collapses, table.probability,  table.lower,         table.upper};
 }
 
-Cell Surface::cell(std::size_t frequency, std::size_t pga) const
+Cell Surface::cell(std::size_t row, std::size_t pga) const
 {
-    if (frequency >= frequency_hz.size() || pga >= pga_m_s2.size())
+    if (row >= rows().size() || pga >= pga_m_s2.size())
         throw std::out_of_range("the surface has no such cell");
-    const std::size_t i = frequency * pga_m_s2.size() + pga;
-    return {frequency_hz[frequency], pga_m_s2[pga], trials[i], reached[i], probability[i], lower[i], upper[i]};
+    const std::size_t i = row * pga_m_s2.size() + pga;
+    Cell cell{0, 0, pga_m_s2[pga], trials[i], reached[i], probability[i], lower[i], upper[i]};
+    (frequency_hz.empty() ? cell.direction_deg : cell.frequency_hz) = rows()[row];
+    return cell;
 }
 
 Fragility fragility_of(const stylobate::FragilityTable& table)

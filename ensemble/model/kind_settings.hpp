@@ -3,6 +3,7 @@
 /// of the kinds, their keys and their reader name them; all others ask a study for its `StudyDesign`.
 
 #include "ensemble/model/motion.hpp"
+#include "ensemble/model/surface_axes.hpp"
 #include "kernels/planar/step_model.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ enum class StudyKind {
     survival     ///< past shaking, inferred from the state of a structure
 };
 
-/// Whether frequency and PGA are those of the cells of [surface].
+/// Whether the cells of [surface] give the PGA, and the frequency or the direction.
 constexpr bool has_axes(StudyKind kind)
 {
     return kind == StudyKind::surface || kind == StudyKind::survival;
@@ -53,10 +54,15 @@ struct AdaptiveSpec {
 };
 
 struct SurfaceSpec {
-    Axis frequency_hz; ///< nf rows
+    Axis frequency_hz; ///< nf rows; without values where the rows are directions
     Axis pga_m_s2;     ///< np columns
     std::optional<AdaptiveSpec> adaptive = {};
-    int cells() const { return frequency_hz.count * pga_m_s2.count; }
+    /// In space instead of the frequencies: azimuths of the first component, nf rows.
+    std::optional<Axis> direction_deg = {};
+
+    const Axis& rows() const { return direction_deg ? *direction_deg : frequency_hz; }
+    const RowQuantity& row_quantity() const { return direction_deg ? direction_rows : frequency_rows; }
+    int cells() const { return rows().count * pga_m_s2.count; }
 };
 
 /// How strong the motions of a set are.

@@ -87,7 +87,7 @@ struct ExcitationSpec {
     ExcitationKind kind = ExcitationKind::none;
     double duration_s = 0; ///< `none`: the simulated time; `sweep`: its length
 
-    // all but none; for a surface these two come from the cell
+    // all but none; for a surface these two come from the cell (of one over directions the PGA alone)
     double frequency_hz =
         0;               ///< of the sine or pulse; of a half sine, 1 / the full one's period; of noise, the ground's
     double pga_m_s2 = 0; ///< largest acceleration (harmonic: on the plateau); of a record or table 0: as it stands
@@ -130,7 +130,8 @@ struct ExcitationSpec {
     // In space: the motion above is the first component, along `direction_deg`; the second one is horizontal and
     // across it (direction + 90 degrees), the third one is vertical. Angles are in the unit of study files, whose
     // texts must read back to the same bits.
-    double direction_deg = 0;      ///< azimuth of the first component, from x towards z
+    double direction_deg = 0;      ///< azimuth of the first component, from x towards z; for a surface over
+                                   ///< directions it comes from the cell
     double second_ratio = 0;       ///< of a synthetic motion: second over first component; 0: there is none
     double second_phase_deg = 90;  ///< of a harmonic, tapered or pulse: added to the first's phase
     double second_correlation = 0; ///< of noise: of the two components before they are scaled

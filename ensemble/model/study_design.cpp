@@ -14,7 +14,7 @@ StudyDesign Study::design() const
     if (surface) {
         design.cells = static_cast<std::uint64_t>(surface->cells());
         design.columns = static_cast<std::uint64_t>(surface->pga_m_s2.count);
-        design.frequency_hz = &surface->frequency_hz;
+        (surface->direction_deg ? design.direction_deg : design.frequency_hz) = &surface->rows();
         design.pga_m_s2 = &surface->pga_m_s2;
         design.selected = surface->adaptive.has_value();
     }

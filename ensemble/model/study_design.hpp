@@ -18,7 +18,8 @@ namespace stylobate {
 struct StudyDesign {
     // ---- which realizations there are ------------------------------------------------------------------------------
 
-    std::uint64_t cells = 1;    ///< parts with as many originals each: frequency x PGA, or motion x stripe
+    std::uint64_t cells = 1;    ///< parts with as many originals each: frequency (or direction) x PGA, or motion x
+                                ///< stripe
     std::uint64_t columns = 1;  ///< of the cells: cell = row x columns + column
     std::uint64_t per_cell = 1; ///< originals of a cell
     std::uint64_t layers = 1;   ///< times that all originals are there
@@ -42,6 +43,7 @@ struct StudyDesign {
     const FactorDesign* factors = nullptr;  ///< whose points the realizations are; null: they are no points
     const MotionSetSpec* motions = nullptr; ///< a row of cells each; null: one excitation for all
     const Axis* frequency_hz = nullptr;     ///< of the rows of cells; null: that of the excitation
+    const Axis* direction_deg = nullptr;    ///< of the rows of cells in space; null: that of the excitation
     const Axis* pga_m_s2 = nullptr;         ///< of the columns; null: that of the excitation
     std::optional<double> event_pause_s;    ///< between two events; none: until the realization is at rest
 

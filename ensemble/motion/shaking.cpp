@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -133,10 +134,12 @@ void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales&
     set_nominal(excitation, drawn, realization);
     if (design.frequency_hz)
         realization.frequency_hz = design.frequency_hz->value(static_cast<int>(row));
+    if (design.direction_deg)
+        realization.direction_rad = design.direction_deg->value(static_cast<int>(row)) * (std::numbers::pi / 180);
     if (design.pga_m_s2)
         realization.pga_m_s2 = design.pga_m_s2->value(static_cast<int>(cell % design.columns));
     if (excitation.kind == ExcitationKind::noise)
-        shake_by_noise(study, design.motion_index(realization.index), row, realization);
+        shake_by_noise(study, design.motion_index(realization.index), design.frequency_hz ? row : 0, realization);
     else if (second_)
         realization.second = second_;
     realization.first_share = second_ ? first_share_ : share_of_first(excitation, realization);

@@ -1,5 +1,5 @@
 #pragma once
-/// The probability of a limit state over frequency and PGA.
+/// The probability of a limit state over frequency and PGA, or in space over the direction of the shaking and PGA.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace stylobate::api {
 
 /// One cell of a surface.
 struct Cell {
-    double frequency_hz = 0;
+    double frequency_hz = 0;  ///< of a surface over frequency
+    double direction_deg = 0; ///< of a surface over direction: from x towards z
     double pga_m_s2 = 0;
     std::uint64_t trials = 0;  ///< valid realizations
     std::uint64_t reached = 0; ///< those that reached the limit state
@@ -19,12 +20,12 @@ struct Cell {
     double upper = 1;
 };
 
-/// Each array over the cells is (frequencies x PGAs), frequency by frequency: that of frequency i and PGA j is at
-/// i * pga_m_s2.size() + j.
+/// Each array over the cells is (rows x PGAs), row by row: that of row i and PGA j is at i * pga_m_s2.size() + j.
 struct Surface {
-    std::string limit_state; ///< "collapse"
-    std::string interval;    ///< name of the interval and its level: "jeffreys 0.95"
-    std::vector<double> frequency_hz;
+    std::string limit_state;           ///< "collapse"
+    std::string interval;              ///< name of the interval and its level: "jeffreys 0.95"
+    std::vector<double> frequency_hz;  ///< of the rows; empty where they are directions
+    std::vector<double> direction_deg; ///< of the rows; empty where they are frequencies
     std::vector<double> pga_m_s2;
     std::vector<std::uint64_t> trials;
     std::vector<std::uint64_t> reached;
@@ -32,8 +33,9 @@ struct Surface {
     std::vector<double> lower;
     std::vector<double> upper;
 
+    const std::vector<double>& rows() const { return frequency_hz.empty() ? direction_deg : frequency_hz; }
     /// @throws std::out_of_range if there is no such cell
-    Cell cell(std::size_t frequency, std::size_t pga) const;
+    Cell cell(std::size_t row, std::size_t pga) const;
 };
 
 } // namespace stylobate::api

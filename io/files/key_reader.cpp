@@ -45,6 +45,8 @@ std::optional<std::uint64_t> whole_number(const TomlValue& value)
 /// A setting as in a study file.
 std::string given_as(const std::string& key, const std::string& word)
 {
+    if (word == key_given)
+        return "a study with " + key;
     return key + " = " + (key == model_key ? word : toml_quoted(word));
 }
 

@@ -91,6 +91,9 @@ enum class KeyType {
 inline constexpr const char* model_key = "structure.dimensions";
 inline constexpr std::array model_names = {"planar", "spatial"};
 
+/// Of a key that is a table: whether it is there, in the place of the values of a word.
+inline constexpr const char *key_given = "given", *key_absent = "absent";
+
 /// A key is used only where another one has one of these values.
 struct Condition {
     std::string key; ///< dotted, from the top: "excitation.kind"

@@ -47,15 +47,25 @@ inline const BooleanKey pooled("borrow", &AdaptiveSpec::borrow, "use the counts 
 namespace surface_keys {
 
 inline const AxisKey frequency("frequency_hz", "frequency of the motion, nf values", frequency_range,
-                               {"0.5", "2.0", "8", "\"log\""});
+                               {"0.5", "2.0", "8", "\"log\""}, {}, {.needed = true, .used = {without_directions()}});
+inline const AxisKey direction("direction_deg",
+                               "direction of the first component instead of the frequency, nf values; from x towards "
+                               "z, clockwise seen from above. The frequency is then that of [excitation]",
+                               azimuth_range, {"0.0", "90.0", "7", "\"linear\""}, {},
+                               {.absent = "the direction is that of [excitation]",
+                                .used = {in_studies({StudyKind::surface})},
+                                .excludes = {"frequency_hz"},
+                                .models = in_space()});
 inline const AxisKey pga("pga_m_s2", "PGA of the motion, np values", acceleration_range,
                          {"1.0", "8.0", "8", "\"linear\""});
 inline const TableKey adaptive("adaptive", "realizations where they are needed, instead of equal numbers in each cell",
                                {&adaptive_keys::budget, &adaptive_keys::minimum, &adaptive_keys::half_width,
                                 &adaptive_keys::pooled},
                                {.absent = "equal numbers in each cell", .used = {in_studies({StudyKind::surface})}});
-inline const TableKey table("surface", "the axes of a surface: every frequency with every PGA",
-                            {&frequency, &pga, &adaptive},
+inline const TableKey table("surface",
+                            "the axes of a surface: every frequency with every PGA, or in space every direction with "
+                            "every PGA",
+                            {&frequency, &pga, &direction, &adaptive},
                             {.used = {in_studies({StudyKind::surface, StudyKind::survival})}});
 
 } // namespace surface_keys

@@ -79,11 +79,11 @@ std::unique_ptr<SpreadKey> make(Quantity quantity)
                     .example = "{ distribution = \"uniform\" }"});
     case Quantity::pulse_frequency:
         return key(frequency_range, true, "sd_hz", {structure}, "frequency of a velocity pulse",
-                   {.used = {for_motions({Motion::pulse}), not_in_studies({StudyKind::surface, StudyKind::survival})},
+                   {.used = {for_motions({Motion::pulse}), without_frequencies()},
                     .example = "{ distribution = \"lognormal\", sigma_ln = 0.4 }"});
     case Quantity::direction:
         return key(azimuth_range, false, "sd_deg", {structure}, "direction of the shaking in space, in degrees",
-                   {.used = {not_for_motions({Motion::none})},
+                   {.used = {not_for_motions({Motion::none}), without_directions()},
                     .example = "{ distribution = \"uniform\" }",
                     .models = in_space()});
     case Quantity::pulse_gamma:

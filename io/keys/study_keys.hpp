@@ -93,7 +93,6 @@ inline const Condition with_frequency =
 inline const Condition synthetic = not_for_motions({Motion::none, Motion::record, Motion::table});
 inline const Condition sampled = for_motions({Motion::record, Motion::table});
 inline const Condition moving = not_for_motions({Motion::none});
-inline const Condition no_axes = not_in_studies({StudyKind::surface, StudyKind::survival});
 inline const Condition one_motion = not_in_studies({StudyKind::surface, StudyKind::fragility, StudyKind::survival});
 inline const Condition no_list = not_in_studies({StudyKind::fragility});
 
@@ -104,7 +103,7 @@ inline const NumberKey
              {.needed = true, .used = {for_motions({Motion::none, Motion::sweep})}, .example = "10.0"});
 inline const NumberKey frequency("frequency_hz", &ExcitationSpec::frequency_hz, frequency_range,
                                  "frequency of the sine or pulse; of noise that of the ground, 0.05 to 25",
-                                 {.needed = true, .used = {with_frequency, no_axes}, .example = "1.0"});
+                                 {.needed = true, .used = {with_frequency, without_frequencies()}, .example = "1.0"});
 inline const NumberKey pga("pga_m_s2", &ExcitationSpec::pga_m_s2, acceleration_range,
                            "largest acceleration; of a harmonic motion and a sweep the amplitude on the plateau, which "
                            "the ramps exceed (by up to 2.0 % with 2 cycles, 61 % with half a cycle)",
@@ -165,7 +164,8 @@ inline const NumberKey scale_to_pga("scale_to_pga_m_s2", &ExcitationSpec::pga_m_
                                     "PGA to which the motion is scaled",
                                     {.absent = "as recorded", .used = {sampled, one_motion}});
 inline const NumberKey time_scale("time_scale", &ExcitationSpec::time_scale, time_scale_range,
-                                  "factor by which the motion is stretched in time", {.used = {sampled, no_axes}});
+                                  "factor by which the motion is stretched in time",
+                                  {.used = {sampled, without_frequencies()}});
 inline const BooleanKey baseline("baseline", &ExcitationSpec::baseline, "correct the baseline of the record",
                                  {.used = {for_motions({Motion::record})}});
 inline const ListKey band_pass("band_pass_hz", KeyType::interval, corner_range, "corners of a band-pass filter",
@@ -176,7 +176,7 @@ inline const ListKey band_pass("band_pass_hz", KeyType::interval, corner_range, 
 inline const NumberKey direction(
     "direction_deg", &ExcitationSpec::direction_deg, azimuth_range,
     "direction of the first component, which is the motion above: from x towards z, clockwise seen from above",
-    {.used = {moving}, .models = in_space()});
+    {.used = {moving, without_directions()}, .models = in_space()});
 inline const NumberKey second_ratio(
     "second_ratio", &ExcitationSpec::second_ratio, component_ratio_range,
     "second horizontal component (at direction_deg + 90) over the first one: PGA over PGA; of noise standard deviation "

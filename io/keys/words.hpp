@@ -106,6 +106,23 @@ inline Condition compliant()
     return where_not("contact.form", contact_form_names, {ContactForm::rigid});
 }
 
+// Of a study with [surface] the axis of its rows gives the frequency, or in space the direction.
+
+inline Condition without_frequencies()
+{
+    return {"surface.frequency_hz", {key_absent}};
+}
+inline Condition without_directions()
+{
+    return {"surface.direction_deg", {key_absent}};
+}
+/// @param directions whether the rows are directions
+inline void add_rows(KeyUse& use, bool directions)
+{
+    use.kinds.emplace("surface.frequency_hz", directions ? key_absent : key_given);
+    use.kinds.emplace("surface.direction_deg", directions ? key_given : key_absent);
+}
+
 /// What the kinds of a study let its keys be used for.
 inline KeyUse key_use(const Study& study)
 {
@@ -116,6 +133,8 @@ inline KeyUse key_use(const Study& study)
                 {"excitation.kind", word_for(excitation_kind_names, study.excitation.kind)}}};
     if (study.fragility)
         use.kinds.emplace("fragility.method", word_for(fragility_method_names, study.fragility->method));
+    if (has_axes(study.kind))
+        add_rows(use, study.surface && study.surface->direction_deg);
     return use;
 }
 

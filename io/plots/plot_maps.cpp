@@ -104,7 +104,7 @@ std::string ends(const MapPanel& panel)
 
 void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
 {
-    const CellAxis f = make_cell_axis(picture.frequency_hz, "frequency_hz");
+    const CellAxis f = make_cell_axis(picture.rows(), picture.row_quantity().key);
     const CellAxis a = make_cell_axis(picture.pga_m_s2, "pga_m_s2");
     const auto columns = static_cast<std::size_t>(picture.columns);
     const std::size_t rows = (picture.panels.size() + columns - 1) / columns;
@@ -156,7 +156,8 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
                               x, x + width - (boxes ? 0.095 : 0.02), y - 0.035, y - height + 0.055);
         script += "set title " + gnuplot_text(panel.title) +
                   fmt::format(" font ',{}' offset 0,-0.7\n", columns > 3 ? 16 : 19);
-        script += lowest ? "set xlabel 'frequency [Hz]' font ',17' offset 0,0.9\n" : "unset xlabel\n";
+        script += lowest ? fmt::format("set xlabel '{}' font ',17' offset 0,0.9\n", picture.row_quantity().label)
+                         : "unset xlabel\n";
         script += k % columns == 0 ? gnuplot_axis('y', a) : without_labels(gnuplot_axis('y', a));
         script += k % columns == 0
                       ? "set ylabel 'peak ground acceleration [m/s²]' font ',17' offset 0.8,0\nset format y\n"

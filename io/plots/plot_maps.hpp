@@ -1,5 +1,7 @@
 #pragma once
-/// A picture of several maps over the same frequencies and PGAs, one beside the other.
+/// A picture of several maps over the same rows and PGAs, one beside the other.
+
+#include "ensemble/model/surface_axes.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -17,15 +19,14 @@ struct MapClass {
 
 struct MapPanel {
     std::string title;
-    std::vector<double> value;     ///< (nf x np), frequency by frequency; NaN: grey
+    std::vector<double> value;     ///< (nf x np), row by row; NaN: grey
     std::vector<MapClass> classes; ///< ascending; empty: a continuous scale with its own box of colours
     double low = 0, high = 1;      ///< of the continuous scale; values beyond take the colour of its end, which is then
                                    ///< marked
 };
 
-struct MapPicture {
+struct MapPicture : SurfaceAxes {
     std::string title, subtitle;
-    std::vector<double> frequency_hz, pga_m_s2;
     std::vector<MapPanel> panels;
     int columns = 2;
     std::vector<double>

@@ -32,7 +32,7 @@ std::vector<double> contour_nodes(const CellAxis& axis)
 /// The contour lines of one level in the unit square.
 std::vector<ContourLine> contours(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a, double level)
 {
-    const std::size_t nf = surface.frequency_hz.size();
+    const std::size_t nf = surface.rows().size();
     const std::size_t np = surface.pga_m_s2.size();
     std::vector<double> z;
     z.reserve((nf + 2) * (np + 2));
@@ -161,18 +161,18 @@ std::string subtitle(const SurfaceTable& surface)
 
 std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
 {
-    const CellAxis frequency = make_cell_axis(surface.frequency_hz, "frequency_hz");
+    const CellAxis rows = make_cell_axis(surface.rows(), surface.row_quantity().key);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
-    return contours_on(surface, frequency, pga);
+    return contours_on(surface, rows, pga);
 }
 
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
                   const std::filesystem::path& png, const std::optional<SurfaceRange>& range)
 {
     const std::string below_title = subtitle(surface);
-    const CellAxis frequency = make_cell_axis(surface.frequency_hz, "frequency_hz");
+    const CellAxis rows = make_cell_axis(surface.rows(), surface.row_quantity().key);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
-    const ContourCommands contour = contour_commands(surface, frequency, pga);
+    const ContourCommands contour = contour_commands(surface, rows, pga);
 
     // Each cell reaches a pixel under its right and upper neighbours, drawn after it: no seams shine through.
     const double pixel = 1.0 / PictureSize{}.height;
@@ -186,25 +186,27 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
             ++empty;
             continue;
         }
-        cells += fmt::format("{} {} {} {} {} {} {}\n", frequency.values[i], pga.values[j], frequency.edges[i],
-                             frequency.from_unit(frequency.in_unit(frequency.edges[i + 1]) + pixel), pga.edges[j],
+        cells += fmt::format("{} {} {} {} {} {} {}\n", rows.values[i], pga.values[j], rows.edges[i],
+                             rows.from_unit(rows.in_unit(rows.edges[i + 1]) + pixel), pga.edges[j],
                              pga.from_unit(pga.in_unit(pga.edges[j + 1]) + pixel), surface.probability[cell]);
     }
     cells += "EOD\n";
 
-    const std::string range_data = range ? range_commands(surface, *range, frequency, pga) : "";
+    const std::string range_data = range ? range_commands(surface, *range, rows, pga) : "";
     std::string script =
         cells + contour.data + range_data + viridis_palette() + gnuplot_heading(title, below_title) + contour.labels;
     script += "set lmargin at screen 0.095\nset rmargin at screen 0.855\n"
               "set bmargin at screen 0.115\nset tmargin at screen 0.865\n"
               "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
               "set border 31 linewidth 0.8\nset tics out nomirror\nunset key\n"
-              "set xlabel 'frequency [Hz]' offset 0,-0.2\nset ylabel 'peak ground acceleration [m/s²]'\n"
+              "set xlabel " +
+              gnuplot_text(surface.row_quantity().label) +
+              " offset 0,-0.2\nset ylabel 'peak ground acceleration [m/s²]'\n"
               "set cbrange [0:1]\nset cbtics 0.1 format '%.1f'\nset cblabel " +
               gnuplot_text("probability of " + limit) +
               " offset 0.8,0\n"
               "set style fill solid 1.0 noborder\n" +
-              gnuplot_axis('x', frequency) + gnuplot_axis('y', pga);
+              gnuplot_axis('x', rows) + gnuplot_axis('y', pga);
     if (range)
         script += fmt::format("set label {} at screen 0.5, screen 0.883 center font ',18' textcolor rgb '#a34e00'\n",
                               gnuplot_text(range->words + "; dashed: 0.5 of the lowest and the highest"));
@@ -246,35 +248,35 @@ constexpr std::array<CurveStyle, 6> styles{
 
 } // namespace
 
-std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& frequencies_hz)
+std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& wanted)
 {
-    const CellAxis axis = make_cell_axis(surface.frequency_hz, "frequency_hz");
+    const RowQuantity& of = surface.row_quantity();
+    const CellAxis axis = make_cell_axis(surface.rows(), of.key);
     const std::size_t count = axis.values.size();
-    if (frequencies_hz.size() > styles.size())
-        throw InputError(fmt::format("{} frequencies are too many for one picture of slices.\n  Name 1 to {} of them.",
-                                     frequencies_hz.size(), styles.size()));
+    if (wanted.size() > styles.size())
+        throw InputError(fmt::format("{} {} are too many for one picture of slices.\n  Name 1 to {} of them.",
+                                     wanted.size(), of.plural, styles.size()));
     std::set<std::size_t> rows;
-    if (frequencies_hz.empty())
+    if (wanted.empty())
         for (std::size_t k = 1; k <= 3; ++k)
             rows.insert((2 * k - 1) * count / 6);
-    for (const double asked : frequencies_hz) {
-        constexpr double rounding = 1e-6; // of a frequency that is typed with fewer digits than the axis has
-        if (!(asked >= axis.values.front() * (1 - rounding) && asked <= axis.values.back() * (1 + rounding)))
-            throw InputError(
-                fmt::format("--frequency {}: is beyond the frequencies of the surface.\n  Name one from {} "
-                            "to {} Hz.",
-                            asked, axis.values.front(), axis.values.back()));
+    for (const double asked : wanted) {
+        // a value may be typed with fewer digits than the axis has
+        const double first = axis.values.front(), last = axis.values.back();
+        if (!(asked >= first - 1e-6 * std::abs(first) && asked <= last + 1e-6 * std::abs(last)))
+            throw InputError(fmt::format("{} {}: is beyond the {} of the surface.\n  Name one from {} to {}{}.",
+                                         of.option, asked, of.plural, first, last, of.symbol));
         rows.insert(axis.nearest(asked));
     }
     return {rows.begin(), rows.end()};
 }
 
-void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequencies_hz, const std::string& limit,
+void plot_slice(const SurfaceTable& surface, const std::vector<double>& wanted, const std::string& limit,
                 const std::string& title, const std::filesystem::path& png)
 {
     const std::string below_title =
         describe_realizations(surface) + " · bars and bands: " + describe_interval(surface.interval);
-    const std::vector<std::size_t> rows = slice_rows(surface, frequencies_hz);
+    const std::vector<std::size_t> rows = slice_rows(surface, wanted);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
     const std::size_t np = pga.values.size();
 
@@ -316,8 +318,9 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequenc
         curves +=
             fmt::format(", $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth {4:.1f} notitle"
                         ", $slice{0} using 5:2:3:4 with yerrorbars linecolor rgb '{1}' linewidth 0.9 pointtype {2} "
-                        "pointsize 1.3 title '{3:.3g} Hz'",
-                        k, style.colour, style.point, surface.frequency_hz[rows[k]], 1.4 + thicker * wider);
+                        "pointsize 1.3 title '{3:.3g}{5}'",
+                        k, style.colour, style.point, surface.rows()[rows[k]], 1.4 + thicker * wider,
+                        surface.row_quantity().symbol);
     }
     const std::string script =
         data + gnuplot_heading(title, below_title) + gnuplot_axis('x', pga) +

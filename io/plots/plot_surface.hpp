@@ -17,9 +17,9 @@ struct SurfaceRange {
     std::vector<double> low, high; ///< (cells)
 };
 
-/// Draws a heat map of the probability over frequency and PGA (1800 x 1350 pixels): each cell at its true
-/// extent, an axis logarithmic where its values are spaced so, cells without a trial grey, contour lines at 0.05, 0.5
-/// and 0.95. Below the title: the number of realizations and the interval.
+/// Draws a heat map of the probability over frequency (or direction) and PGA (1800 x 1350 pixels): each cell at its
+/// true extent, an axis logarithmic where its values are spaced so, cells without a trial grey, contour lines at 0.05,
+/// 0.5 and 0.95. Below the title: the number of realizations and the interval.
 ///
 /// @param limit what the probability is one of: "collapse"
 /// @param png the file; its folder must exist
@@ -40,18 +40,18 @@ struct SurfaceContour {
 /// @throws InputError as `plot_surface` does, of the axes
 std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface);
 
-// The picture of fragility slices: the probability of a limit state against PGA at given frequencies.
+// The picture of fragility slices: the probability of a limit state against PGA at given frequencies or directions.
 
-/// Draws one curve with its interval (as a band, and as bars at the cells) for each of the surface's frequencies that
-/// are nearest to the ones asked for, on the axis' scale; a frequency that is nearest to two of them is drawn once.
+/// Draws one curve with its interval (as a band, and as bars at the cells) for each of the surface's rows that are
+/// nearest to the values asked for, on the axis' scale; a row that is nearest to two of them is drawn once.
 ///
-/// @param frequencies_hz at most 6; empty: up to three rows spread evenly over the axis
+/// @param wanted frequencies or directions, at most 6; empty: up to three rows spread evenly over the axis
 /// @param limit what the probability is one of: "collapse"
 /// @throws InputError if more are asked for, if one is beyond the axis, and as `plot_surface` does
-void plot_slice(const SurfaceTable& surface, const std::vector<double>& frequencies_hz, const std::string& limit,
+void plot_slice(const SurfaceTable& surface, const std::vector<double>& wanted, const std::string& limit,
                 const std::string& title, const std::filesystem::path& png);
 
 /// The rows that `plot_slice` draws, ascending.
-std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& frequencies_hz);
+std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& wanted);
 
 } // namespace stylobate

@@ -60,6 +60,8 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
         if (column.shape != Table::Shape{rows.size()})
             refuse_damaged(fmt::format("{} realizations do not have a value of '{}' each", rows.size(), column.name));
     for (const ResultRow& row : rows) {
+        if (header.cells() > 0 && row.cell >= header.cells())
+            refuse_damaged(fmt::format("realization {} is in cell {} of {}", row.index, row.cell, header.cells()));
         if (row.inputs.size() != header.input_names.size())
             refuse_damaged(fmt::format("realization {} has {} inputs where {} are named", row.index, row.inputs.size(),
                                        header.input_names.size()));
@@ -70,6 +72,9 @@ std::string realizations_text(const ResultHeader& header, const std::vector<Resu
     Table table("realizations");
     add_numbers<ResultRow>(table, header.dimensions, rows,
                            [](const ResultRow& row) -> const ResultRow& { return row; });
+    if (!header.direction_deg.empty())
+        add(table, direction_rows.key, rows.size(),
+            [&](std::size_t i) { return header.direction_deg[rows[i].cell / header.pga_m_s2.size()]; });
     for (const Table::Column& column : more.columns())
         table.add(column.name, column.values);
     for (std::size_t k = 0; k < header.input_names.size(); ++k) {
@@ -96,14 +101,14 @@ std::string blocks_text(const ResultHeader& header)
     return csv_text(table);
 }
 
-/// A table with a row for each cell, frequency by frequency.
-Table table_of_cells(const std::vector<double>& frequency_hz, const std::vector<double>& pga_m_s2)
+/// A table with a row for each cell, row by row.
+Table table_of_cells(const SurfaceAxes& axes)
 {
     Table table("cells");
-    const std::size_t columns = pga_m_s2.size(), cells = frequency_hz.size() * columns;
+    const std::size_t columns = axes.pga_m_s2.size(), cells = axes.cells();
     add(table, "cell", cells, [](std::size_t cell) { return std::uint64_t{cell}; });
-    add(table, "frequency_hz", cells, [&](std::size_t cell) { return frequency_hz[cell / columns]; });
-    add(table, "pga_m_s2", cells, [&](std::size_t cell) { return pga_m_s2[cell % columns]; });
+    add(table, axes.row_quantity().key, cells, [&](std::size_t cell) { return axes.rows()[cell / columns]; });
+    add(table, "pga_m_s2", cells, [&](std::size_t cell) { return axes.pga_m_s2[cell % columns]; });
     return table;
 }
 
@@ -111,8 +116,8 @@ std::string surface_text(const SurfaceTable& surface)
 {
     if (!has_all_cells(surface))
         refuse_damaged(fmt::format("the surface has {} x {} cells, but its tables have other sizes",
-                                   surface.frequency_hz.size(), surface.pga_m_s2.size()));
-    Table table = table_of_cells(surface.frequency_hz, surface.pga_m_s2);
+                                   surface.rows().size(), surface.pga_m_s2.size()));
+    Table table = table_of_cells(surface);
     visit_fields(std::type_identity<SurfaceTable>(),
                  [&](const char* name, auto field, auto) { table.add(name, surface.*field); });
     const std::size_t cells = surface.trials.size();
@@ -124,7 +129,7 @@ std::string surface_text(const SurfaceTable& surface)
 
 std::string counts_text(const ResultHeader& header, const Tally& tally)
 {
-    Table table = table_of_cells(header.frequency_hz, header.pga_m_s2);
+    Table table = table_of_cells(header);
     visit_fields(std::type_identity<Tally>(), [&](const std::string& name, auto field, std::string_view by, auto) {
         const std::size_t width = tally.width(by);
         for (std::size_t k = 0; k < width; ++k)
@@ -141,7 +146,7 @@ std::string counts_text(const ResultHeader& header, const Tally& tally)
 void write_tables(const std::filesystem::path& folder, const ResultHeader& header, const SurfaceTable& surface,
                   const char* table, const std::string& text)
 {
-    const bool has_surface = !surface.frequency_hz.empty() && !surface.pga_m_s2.empty();
+    const bool has_surface = surface.cells() > 0;
     const std::string cells = has_surface ? surface_text(surface) : std::string();
 
     make_folder(folder);

@@ -10,7 +10,7 @@ namespace stylobate {
 
 /// Writes `realizations.csv` (one line per row, every field of `ResultRow` and `Outcome`; drawn values in the columns
 /// "input_...", fall times in "fall_time_s[i]"), `blocks.csv` (the name of block i) and, if the surface has axes,
-/// `surface.csv` (one line per cell, frequency by frequency) into `folder`, which is made if its parent exists. Numbers
+/// `surface.csv` (one line per cell, row by row) into `folder`, which is made if its parent exists. Numbers
 /// are the shortest decimals with the same double, "nan" and "inf" where they are not finite; a time that never came is
 /// "nan", a block that is none -1. Each file appears whole, and nothing is touched if the input is refused.
 ///

@@ -17,7 +17,7 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes)
     return (std::uint64_t{1} << 32) | crc32_of(bytes);
 }
 
-std::vector<double> read_axis(hid_t file, const char* path)
+std::vector<double> read_axis(hid_t file, const std::string& path)
 {
     const hdf5::Dims dims = hdf5::dims_of(file, path);
     if (dims.size() != 1)
@@ -65,7 +65,11 @@ ResultHeader read_header(hid_t file)
             throw hdf5::Error("it counts no limit state");
     }
     if (hdf5::exists(file, names::surface)) {
-        header.frequency_hz = read_axis(file, names::surface_frequency);
+        const std::string group = std::string(names::surface) + "/";
+        if (hdf5::exists(file, group + direction_rows.key))
+            header.direction_deg = read_axis(file, group + direction_rows.key);
+        else
+            header.frequency_hz = read_axis(file, group + frequency_rows.key);
         header.pga_m_s2 = read_axis(file, names::surface_pga);
     }
     if (hdf5::exists(file, names::motions)) {
@@ -155,9 +159,11 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
     if (!header.warnings.empty())
         hdf5::write_text(file, names::warnings, joined_names(header.warnings));
     hdf5::write_number(file, "complete", H5T_STD_U8LE, complete);
-    if (!header.frequency_hz.empty()) {
+    if (header.cells() > 0) {
         hdf5::create_group(file, names::surface);
-        hdf5::write_array(file, names::surface_frequency, header.frequency_hz, {header.frequency_hz.size()}, "Hz");
+        const RowQuantity& of = header.row_quantity();
+        hdf5::write_array(file, std::string(names::surface) + "/" + of.key, header.rows(), {header.rows().size()},
+                          of.unit);
         hdf5::write_array(file, names::surface_pga, header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
     }
     if (const MotionTable& motions = header.motions; !motions.names.empty()) {
@@ -175,7 +181,7 @@ void write_header(hid_t file, const ResultHeader& header, bool complete)
 
 void write_surface(hid_t file, const SurfaceTable& table)
 {
-    const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
+    const hdf5::Dims dims = {table.rows().size(), table.pga_m_s2.size()};
     const std::string group = std::string(names::surface) + "/";
     visit_fields(std::type_identity<SurfaceTable>(), [&](const char* name, auto field, auto) {
         hdf5::write_array(file, group + name, table.*field, dims, "");
@@ -195,16 +201,14 @@ void write_surface(hid_t file, const SurfaceTable& table)
 bool has_all_cells(const SurfaceTable& surface)
 {
     bool all = true;
-    visit_fields(std::type_identity<SurfaceTable>(), [&](auto, auto field, auto) {
-        all = all && (surface.*field).size() == surface.frequency_hz.size() * surface.pga_m_s2.size();
-    });
+    visit_fields(std::type_identity<SurfaceTable>(),
+                 [&](auto, auto field, auto) { all = all && (surface.*field).size() == surface.cells(); });
     return all;
 }
 
 void check_table(const ResultHeader& header, const SurfaceTable& table)
 {
-    if (table.frequency_hz.empty() || table.pga_m_s2.empty() || table.frequency_hz != header.frequency_hz ||
-        table.pga_m_s2 != header.pga_m_s2)
+    if (table.cells() == 0 || table.axes() != header.axes())
         throw std::invalid_argument("the surface's axes are not those that its file was created with");
     if (!has_all_cells(table))
         throw std::invalid_argument("the surface's table is not (nf x np)");
@@ -239,7 +243,7 @@ std::optional<std::string> study_difference(const ResultHeader& found, bool comp
         return "its blocks have other names";
     if (found.bed_names != asked.bed_names)
         return "its beds have other names";
-    if (found.frequency_hz != asked.frequency_hz || found.pga_m_s2 != asked.pga_m_s2)
+    if (found.axes() != asked.axes())
         return "its surface has other axes";
     if (found.motions != asked.motions)
         return "its motions differ";

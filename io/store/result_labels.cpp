@@ -140,7 +140,8 @@ std::map<std::string, Label> all_labels(int dimensions)
     });
     const std::string cells = "frequency_hz pga_m_s2";
     for (const std::string group : {"surface/", "tally/", "survival/"}) {
-        labels[group + "frequency_hz"] = {"frequency_hz", "frequency of the shaking"};
+        for (const RowQuantity& rows : {frequency_rows, direction_rows})
+            labels[group + rows.key] = {rows.key, rows.meaning};
         labels[group + "pga_m_s2"] = {"pga_m_s2", "peak ground acceleration"};
     }
     visit_fields(std::type_identity<SurfaceTable>(), [&](const std::string& name, auto, const FieldFacts& facts) {
@@ -236,7 +237,9 @@ private:
         if (!label)
             return;
         std::istringstream words(label->dimensions);
-        const std::vector<std::string> dimensions{std::istream_iterator<std::string>(words), {}};
+        std::vector<std::string> dimensions{std::istream_iterator<std::string>(words), {}};
+        if (datasets_.contains(std::string(names::surface) + "/" + direction_rows.key))
+            std::ranges::replace(dimensions, frequency_rows.key, direction_rows.key);
         if (dimensions.size() != dims.size())
             return;
         const hdf5::Handle object = hdf5::open_object(file_, path);

@@ -42,7 +42,6 @@ inline constexpr char build[] = "build";             ///< attribute of /: `Resul
 inline constexpr char study_crc32[] = "study_crc32"; ///< attribute of /: `ResultHeader::study_crc32`
 inline constexpr char warnings[] = "warnings";       ///< attribute of / where there are any: one on each line
 inline constexpr char surface[] = "surface";
-inline constexpr char surface_frequency[] = "surface/frequency_hz";
 inline constexpr char surface_pga[] = "surface/pga_m_s2";
 inline constexpr char motions[] = "motions";
 inline constexpr char motion_names[] = "names";     ///< attribute of the group: `MotionTable::names`, one on each line

@@ -201,9 +201,8 @@ SurfaceTable ResultReader::surface() const
         const std::string group = std::string(names::surface) + "/";
         if (!hdf5::exists(file, names::surface) || !hdf5::exists(file, group + "trials"))
             return table;
-        table.frequency_hz = header().frequency_hz;
-        table.pga_m_s2 = header().pga_m_s2;
-        const hdf5::Dims dims = {table.frequency_hz.size(), table.pga_m_s2.size()};
+        table.axes() = header();
+        const hdf5::Dims dims = {table.rows().size(), table.pga_m_s2.size()};
         visit_fields(std::type_identity<SurfaceTable>(), [&](const char* name, auto field, auto) {
             using Number = typename std::remove_cvref_t<decltype(table.*field)>::value_type;
             table.*field = hdf5::read_array<Number>(file, group + name, dims);

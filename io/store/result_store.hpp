@@ -2,6 +2,7 @@
 /// The result store (HDF5): rows of outcomes in index order, written in chunks, resumable. `io/FORMAT.md` describes it.
 
 #include "ensemble/model/outcome.hpp"
+#include "ensemble/model/surface_axes.hpp"
 #include "ensemble/model/trajectory.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/numerics/run_order.hpp"
@@ -28,8 +29,8 @@ struct MotionTable {
     friend bool operator==(const MotionTable&, const MotionTable&) = default;
 };
 
-/// What is fixed when a store is created.
-struct ResultHeader {
+/// What is fixed when a store is created. Kinds without a surface have empty axes.
+struct ResultHeader : SurfaceAxes {
     std::string kind; ///< the study's; "replay" for one realization of any
     std::string study_toml;
     std::uint64_t seed = 0;
@@ -47,8 +48,6 @@ struct ResultHeader {
     std::vector<std::string> block_names;  ///< of the blocks but the ground, in layout order; as many values has
                                            ///< `Outcome::fall_time_s` of every row
     std::vector<std::string> bed_names;    ///< of a survival study, whose rows hold the final state too; else empty
-    std::vector<double> frequency_hz;      ///< surface axis (nf), empty for other kinds
-    std::vector<double> pga_m_s2;          ///< surface axis (np)
     MotionTable motions;                   ///< of a fragility study, else empty
     std::vector<std::string> warnings;     ///< what is doubtful about the study, a sentence or several in each
     std::vector<std::string> limit_states; ///< that are counted where no rows are kept (`TallyWriter`), else empty
@@ -87,10 +86,8 @@ void visit_fields(std::type_identity<ResultRow>, F&& f)
 /// Whether all numbers of two rows have the same bits (NaN equals itself, 0 differs from -0).
 bool same_bits(const ResultRow& a, const ResultRow& b);
 
-/// A table over frequency and PGA, each array (nf x np), frequency by frequency. /surface holds that of the collapse.
-struct SurfaceTable {
-    std::vector<double> frequency_hz;
-    std::vector<double> pga_m_s2;
+/// A table over the cells of a surface, each array (nf x np), row by row. /surface holds that of the collapse.
+struct SurfaceTable : SurfaceAxes {
     std::vector<std::uint64_t> trials;    ///< valid realizations
     std::vector<std::uint64_t> collapses; ///< those that reached the limit state of the table
     std::vector<double> probability;      ///< NaN where there is no trial; by method `surface` a posterior mean

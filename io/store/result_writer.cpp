@@ -111,7 +111,7 @@ std::unique_ptr<ResultWriter> ResultWriter::create(const std::filesystem::path& 
 {
     ResultFile result;
     result.layout = ResultLayout(header);
-    if (header.frequency_hz.empty() != header.pga_m_s2.empty())
+    if (header.rows().empty() != header.pga_m_s2.empty())
         throw std::invalid_argument("a surface has two axes");
     if (std::filesystem::exists(std::filesystem::symlink_status(file)))
         throw InputError(file.string(), 0, "exists already; choose another output");

@@ -112,9 +112,9 @@ std::string describe_interval(const std::string& interval)
 
 std::string describe_realizations(const SurfaceTable& surface)
 {
-    const std::size_t nf = surface.frequency_hz.size();
+    const std::size_t nf = surface.rows().size();
     const std::size_t np = surface.pga_m_s2.size();
-    const std::size_t cells = nf * np;
+    const std::size_t cells = surface.cells();
     if (cells == 0 || surface.trials.size() != cells || surface.collapses.size() != cells ||
         surface.probability.size() != cells || surface.lower.size() != cells || surface.upper.size() != cells)
         throw InputError(

@@ -100,7 +100,7 @@ std::string in_tally(const std::string& name)
 /// Shape of counts. @param by as in `visit_fields`
 hdf5::Dims dims_of(const ResultHeader& header, const Tally& tally, std::string_view by)
 {
-    hdf5::Dims dims = {header.frequency_hz.size(), header.pga_m_s2.size()};
+    hdf5::Dims dims = {header.rows().size(), header.pga_m_s2.size()};
     if (!by.empty())
         dims.push_back(tally.width(by));
     return dims;
@@ -153,7 +153,8 @@ void write_tally(hid_t file, const ResultHeader& header, const TallyFile& counte
     hdf5::write_number(group.id(), "energy_realization", H5T_STD_U64LE, tally.energy_realization);
 
     // the axes of /surface once more: the scale of a dimension lies in the same group
-    hdf5::write_array(file, in_tally("frequency_hz"), header.frequency_hz, {header.frequency_hz.size()}, "Hz");
+    hdf5::write_array(file, in_tally(header.row_quantity().key), header.rows(), {header.rows().size()},
+                      header.row_quantity().unit);
     hdf5::write_array(file, in_tally("pga_m_s2"), header.pga_m_s2, {header.pga_m_s2.size()}, "m/s2");
     visit_fields(std::type_identity<Tally>(), [&](const char* name, auto field, std::string_view by, auto) {
         hdf5::write_array(file, in_tally(name), tally.*field, dims_of(header, tally, by), "");
@@ -290,8 +291,8 @@ TallyWriter::~TallyWriter() = default;
 
 std::unique_ptr<TallyWriter> TallyWriter::create(const std::filesystem::path& file, const ResultHeader& header)
 {
-    const std::size_t cells = header.frequency_hz.size() * header.pga_m_s2.size();
-    if (header.has_rows() || cells == 0 || header.total == 0 || header.block_names.empty() || header.first != 0)
+    if (header.has_rows() || header.cells() == 0 || header.total == 0 || header.block_names.empty() ||
+        header.first != 0)
         throw std::invalid_argument("counts are of all realizations of a surface");
     if (std::filesystem::exists(std::filesystem::symlink_status(file)))
         throw InputError(file.string(), 0, "exists already; choose another output");
@@ -300,7 +301,7 @@ std::unique_ptr<TallyWriter> TallyWriter::create(const std::filesystem::path& fi
     impl->header = header;
     impl->order = RunOrder(header.total);
     impl->counted.done = DoneSet(impl->order);
-    impl->counted.tally = Tally(cells, header.limit_states.size(), header.block_names.size());
+    impl->counted.tally = Tally(header.cells(), header.limit_states.size(), header.block_names.size());
     try {
         impl->write(nullptr, true);
     } catch (const hdf5::Error& error) {

@@ -382,7 +382,7 @@ Study read_tree(const TomlValue& root, const std::filesystem::path& folder)
     study.structure = read_structure(top.table(structure_keys::table));
     study.outcome = read_outcome(top.table(outcome_keys::table), study.structure);
     study.contact = read_contact(top.table(contact_keys::table), study.structure, choose_contact(top, study));
-    study.excitation = read_excitation(top.table(excitation_keys::table), study.kind, study.structure);
+    study.excitation = read_excitation(top, study.kind, study.structure);
     study.vertical = read_vertical(top.table(excitation_keys::table), study.kind, study.excitation);
     if (has_axes(study.kind)) {
         if (!top.has("surface"))

@@ -112,6 +112,9 @@ Axis read_axis(const KeyReader& table, const AxisKey& key, const Range& range)
         keys.read_within(*end, range);
     Axis axis;
     keys.read_fields(key, axis);
+    if (axis.spacing == Spacing::log && !(axis.from > 0))
+        keys.refuse("spacing", fmt::format("is \"log\", but from = {} is not above 0", axis.from),
+                    "Give spacing = \"linear\".");
     if (axis.from > axis.to)
         keys.refuse("from", fmt::format("is above to = {}", axis.to), "Axes run upwards.");
     if (axis.count == 1 && axis.from != axis.to)
@@ -127,7 +130,10 @@ SurfaceSpec read_surface(const KeyReader& keys, std::uint64_t most)
 {
     using namespace surface_keys;
     SurfaceSpec surface;
-    surface.frequency_hz = read_axis(keys, frequency, frequency_range);
+    if (keys.has(direction))
+        surface.direction_deg = read_axis(keys, direction, azimuth_range);
+    else
+        surface.frequency_hz = read_axis(keys, frequency, frequency_range);
     surface.pga_m_s2 = read_axis(keys, pga, acceleration_range);
     if (keys.has(adaptive))
         surface.adaptive = read_adaptive(keys.table(adaptive), static_cast<std::uint64_t>(surface.cells()), most);

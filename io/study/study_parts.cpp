@@ -171,9 +171,10 @@ std::optional<std::string> acceleration_unit(std::optional<std::string> word)
     return word;
 }
 
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure)
+ExcitationSpec read_excitation(const KeyReader& top, StudyKind study, const StructureSpec& structure)
 {
     using namespace excitation_keys;
+    const KeyReader keys = top.table(table);
     ExcitationSpec e;
     e.kind = keys.read(kind);
     const char *motion = word_for(excitation_kind_names, e.kind), *of_study = word_for(study_kind_names, study);
@@ -183,10 +184,12 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const Str
                     "Give another excitation, or study.kind = \"single\".");
     if (study == StudyKind::fragility)
         check_fragility_source(keys, e);
-    if (has_axes(study))
-        keys.refuse_unused(table, "study.kind", of_study,
-                           "Remove it: frequency and PGA are given by the axes of [surface].");
-    const KeyUse use{{{"excitation.kind", motion}, {"study.kind", of_study}, {model_key, dimensions_word(structure)}}};
+    KeyUse use{{{"excitation.kind", motion}, {"study.kind", of_study}, {model_key, dimensions_word(structure)}}};
+    if (has_axes(study)) {
+        add_rows(use, top.table(surface_keys::table.name).has(surface_keys::direction));
+        for (const char* kind : {"study.kind", "surface.frequency_hz", "surface.direction_deg"})
+            keys.refuse_unused(table, kind, use.kinds.at(kind), "Remove it: it is given by an axis of [surface].");
+    }
     if (use.of(file) && !keys.has(file))
         keys.missing(file.name, fmt::format("Name {} here, or on the command line: --set excitation.file=PATH",
                                             e.kind == ExcitationKind::record ? "the record" : "the table of samples"));
@@ -218,7 +221,7 @@ ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const Str
 void check_axes(const KeyReader& surface, const ExcitationSpec& excitation, const SurfaceSpec& axes)
 {
     const Axis& frequency = axes.frequency_hz;
-    if (excitation.kind != ExcitationKind::noise ||
+    if (excitation.kind != ExcitationKind::noise || axes.direction_deg ||
         (noise_frequency_range.contains(frequency.from) && noise_frequency_range.contains(frequency.to)))
         return;
     surface.refuse(

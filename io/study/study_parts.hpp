@@ -66,9 +66,9 @@ std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const Structur
 /// @param top of the file
 void refuse_restitution(const KeyReader& top);
 
-/// @param study in a surface frequency and PGA come from its axes; in a fragility study the records and how strong they
-///        are from [fragility]
-ExcitationSpec read_excitation(const KeyReader& keys, StudyKind study, const StructureSpec& structure);
+/// @param top   of the file; what the axes of [surface] give is refused in [excitation]
+/// @param study in a fragility study the records and how strong they are come from [fragility]
+ExcitationSpec read_excitation(const KeyReader& top, StudyKind study, const StructureSpec& structure);
 /// The vertical component of a record or table in space; none where the study has none.
 std::optional<VerticalSpec> read_vertical(const KeyReader& keys, StudyKind study, const ExcitationSpec& excitation);
 /// Refuses a direction that is given twice: by [excitation] and by what replaces it.

@@ -202,9 +202,10 @@ void check_used(const KeyReader& section, Quantity quantity, const Study& study)
     if (!key.used_where("contact.form", form))
         section.refuse(key.name, fmt::format("is not used by contact.form = \"{}\"", form),
                        "Remove it: rigid contacts have no stiffness and no dashpot.");
-    if (!key.used_where("study.kind", word_for(study_kind_names, study.kind)))
-        section.refuse(key.name, "is not used by study.kind = \"surface\"",
-                       "Remove it: the frequency comes from the axis of [surface].");
+    for (const auto& [axis, word] : key_use(study).kinds)
+        if (word == key_given && !key.used_where(axis, word))
+            section.refuse(key.name, "is not used by a study with " + axis,
+                           "Remove it: the axis gives it, the same in all realizations of a row.");
 }
 
 /// [perturbation.mechanisms]: NAME.PARAMETER = { distribution, per, ... }

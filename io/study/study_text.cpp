@@ -235,7 +235,8 @@ Entries entries_of(const SurfaceSpec& surface)
 {
     using namespace surface_keys;
     Entries out;
-    out.add_text(frequency.name, inline_fields(frequency, surface.frequency_hz));
+    const AxisKey& rows = surface.direction_deg ? direction : frequency;
+    out.add_text(rows.name, inline_fields(rows, surface.rows()));
     out.add_text(pga.name, inline_fields(pga, surface.pga_m_s2));
     if (surface.adaptive)
         out.add_text(adaptive.name, inline_fields(adaptive, *surface.adaptive));

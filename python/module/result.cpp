@@ -66,13 +66,13 @@ void add_surface(py::module_& module)
             name, [member](const py::object& self) { return view(self, self.cast<const S&>().*member); });
     };
     axis("frequency_hz", &S::frequency_hz);
+    axis("direction_deg", &S::direction_deg);
     axis("pga_m_s2", &S::pga_m_s2);
     const auto cells = [&](const char* name, auto member) {
         surface.def_property_readonly(name, [member](const py::object& self) {
             const S& of = self.cast<const S&>();
-            return view(
-                self, of.*member,
-                {static_cast<py::ssize_t>(of.frequency_hz.size()), static_cast<py::ssize_t>(of.pga_m_s2.size())});
+            return view(self, of.*member,
+                        {static_cast<py::ssize_t>(of.rows().size()), static_cast<py::ssize_t>(of.pga_m_s2.size())});
         });
     };
     cells("trials", &S::trials);

@@ -89,8 +89,8 @@ class Result:
         return self._core.share(limit_state)
 
     def surface(self, limit_state="collapse"):
-        """The surface of a limit state: an xarray.Dataset over frequency_hz [Hz] (nf) and pga_m_s2 [m/s2] (np) with
-        probability, lower and upper (its 95 % interval), trials and reached, each (nf, np).
+        """The surface of a limit state: an xarray.Dataset over frequency_hz [Hz] (nf), or of a surface over directions
+        direction_deg [degrees], and pga_m_s2 [m/s2] (np) with probability, lower and upper (its 95 % interval), trials and reached, each (nf, np).
 
         InputError: for a study of another kind.
         """
@@ -100,11 +100,12 @@ class Result:
         words = {"probability": f"probability of {limit_state}", "lower": "lower end of the interval",
                  "upper": "upper end of the interval", "trials": "valid realizations",
                  "reached": f"realizations that reached {limit_state}"}
-        axes = ("frequency_hz", "pga_m_s2")
+        row, unit, meaning = (("frequency_hz", "Hz", "frequency of the shaking") if len(surface.frequency_hz) else
+                              ("direction_deg", "degrees", "direction of the shaking, from x towards z"))
+        axes = (row, "pga_m_s2")
         return xarray.Dataset(
             {name: (axes, getattr(surface, name), {"units": "1", "long_name": text}) for name, text in words.items()},
-            coords={"frequency_hz": ("frequency_hz", surface.frequency_hz,
-                                     {"units": "Hz", "long_name": "frequency of the shaking"}),
+            coords={row: (row, getattr(surface, row), {"units": unit, "long_name": meaning}),
                     "pga_m_s2": ("pga_m_s2", surface.pga_m_s2,
                                  {"units": "m/s2", "long_name": "peak ground acceleration"})},
             attrs={"limit_state": surface.limit_state, "interval": surface.interval})
@@ -192,7 +193,7 @@ class Result:
         return Replay(_core.replay(self._core, whole_number(index, "index"), _settings(settings)))
 
     def plot(self, ax=None, limit_state="collapse"):
-        """Draws a surface (probability over frequency and PGA) or fragility curves with Matplotlib; returns the axes."""
+        """Draws a surface (probability over frequency, or direction, and PGA) or fragility curves with Matplotlib; returns the axes."""
         import matplotlib.pyplot as plt
 
         kind = self.kind
@@ -203,10 +204,11 @@ class Result:
             ax = plt.figure().subplots()
         if kind == "surface":
             surface = self.surface(limit_state)
-            mesh = ax.pcolormesh(surface.frequency_hz, surface.pga_m_s2, surface.probability.T, vmin=0, vmax=1,
+            row = surface.probability.dims[0]
+            mesh = ax.pcolormesh(surface[row], surface.pga_m_s2, surface.probability.T, vmin=0, vmax=1,
                                  shading="nearest")
             ax.figure.colorbar(mesh, ax=ax, label=f"probability of {limit_state}")
-            ax.set_xlabel("frequency [Hz]")
+            ax.set_xlabel("frequency [Hz]" if row == "frequency_hz" else "direction of the shaking [°]")
             ax.set_ylabel("peak ground acceleration [m/s²]")
             return ax
         fragility = self.fragility()

@@ -51,8 +51,8 @@ std::string cells_text(const Study& study)
     const StudyDesign design = study.design();
     if (study.surface)
         return fmt::format(
-            " ({} frequencies x {} PGAs{}{})", study.surface->frequency_hz.count, study.surface->pga_m_s2.count,
-            study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
+            " ({} {} x {} PGAs{}{})", study.surface->rows().count, study.surface->row_quantity().plural,
+            study.surface->pga_m_s2.count, study.surface->adaptive ? "" : fmt::format(" x {}", study.realizations),
             design.replica_set ? fmt::format(", each with {} replicas", design.replica_set->kinds.size()) : "");
     if (design.motions)
         return fmt::format(" ({} motions x {} intensities x {})", design.motions->motions, design.columns,

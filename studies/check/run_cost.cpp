@@ -71,7 +71,8 @@ double dearest_over_mean(const Study& study, const TrialPart& part, std::uint64_
     const double mean = sum / static_cast<double>(part.run.size());
     if (!study.surface || mean == 0)
         return mean > 0 ? most / mean : 1;
-    // what the trial has not met is like the others of its frequency, which decides how long a realization lasts
+    // what the trial has not met is like the others of its row, whose frequency mostly decides how long a realization
+    // lasts
     const auto columns = static_cast<std::ptrdiff_t>(study.surface->pga_m_s2.count);
     for (auto row = of_cell.begin(), n = runs.begin(); row != of_cell.end(); row += columns, n += columns) {
         const double steps = std::accumulate(row, row + columns, 0.0), all = std::accumulate(n, n + columns, 0.0);

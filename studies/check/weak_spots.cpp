@@ -214,10 +214,10 @@ Found coarse_axis(const Subject& s)
     if (jumps.rows < 2 || 4 * jumps.jumping <= 3 * jumps.rows)
         return std::nullopt;
     return spot(
-        fmt::format("In {} of {} frequencies the probability of collapse rises from nearly 0 to nearly 1 "
+        fmt::format("In {} of {} {} the probability of collapse rises from nearly 0 to nearly 1 "
                     "between two neighbouring PGAs: the curve between them is not seen, and the PGA of 1/2 is "
                     "known to a step of the axis only.",
-                    jumps.jumping, jumps.rows),
+                    jumps.jumping, jumps.rows, study.surface->row_quantity().plural),
         fmt::format("Give surface.pga_m_s2.count = {} or a shorter range, or surface.adaptive.", 2 * axis.count - 1));
 }
 

@@ -88,7 +88,16 @@ struct ExportOptions {
     long long realization = -1;         ///< of a strip, or of "vtk"
     long long cell = -1;                ///< of a surface, for the order of falls
     std::vector<double> frequencies;    ///< of a slice [Hz]
-    std::optional<std::string> title;   ///< of the picture, instead of the study's or the file's name
+    std::vector<double> directions;     ///< of a slice of a surface over directions [degrees]
+    /// What is given of the two; nullopt: neither is.
+    std::optional<std::string> rows_option() const
+    {
+        return !directions.empty()    ? "--direction"
+               : !frequencies.empty() ? "--frequency"
+                                      : std::optional<std::string>();
+    }
+    const std::vector<double>& rows() const { return directions.empty() ? frequencies : directions; }
+    std::optional<std::string> title; ///< of the picture, instead of the study's or the file's name
 };
 
 /// The drawing of `check`; nullopt: not given.

@@ -92,8 +92,8 @@ PictureKind picture_of(const Results& results, const ExportOptions& wanted)
     const PictureKind picture = wanted.picture                           ? picture_named(*wanted.picture, results)
                                 : wanted.cell >= 0                       ? order
                                 : wanted.realization >= 0 || own.empty() ? strip
-                                : !wanted.frequencies.empty() && of_slices != own.end() ? *of_slices
-                                                                                        : own.front();
+                                : wanted.rows_option() && of_slices != own.end() ? *of_slices
+                                                                                 : own.front();
     if (wanted.limit && !picture.limit)
         throw InputError(fmt::format(
             "--limit {}: the picture '{}' shows no limit state; limit states are shown by surface, slice and fragility",
@@ -102,9 +102,8 @@ PictureKind picture_of(const Results& results, const ExportOptions& wanted)
         throw InputError(fmt::format("--cell {}: applies to --picture order only", wanted.cell));
     if (wanted.realization >= 0 && picture.name != strip.name)
         throw InputError(fmt::format("--realization {}: applies to --picture strip only", wanted.realization));
-    if (!wanted.frequencies.empty() && !picture.slices)
-        throw InputError(
-            fmt::format("--frequency {}: applies to --picture slice only", fmt::join(wanted.frequencies, ",")));
+    if (const auto rows = wanted.rows_option(); rows && !picture.slices)
+        throw InputError(fmt::format("{} {}: applies to --picture slice only", *rows, fmt::join(wanted.rows(), ",")));
     return picture;
 }
 
@@ -142,9 +141,10 @@ fs::path export_picture(const CommonOptions& options, const std::string& file, c
         };
     } else {
         const bool all = results.kind().pictures_want_all(asked.name);
-        picture = (all ? results.concluded() : results.kind())
-                      .picture(results.reader(), file,
-                               {asked.name, wanted.limit, wanted.frequencies, laws ? &*laws : nullptr});
+        picture =
+            (all ? results.concluded() : results.kind())
+                .picture(results.reader(), file,
+                         {asked.name, wanted.limit, wanted.rows(), wanted.rows_option(), laws ? &*laws : nullptr});
     }
     // two pictures of one result differ in their names
     const fs::path to = place_of(options, file, wanted, "_" + picture.name + "." + format);
@@ -181,7 +181,7 @@ void export_csv(const Results& results, const std::string& name, const fs::path&
 /// One realization for ParaView.
 fs::path export_vtk(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
 {
-    if (wanted.limit || wanted.picture || wanted.title || wanted.cell >= 0 || !wanted.frequencies.empty())
+    if (wanted.limit || wanted.picture || wanted.title || wanted.cell >= 0 || wanted.rows_option())
         throw InputError("--to vtk: writes one realization through time; of the options of pictures only --realization "
                          "applies to it");
     const Results results(file, options.set);
@@ -198,13 +198,13 @@ fs::path export_tables(const CommonOptions& options, const std::string& file, co
                        const std::string& format)
 {
     const std::optional<std::string> of_picture =
-        wanted.limit                  ? "--limit " + *wanted.limit
-        : wanted.picture              ? "--picture " + *wanted.picture
-        : wanted.title                ? "--title " + *wanted.title
-        : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
-        : wanted.realization >= 0     ? fmt::format("--realization {}", wanted.realization)
-        : !wanted.frequencies.empty() ? fmt::format("--frequency {}", fmt::join(wanted.frequencies, ","))
-                                      : std::optional<std::string>();
+        wanted.limit              ? "--limit " + *wanted.limit
+        : wanted.picture          ? "--picture " + *wanted.picture
+        : wanted.title            ? "--title " + *wanted.title
+        : wanted.cell >= 0        ? fmt::format("--cell {}", wanted.cell)
+        : wanted.realization >= 0 ? fmt::format("--realization {}", wanted.realization)
+        : wanted.rows_option()    ? fmt::format("{} {}", *wanted.rows_option(), fmt::join(wanted.rows(), ","))
+                                  : std::optional<std::string>();
     if (of_picture)
         throw InputError(
             *of_picture +
@@ -245,11 +245,10 @@ std::optional<std::string> motion_format_of(const ExportOptions& wanted)
 std::optional<fs::path> export_motion(const CommonOptions& options, const std::string& file,
                                       const ExportOptions& wanted, const std::string& format)
 {
-    const std::optional<std::string> of_picture = wanted.limit                  ? "--limit " + *wanted.limit
-                                                  : wanted.picture              ? "--picture " + *wanted.picture
-                                                  : wanted.cell >= 0            ? fmt::format("--cell {}", wanted.cell)
-                                                  : !wanted.frequencies.empty() ? "--frequency"
-                                                                                : std::optional<std::string>();
+    const std::optional<std::string> of_picture = wanted.limit       ? "--limit " + *wanted.limit
+                                                  : wanted.picture   ? "--picture " + *wanted.picture
+                                                  : wanted.cell >= 0 ? fmt::format("--cell {}", wanted.cell)
+                                                                     : wanted.rows_option();
     if (of_picture)
         throw InputError(*of_picture + ": does not apply to --to html, gif, mp4 or webm, which show one realization; "
                                        "--realization selects it");
@@ -272,7 +271,7 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
     if (!picture && format != "csv")
         throw InputError(fmt::format(
             "--to {}: {} is a risk estimate; it has a picture (png, svg, pdf) and tables (csv)", format, file));
-    if (wanted.picture || wanted.cell >= 0 || wanted.realization >= 0 || !wanted.frequencies.empty() ||
+    if (wanted.picture || wanted.cell >= 0 || wanted.realization >= 0 || wanted.rows_option() ||
         (!picture && (wanted.limit || wanted.title)))
         throw InputError(fmt::format("{} is a risk estimate: of the options of pictures only --limit and --title apply "
                                      "to its picture, none to its tables",
@@ -293,12 +292,11 @@ fs::path export_risk(const CommonOptions& options, const std::string& file, cons
 /// Options that belong to single realizations or to the pictures of results.
 void check_comparison_options(const CommonOptions& options, const std::string& file, const ExportOptions& wanted)
 {
-    const std::optional<std::string> other = !options.set.empty()          ? "--set"
-                                             : wanted.picture              ? "--picture"
-                                             : wanted.cell >= 0            ? "--cell"
-                                             : wanted.realization >= 0     ? "--realization"
-                                             : !wanted.frequencies.empty() ? "--frequency"
-                                                                           : std::optional<std::string>();
+    const std::optional<std::string> other = !options.set.empty()      ? "--set"
+                                             : wanted.picture          ? "--picture"
+                                             : wanted.cell >= 0        ? "--cell"
+                                             : wanted.realization >= 0 ? "--realization"
+                                                                       : wanted.rows_option();
     if (other)
         throw InputError(fmt::format("{}: {} is a comparison, whose export has the options --to, --limit, --title and "
                                      "-o",

@@ -214,6 +214,8 @@ private:
         replay->add_option("--realization", choice_.index, "its index");
         replay->add_option("--frequency", choice_.cells.frequency_hz,
                            "surface: frequency of the cell, nearest value [Hz]");
+        replay->add_option("--direction", choice_.cells.direction_deg,
+                           "surface over directions: that of the cell, nearest value [degrees]");
         replay->add_option("--pga", choice_.cells.pga_m_s2, "surface: PGA of the cell, nearest value [m/s2]");
         add_word(*replay, "--motion", choice_.cells.motion, "fragility study: name or number (from 0) of the motion");
         replay->add_option("--intensity", choice_.cells.intensity, "fragility study: intensity level, nearest value");
@@ -345,6 +347,11 @@ private:
                 "--frequency", export_.frequencies,
                 "slice: frequencies in Hz, within the axis; the nearest ones of the axis are drawn (default: three)")
             ->delimiter(',');
+        exporting
+            ->add_option("--direction", export_.directions,
+                         "slice of a surface over directions: these, in degrees, in the place of --frequency")
+            ->delimiter(',')
+            ->excludes("--frequency");
         add_word(*exporting, "--title", export_.title,
                  "title of the picture (default: study.title, or the file's name)");
         add_word(*exporting, "-o,--output", export_.output,

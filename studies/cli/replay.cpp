@@ -32,15 +32,18 @@ struct ChosenRealization {
 /// The options must select in one way.
 void check_asked(const RealizationChoice& choice)
 {
-    const bool by_property = choice.cells.frequency_hz || choice.cells.pga_m_s2 || choice.cells.motion ||
-                             choice.cells.intensity || choice.fallen || choice.stood || choice.nth;
+    const bool by_property = choice.cells.frequency_hz || choice.cells.direction_deg || choice.cells.pga_m_s2 ||
+                             choice.cells.motion || choice.cells.intensity || choice.fallen || choice.stood ||
+                             choice.nth;
     if (choice.index && by_property)
-        throw InputError(fmt::format("--realization {}: names one realization; omit the options that select among them "
-                                     "(--frequency, --pga, --motion, --intensity, --fallen, --stood, --nth)",
-                                     *choice.index));
+        throw InputError(
+            fmt::format("--realization {}: names one realization; omit the options that select among them "
+                        "(--frequency, --direction, --pga, --motion, --intensity, --fallen, --stood, --nth)",
+                        *choice.index));
     if (!choice.index && !by_property)
         throw InputError("no realization is given.\n  Give its index by --realization I, or select one: --frequency HZ "
-                         "--pga M_S2 of a surface, --motion NAME --intensity X of a fragility study, --fallen or "
+                         "(or --direction DEGREES) --pga M_S2 of a surface, --motion NAME --intensity X of a fragility "
+                         "study, --fallen or "
                          "--stood, --nth N.");
     if (choice.fallen && choice.stood)
         throw InputError("--fallen --stood: these options exclude each other; give one of them");
@@ -81,8 +84,8 @@ ChosenRealization choose_realization(const Results& of, const RealizationChoice&
         reader.for_each_row([&](const ResultRow& row) { consider(row.index, row.cell, row.outcome.state); });
     else if (by_outcome)
         throw InputError(fmt::format("--{}: {} has no rows of realizations (output.realizations = \"none\"), so it "
-                                     "does not record which realization fell. Select by --frequency, --pga and --nth.",
-                                     choice.fallen ? "fallen" : "stood", results));
+                                     "does not record which realization fell. Select by {}, --pga and --nth.",
+                                     choice.fallen ? "fallen" : "stood", results, header.row_quantity().option));
     else
         for (std::uint64_t i = header.first; i < header.first + header.total; ++i)
             consider(i, of.study().cell(i), State::stood);
@@ -289,8 +292,7 @@ int replay_command(const CommonOptions& options, const std::string& results, con
     one.selected = false;
     one.limit_states.clear();
     one.kind = "replay"; // of one realization: there is no surface to it
-    one.frequency_hz.clear();
-    one.pga_m_s2.clear();
+    one.axes() = {};
     one.code_version = code_version();
     one.build = code_build();
     const TracedRealization f = trace(experiment, index, options.isa());

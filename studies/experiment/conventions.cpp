@@ -120,9 +120,9 @@ std::string component_words(const Study& study)
     const ExcitationSpec& e = study.excitation;
     if (!study.structure.spatial() || e.kind == ExcitationKind::none)
         return "";
-    std::string text = drawn(study, Quantity::direction)
-                           ? ", direction drawn"
-                           : fmt::format(", along {:.4g} degrees from x", e.direction_deg);
+    std::string text = drawn(study, Quantity::direction) ? ", direction drawn"
+                       : study.design().direction_deg    ? std::string(", direction of each row")
+                                                      : fmt::format(", along {:.4g} degrees from x", e.direction_deg);
     if (study.has_pairs())
         text += e.second_ratio > 0 ? fmt::format(" with {:.3g} of it across", e.second_ratio)
                                    : std::string(" with a second component across");

@@ -333,7 +333,7 @@ ResultHeader LoadedStudy::plain_header() const
                 all.push_back(axis.value(i));
             return all;
         };
-        header.frequency_hz = values(study().surface->frequency_hz);
+        (study().surface->direction_deg ? header.direction_deg : header.frequency_hz) = values(study().surface->rows());
         header.pga_m_s2 = values(study().surface->pga_m_s2);
     }
     return header;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace stylobate {
@@ -14,7 +15,8 @@ std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, cons
                             const std::string& results)
 {
     constexpr double typed = 5e-3; // a value is within an axis if it is so to the digits that people type
-    if (!(wanted >= axis.front() * (1 - typed) && wanted <= axis.back() * (1 + typed)))
+    const double first = axis.front(), last = axis.back(); // of directions also below zero
+    if (!(wanted >= first - typed * std::abs(first) && wanted <= last + typed * std::abs(last)))
         throw InputError(axis.size() == 1 ? fmt::format("{} {:g}: {} has only {:.4g} {}", option, wanted, results,
                                                         axis.front(), unit)
                                           : fmt::format("{} {:g}: the axis of {} goes from {:.4g} to {:.4g} {}", option,
@@ -78,6 +80,8 @@ ChosenCells Kind::choose(const CellChoice& choice, const std::string& results) c
     };
     if (choice.frequency_hz || choice.pga_m_s2)
         refuse(choice.frequency_hz ? "--frequency" : "--pga", "which has no axes of frequency and PGA");
+    if (choice.direction_deg)
+        refuse("--direction", "which has no axis of directions");
     if (choice.motion || choice.intensity)
         refuse(choice.motion ? "--motion" : "--intensity", "not of a fragility study");
     return {};

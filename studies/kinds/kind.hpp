@@ -31,12 +31,13 @@ struct PictureKind {
     std::string_view name; ///< "surface": the word of the command line
     std::string_view of;   ///< results that have it: "a fragility study"
     bool limit = false;    ///< of one limit state
-    bool slices = false;   ///< of some frequencies
+    bool slices = false;   ///< of some rows of a surface
 };
 struct PictureRequest {
     std::string_view name;              ///< of a picture of the kind
     std::optional<std::string> limit;   ///< nullopt: the usual one
-    std::vector<double> frequencies_hz; ///< of a slice; none: three of the axis
+    std::vector<double> rows;           ///< of a slice, frequencies or directions; none: three of the axis
+    std::optional<std::string> rows_by; ///< the option that gives them; nullopt: none does
     const LawBand* laws = nullptr;      ///< over contact laws; null: not measured
 };
 struct Picture {
@@ -48,7 +49,7 @@ struct Picture {
 
 /// Which cells are asked for, by where they lie.
 struct CellChoice {
-    std::optional<double> frequency_hz, pga_m_s2;
+    std::optional<double> frequency_hz, direction_deg, pga_m_s2;
     std::optional<std::string> motion;
     std::optional<double> intensity;
 };
@@ -124,7 +125,7 @@ public:
 
     // ---- the results, after conclude() or restore() ----------------------------------------------------------------
 
-    /// Of a study with cells of frequency and PGA.
+    /// Of a study with cells of frequency, or direction, and PGA.
     virtual std::optional<SurfaceTable> surface() const { return std::nullopt; }
     /// What the results file keeps beside the rows.
     virtual std::vector<Table> tables() const { return {}; }

@@ -64,7 +64,7 @@ HtmlTable cells_table(const LawBand& band)
 {
     const LawBand::Limit& limit = band.limits.front();
     HtmlTable table;
-    if (band.frequency_hz.empty()) {
+    if (band.cells() == 0) {
         table = {"rrlrl", {band.measure, "lowest", "law", "highest", "law"}, {}, ""};
         for (std::size_t cell = 0; cell < limit.cells.size(); ++cell) {
             const LawBand::Place& place = limit.cells[cell];
@@ -74,13 +74,14 @@ HtmlTable cells_table(const LawBand& band)
         }
         return table;
     }
-    const std::size_t nf = band.frequency_hz.size(), np = band.pga_m_s2.size();
-    table.caption = "Lowest to highest probability of collapse over the laws [%]; columns: frequency [Hz], rows: PGA "
-                    "[m/s²]";
+    const std::size_t nf = band.rows().size(), np = band.pga_m_s2.size();
+    table.caption = fmt::format("Lowest to highest probability of collapse over the laws [%]; columns: {}, rows: PGA "
+                                "[m/s²]",
+                                band.row_quantity().label);
     table.align = "r" + std::string(nf, 'c');
     table.head = {"PGA"};
-    for (const double frequency : band.frequency_hz)
-        table.head.emplace_back(fmt::format("{:.3g}", frequency));
+    for (const double value : band.rows())
+        table.head.emplace_back(fmt::format("{:.3g}", value));
     for (std::size_t p = np; p-- > 0;) {
         std::vector<Html> row = {fmt::format("{:.3g}", band.pga_m_s2[p])};
         for (std::size_t f = 0; f < nf; ++f)
@@ -196,13 +197,13 @@ Json law_band_json(const LawBand& band)
 Table law_band_rows(const LawBand& band)
 {
     std::vector<std::string> limits, cells, lowest_law, highest_law;
-    std::vector<double> frequency, pga, intensity, lowest, highest;
+    std::vector<double> row, pga, intensity, lowest, highest;
     std::vector<std::vector<double>> probability(band.laws.size());
     const auto add = [&](const LawBand::Limit& limit, const LawBand::Place& place, std::size_t cell, bool all) {
         const std::size_t np = std::max<std::size_t>(1, band.pga_m_s2.size());
         limits.push_back(limit.name);
         cells.push_back(all ? "all" : fmt::format("{}", cell));
-        frequency.push_back(all || band.frequency_hz.empty() ? std::nan("") : band.frequency_hz[cell / np]);
+        row.push_back(all || band.cells() == 0 ? std::nan("") : band.rows()[cell / np]);
         pga.push_back(all || band.pga_m_s2.empty() ? std::nan("") : band.pga_m_s2[cell % np]);
         intensity.push_back(all || band.intensity.empty() ? std::nan("") : band.intensity[cell]);
         lowest.push_back(place.low());
@@ -221,8 +222,8 @@ Table law_band_rows(const LawBand& band)
     Table table("contact_laws");
     table.add("limit_state", std::move(limits));
     table.add("cell", std::move(cells));
-    if (!band.frequency_hz.empty()) {
-        table.add("frequency_hz", std::move(frequency), {n});
+    if (band.cells() > 0) {
+        table.add(band.row_quantity().key, std::move(row), {n});
         table.add("pga_m_s2", std::move(pga), {n});
     }
     if (!band.intensity.empty())

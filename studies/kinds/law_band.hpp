@@ -13,18 +13,18 @@
 
 namespace stylobate {
 
-struct LawBand {
+/// Of stripes, or of one cell, its axes are empty.
+struct LawBand : SurfaceAxes {
     std::string file;                  ///< that it is from
     std::vector<std::string> laws;     ///< "as given" (the study), "softer", ...
     std::vector<std::string> words;    ///< (laws) what each is
     std::vector<std::string> left_out; ///< sentences: laws that do not apply
     std::vector<std::string> notes;    ///< sentences: what else a law changes
-    std::vector<double> frequency_hz, pga_m_s2;
-    std::string measure;             ///< of stripes
-    std::vector<double> intensity;   ///< of stripes
-    std::vector<std::string> places; ///< (cells) "2.5 Hz, 4 m/s2", "PGV 0.75 m/s"
-    double level = 0.95;             ///< of the intervals of differences
-    std::uint64_t pairs = 0;         ///< of realizations, of each law at least
+    std::string measure;               ///< of stripes
+    std::vector<double> intensity;     ///< of stripes
+    std::vector<std::string> places;   ///< (cells) "2.5 Hz, 4 m/s2", "PGV 0.75 m/s"
+    double level = 0.95;               ///< of the intervals of differences
+    std::uint64_t pairs = 0;           ///< of realizations, of each law at least
 
     /// Probabilities of one limit state in one cell or stripe, or in all.
     struct Place {

@@ -183,7 +183,9 @@ std::optional<std::string> use_words(const TomlKey& key)
 {
     std::optional<std::string> text;
     for (const Condition& condition : key.used)
-        text = (text ? *text + ", and " : "") + condition.key + " = " + listed(condition.values);
+        text = (text ? *text + ", and " : "") + condition.key +
+               (condition.values == std::vector<std::string>{key_absent} ? " is absent"
+                                                                         : " = " + listed(condition.values));
     if (key.models != KeyFacts().models)
         text = (text ? *text + ", and " : "") +
                fmt::format("{} = {}", model_key, key.models.front() == model_names.front() ? 2 : 3);

@@ -62,10 +62,12 @@ bool depends_on(const TomlKey& key, const std::string& path)
                        [&](const Condition& condition) { return condition.key == path; });
 }
 
-/// A value of a key on which others depend: a word, or a whole number.
+/// A value of a key on which others depend: a word, or a whole number; of one that must only be there, any.
 Json is_value(const std::string& path, const std::string& value)
 {
     Json schema = Json::object();
+    if (value == key_given)
+        return schema;
     if (path == model_key)
         schema.member_as_is("const", value);
     else
@@ -103,7 +105,7 @@ std::map<std::string, std::vector<std::string>> deciding_keys()
     std::map<std::string, std::vector<std::string>> all;
     for_each_key([&](const std::string& path, const TomlKey& key) {
         if (paths.contains(path))
-            all[path] = key.words;
+            all[path] = key.type == KeyType::table ? std::vector<std::string>{key_given, key_absent} : key.words;
     });
     all[model_key] = {"2", "3"};
     return all;
@@ -124,6 +126,13 @@ Json has_property(const std::string& name, const Json& inner)
     schema.member("properties", Json::object().member(name, inner));
     schema.member("required", Json::list().item(std::string_view(name)));
     return schema;
+}
+
+/// That a key of a table has this value.
+Json holds(const std::string& name, const std::string& path, const std::string& value)
+{
+    return value == key_absent ? Json::object().member("properties", never({name}))
+                               : has_property(name, is_value(path, value));
 }
 
 Json consequence_of(const Consequence& consequence)
@@ -245,7 +254,7 @@ private:
                 continue;
             const std::string name = deciding.substr(path.size() + 1);
             for (const auto& [value, consequence] : values) {
-                Json condition = has_property(name, is_value(deciding, value));
+                Json condition = holds(name, deciding, value);
                 const auto key = std::find_if(table.keys.begin(), table.keys.end(),
                                               [&name = name](const TomlKey* k) { return k->name == name; });
                 if ((*key)->absent == toml_quoted(value) || (*key)->absent == value) // it holds without the key, too
@@ -267,7 +276,7 @@ private:
                 if (deciding.substr(0, dot) == table->name && table->name != "study")
                     continue; // its own
                 for (const auto& [value, consequence] : values) {
-                    const Json kind = has_property(deciding.substr(dot + 1), is_value(deciding, value));
+                    const Json kind = holds(deciding.substr(dot + 1), deciding, value);
                     const Json then = Json::object().member(
                         "properties", Json::object().member(table->name, consequence_of(consequence)));
                     list.item(

@@ -56,7 +56,8 @@ private:
     /// What the study gives; nullopt: it leaves the key to its default.
     std::optional<std::string> value_of(const TomlKey& key, const std::string& path) const
     {
-        if (const auto kind = use_.kinds.find(path); kind != use_.kinds.end() && path != "fragility.method")
+        if (const auto kind = use_.kinds.find(path);
+            kind != use_.kinds.end() && path != "fragility.method" && !path.starts_with("surface."))
             return path == model_key ? kind->second : toml_quoted(kind->second);
         // Where residual displacements are counted: dashpots at the centroid hardly damp rocking (docs/check.md).
         // In space they are spread, and do.

@@ -68,7 +68,7 @@ Choice choose_by_cells(const std::vector<ResultRow>& trials, std::size_t cells, 
 Choice choose(const Results& results, std::uint64_t each)
 {
     const ResultHeader& header = results.header();
-    const std::size_t cells = header.frequency_hz.size() * header.pga_m_s2.size();
+    const std::size_t cells = header.cells();
     const std::vector<ResultRow>& trials = results.trials();
     if (cells > 0)
         return choose_by_cells(trials, cells, each);
@@ -212,7 +212,7 @@ private:
                                         duration_text(options_.seconds));
     }
 
-    bool is_surface() const { return !results_.header().frequency_hz.empty(); }
+    bool is_surface() const { return results_.header().cells() > 0; }
 
     const Results& results_;
     const Isa isa_;

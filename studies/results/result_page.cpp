@@ -106,7 +106,11 @@ std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& 
                        const std::string& file)
 {
     Json json = Json::object();
-    json.member("frequency_hz", Json::brief(table.frequency_hz))
+    const RowQuantity& of = table.row_quantity();
+    json.member("rows", Json::brief(table.rows()))
+        .member("row_name", of.name)
+        .member("row_symbol", of.symbol)
+        .member("row_option", of.option)
         .member("pga_m_s2", Json::brief(table.pga_m_s2))
         .member("interval", describe_interval(table.interval))
         .member("trials", Json::brief(table.trials))
@@ -179,7 +183,7 @@ public:
           rows_(results.trials()), counts_(kind_.counts()),
           page_(title.value_or("Results: " + results.title()), subtitle(header_)),
           writer_{page_, [this](const std::string& caption, const auto& draw) { picture(caption, draw); }},
-          surface_(!header_.frequency_hz.empty())
+          surface_(header_.cells() > 0)
     {
         if (const Tally* tally = reader_.tally()) {
             invalid_count_ = tally->all_invalid();
@@ -255,8 +259,8 @@ private:
         else
             text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
                                collapsed.trials, of ? " " + *of : "",
-                               surface_ ? fmt::format(" over {} × {} cells of frequency and PGA",
-                                                      header_.frequency_hz.size(), header_.pga_m_s2.size())
+                               surface_ ? fmt::format(" over {} × {} cells of {} and PGA", header_.rows().size(),
+                                                      header_.pga_m_s2.size(), header_.row_quantity().name)
                                         : "",
                                percent_text(collapsed.probability), describe_interval(counts_.interval()),
                                std::isnan(collapsed.lower) ? "" : " " + interval_text(collapsed));

@@ -155,18 +155,18 @@ void order_picture(const Results& results, long long cell, const std::optional<s
     std::vector<ResultRow> rows = results.trials();
     std::string title = "Falls: " + results.title();
     const std::size_t np = header.pga_m_s2.size();
-    const std::size_t cells = header.frequency_hz.size() * np;
+    const std::size_t cells = header.cells();
     if (cell >= 0) {
         const auto wanted = static_cast<std::size_t>(cell);
         if (cells == 0)
             throw InputError(
                 fmt::format("--cell {}: a result of kind '{}' has no cells; omit --cell", cell, header.kind));
         if (wanted >= cells)
-            throw InputError(fmt::format("--cell {}: {} has the cells 0 to {} (frequency number x {} + PGA number)",
-                                         cell, results.file(), cells - 1, np));
+            throw InputError(fmt::format("--cell {}: {} has the cells 0 to {} ({} number x {} + PGA number)", cell,
+                                         results.file(), cells - 1, header.row_quantity().name, np));
         std::erase_if(rows, [&](const ResultRow& row) { return row.cell != wanted; });
-        title +=
-            fmt::format(", {:.3g} Hz, {:.3g} m/s²", header.frequency_hz[wanted / np], header.pga_m_s2[wanted % np]);
+        title += fmt::format(", {:.3g}{}, {:.3g} m/s²", header.rows()[wanted / np], header.row_quantity().symbol,
+                             header.pga_m_s2[wanted % np]);
     } else if (cells > 1) {
         title += ", all cells";
     }

@@ -147,6 +147,8 @@ std::string excitation_text(const Study& study, const ResultRow* one)
         text += "; frequency: " + axis_text(*design.frequency_hz, " Hz");
     else if (e.frequency_hz > 0)
         text += fmt::format(", {:.4g} Hz", e.frequency_hz);
+    if (design.direction_deg)
+        text += "; direction: " + axis_text(*design.direction_deg, "°");
     if (design.pga_m_s2)
         text += "; PGA: " + axis_text(*design.pga_m_s2, " m/s²");
     else if (e.pga_m_s2 > 0)

@@ -236,6 +236,7 @@ void compare_surfaces(const SurfaceTable& stored, const SurfaceTable& again, Fil
         compare_lists(where, std::nullopt, a, b, check);
     };
     lists("surface/frequency_hz", stored.frequency_hz, again.frequency_hz);
+    lists("surface/direction_deg", stored.direction_deg, again.direction_deg);
     lists("surface/pga_m_s2", stored.pga_m_s2, again.pga_m_s2);
     lists("surface/trials", stored.trials, again.trials);
     lists("surface/collapses", stored.collapses, again.collapses);

@@ -160,8 +160,7 @@ ResultHeader replay_header(ResultHeader study, std::uint64_t index)
     study.total = 1;
     study.selected = false;
     study.limit_states.clear();
-    study.frequency_hz.clear();
-    study.pga_m_s2.clear();
+    study.axes() = {};
     return study;
 }
 
@@ -458,7 +457,7 @@ private:
     {
         kind.conclude();
         std::string names;
-        if (const std::optional<SurfaceTable> surface = kind.surface(); surface && !header_.frequency_hz.empty()) {
+        if (const std::optional<SurfaceTable> surface = kind.surface(); surface && header_.cells() > 0) {
             compare_surfaces(reader_.surface(), *surface, tables);
             names = "surface";
         }

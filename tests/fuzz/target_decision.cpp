@@ -73,7 +73,7 @@ void tell(const Comparison& comparison)
     for (const VariantComparison& variant : comparison.variants) {
         promise(!variant.limits.empty(), "a variant has no limit state");
         for (const LimitComparison& limit : variant.limits)
-            promise(limit.cells.size() == comparison.cells(), "a limit state has other cells than the comparison");
+            promise(limit.cells.size() == comparison.places(), "a limit state has other cells than the comparison");
         answer_text(comparison, variant);
         harm_text(comparison, variant);
         dependence_texts(comparison, variant);

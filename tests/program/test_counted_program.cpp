@@ -89,7 +89,7 @@ TEST_F(Counted, TheSameTablesAsWithRows)
     EXPECT_GT(first_falls, 100U);
 
     // other limit states' surfaces are drawn from the counts
-    SurfaceCounts rocked(reader.header().frequency_hz, reader.header().pga_m_s2, LimitState::rocked);
+    SurfaceCounts rocked(reader.header(), LimitState::rocked);
     reader.for_each_row([&](const ResultRow& row) { rocked.add(row); });
     const ResultReader counted(folder / "counts.h5");
     const SurfaceTable of_counts = surface_of(counted.header(), *counted.tally(), LimitState::rocked);

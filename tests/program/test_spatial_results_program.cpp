@@ -18,6 +18,32 @@ protected:
                  "surface.pga_m_s2={from=2.0,to=8.0,count=2}", "-o", results, "--quiet"});
         ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     }
+    /// One realization in each of four cells of direction and PGA of a column of two drums.
+    void make_over_directions(const std::string& results) const
+    {
+        write_bytes(folder / "round.toml", R"([study]
+kind = "surface"
+realizations = 1
+[structure]
+dimensions = 3
+blocks = 2
+drum_width_m = 0.5
+drum_height_m = 0.8
+density_kg_m3 = 2700
+[contact]
+normal_stiffness_n_m3 = 1e9
+friction = 0.7
+[excitation]
+kind = "full_sine"
+frequency_hz = 1.5
+tail_s = 0.5
+[surface]
+direction_deg = { from = 0, to = 60, count = 2 }
+pga_m_s2 = { from = 2, to = 4, count = 2 }
+)");
+        const Ended ended = run({"run", "round.toml", "-o", results, "--quiet"});
+        ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    }
     void ends_well(const Words& words) const
     {
         const Ended ended = run(words);
@@ -53,6 +79,34 @@ TEST_F(SpatialResultsProgram, AreReplayedVerifiedAndExported)
     ends_well({"export", "one.h5", "--to", "vtk", "-o", "vtk"});
     EXPECT_TRUE(fs::exists(folder / "vtk" / "realization_5.pvd"));
     EXPECT_NE(bytes("vtk/realization_5_00000.vtp").find("Name=\"tilt\""), std::string::npos);
+}
+
+TEST_F(SpatialResultsProgram, HaveDirectionsAsRows)
+{
+    make_over_directions("d.h5");
+    const ResultReader reader(folder / "d.h5");
+    EXPECT_EQ(reader.header().direction_deg, (std::vector<double>{0, 60}));
+    EXPECT_TRUE(reader.header().frequency_hz.empty());
+    EXPECT_EQ(reader.surface().trials, (std::vector<std::uint64_t>{1, 1, 1, 1}));
+    EXPECT_EQ(reader.row(2).frequency_hz, 1.5);
+    ends_well({"verify-file", "d.h5"});
+    ends_well({"export", "d.h5", "--to", "csv", "-o", "tables"});
+    const std::string cells = bytes("tables/surface.csv"), rows = bytes("tables/realizations.csv");
+    EXPECT_EQ(cells.substr(0, cells.find(",trials")), "cell,direction_deg,pga_m_s2");
+    EXPECT_NE(cells.find("\n2,60,2,1,"), std::string::npos) << cells;
+    EXPECT_NE(rows.find(",pga_m_s2,direction_deg,"), std::string::npos) << rows;
+    EXPECT_NE(rows.find("\n3,3,1.5,4,60,"), std::string::npos) << rows;
+    ends_well({"report", "d.h5", "-o", "page.html"});
+    EXPECT_NE(bytes("page.html").find("direction of the shaking [°]"), std::string::npos);
+    const Ended replayed = run({"replay", "d.h5", "--direction", "60", "--pga", "4", "--nth", "1", "--json"});
+    EXPECT_EQ(json_of(replayed)["realization"].number, 3);
+    EXPECT_TRUE(json_of(replayed)["same_bits"].boolean);
+    const Ended other = run({"replay", "d.h5", "--frequency", "1.5"});
+    EXPECT_EQ(other.status, 2) << testing::PrintToString(other);
+    EXPECT_NE(other.err.find("--direction and --pga"), std::string::npos) << other.err;
+    const Ended slice = run({"export", "d.h5", "--to", "png", "--frequency", "60"});
+    EXPECT_EQ(slice.status, 2) << testing::PrintToString(slice);
+    EXPECT_NE(slice.err.find("a surface over directions"), std::string::npos) << slice.err;
 }
 
 TEST_F(SpatialResultsProgram, AreShownInMotionOnPagesAndHaveNoStripYet)

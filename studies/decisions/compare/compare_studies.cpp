@@ -83,6 +83,7 @@ std::vector<std::string> fixed_keys()
                                       "fragility.",
                                       "outcome.",
                                       "perturbation.phase.",
+                                      "perturbation.direction.",
                                       "perturbation.pulse_frequency.",
                                       "perturbation.pulse_gamma."};
     for (const MechanismRule& rule : mechanism_rules()) // what changes the shaking itself
@@ -251,8 +252,7 @@ Comparison comparison_facts(const Study& base, const ResultHeader& header, const
     comparison.level = level;
     if (layout.cells != 1)
         comparison.adjustment = layout.groups > 0 ? "holm" : "benjamini-hochberg";
-    comparison.frequency_hz = header.frequency_hz;
-    comparison.pga_m_s2 = header.pga_m_s2;
+    comparison.axes() = header;
     comparison.motions = layout.groups;
     if (const MotionSetSpec* motions = base.design().motions) {
         comparison.measure = measure_name(motions->measure, motions->period_s);

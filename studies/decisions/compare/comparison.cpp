@@ -49,17 +49,15 @@ std::vector<std::size_t> LimitComparison::named(double rate, bool worse) const
     return found;
 }
 
-std::size_t Comparison::cells() const
+std::size_t Comparison::places() const
 {
-    if (!frequency_hz.empty())
-        return frequency_hz.size() * pga_m_s2.size();
-    return std::max<std::size_t>(1, intensity.size());
+    return cells() > 0 ? cells() : std::max<std::size_t>(1, intensity.size());
 }
 
 std::string Comparison::place(std::size_t cell) const
 {
-    if (!frequency_hz.empty())
-        return fmt::format("{:.3g} Hz, {:.3g} m/s2", frequency_hz[cell / pga_m_s2.size()],
+    if (cells() > 0)
+        return fmt::format("{:.3g}{}, {:.3g} m/s2", rows()[cell / pga_m_s2.size()], row_quantity().symbol,
                            pga_m_s2[cell % pga_m_s2.size()]);
     return intensity.empty()
                ? "all"
@@ -77,11 +75,11 @@ std::vector<CapacityRow> capacity_rows(const Comparison& comparison, const Limit
     const std::size_t n = comparison.pga_m_s2.size();
     if (n < 2)
         return rows;
-    for (std::size_t f = 0; f < comparison.frequency_hz.size(); ++f) {
+    for (std::size_t f = 0; f < comparison.rows().size(); ++f) {
         std::vector<PairedCounts> counts;
         for (const PlaceComparison& place : std::span(limit.cells).subspan(f * n, n))
             counts.push_back(place.counts);
-        rows.push_back({fmt::format("{:.3g} Hz", comparison.frequency_hz[f]),
+        rows.push_back({fmt::format("{:.3g}{}", comparison.rows()[f], comparison.row_quantity().symbol),
                         capacity_ratio(comparison.pga_m_s2, counts, 0, comparison.level)});
     }
     return rows;
@@ -189,7 +187,7 @@ std::vector<Table> tables_of(const Comparison& comparison)
 {
     std::vector<Table> tables = {general_table(comparison)};
     for (std::size_t i = 0; i < comparison.variants.size(); ++i)
-        tables.push_back(table_of(comparison.variants[i], i, comparison.cells()));
+        tables.push_back(table_of(comparison.variants[i], i, comparison.places()));
     return tables;
 }
 
@@ -198,13 +196,13 @@ Comparison comparison_from(const std::vector<Table>& tables, const std::string& 
     const Table& general = table_named(tables, "comparison", file);
     Comparison c;
     read_record(general, c);
-    if (c.frequency_hz.empty() != c.pga_m_s2.empty())
+    if (c.rows().empty() != c.pga_m_s2.empty())
         general.refuse("one axis of its surface is missing");
     const std::size_t variants = general.texts("variants").size();
     if (variants == 0)
         general.refuse("it has no variant");
     for (std::size_t i = 0; i < variants; ++i)
-        c.variants.push_back(variant_of(table_named(tables, variant_table + std::to_string(i), file), c.cells()));
+        c.variants.push_back(variant_of(table_named(tables, variant_table + std::to_string(i), file), c.places()));
     return c;
 }
 

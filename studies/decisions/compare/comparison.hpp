@@ -106,29 +106,30 @@ struct VariantComparison {
     }
 };
 
-struct Comparison {
+/// The axes are those of a surface.
+struct Comparison : SurfaceAxes {
     std::string kind; ///< of the studies
     std::string title;
     std::string base_name, base_results, base_toml;
     std::string code_version;
-    double level = interval_level;              ///< of intervals and verdicts
-    double rate = 0.05;                         ///< of false names among the cells that are named
-    std::optional<std::string> adjustment;      ///< "benjamini-hochberg" or "holm"; nullopt: there is one cell
-    std::vector<double> frequency_hz, pga_m_s2; ///< axes of a surface
-    std::string measure;                        ///< of a fragility study
-    std::vector<double> intensity;              ///< its stripes; none of a cloud
-    std::uint64_t motions = 0;                  ///< of a fragility study: the groups of pairs
-    std::uint64_t adaptive_budget = 0;          ///< realizations of each study at most; 0: all were run
-    double adaptive_margin = 0;                 ///< difference that matters
+    double level = interval_level;         ///< of intervals and verdicts
+    double rate = 0.05;                    ///< of false names among the cells that are named
+    std::optional<std::string> adjustment; ///< "benjamini-hochberg" or "holm"; nullopt: there is one cell
+    std::string measure;                   ///< of a fragility study
+    std::vector<double> intensity;         ///< its stripes; none of a cloud
+    std::uint64_t motions = 0;             ///< of a fragility study: the groups of pairs
+    std::uint64_t adaptive_budget = 0;     ///< realizations of each study at most; 0: all were run
+    double adaptive_margin = 0;            ///< difference that matters
     std::uint64_t adaptive_rounds = 0;
     std::vector<VariantComparison> variants;
 
-    std::size_t cells() const;
+    /// The cells of a surface, the stripes, or 1.
+    std::size_t places() const;
     /// "2.5 Hz, 4 m/s2", "PGA 3 m/s2", "all".
     std::string place(std::size_t cell) const;
 };
 
-/// A frequency of a surface, or all stripes of a fragility study.
+/// A row of a surface, or all stripes of a fragility study.
 struct CapacityRow {
     std::string place; ///< "0.5 Hz", "all stripes"
     CapacityRatio ratio;
@@ -234,6 +235,7 @@ void visit_fields(std::type_identity<Comparison>, F&& f)
     f("adaptive_rounds", &Comparison::adaptive_rounds);
     f("code_version", &Comparison::code_version);
     f("frequency_hz", &Comparison::frequency_hz, {.none = "no surface"});
+    f("direction_deg", &Comparison::direction_deg, {.none = "no surface over directions"});
     f("pga_m_s2", &Comparison::pga_m_s2, {.none = "no surface"});
     f("intensity", &Comparison::intensity, {.none = "no stripes"});
 }

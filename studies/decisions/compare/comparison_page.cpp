@@ -247,11 +247,11 @@ private:
         const std::string limit = c_.variants.front().limits.front().name;
         if (!c_.intensity.empty())
             return stripes(limit);
-        if (c_.frequency_hz.empty())
+        if (c_.cells() == 0)
             return;
         picture("the map",
-                "Change of " + limit +
-                    " over frequency and PGA. Cells in full colours are named: " + adjustment_text(c_) + ".",
+                "Change of " + limit + " over " + c_.row_quantity().name +
+                    " and PGA. Cells in full colours are named: " + adjustment_text(c_) + ".",
                 [&](const fs::path& png) { comparison_picture(c_, limit, std::nullopt, png); });
     }
 
@@ -284,7 +284,7 @@ private:
 
     void named()
     {
-        if (c_.cells() == 1)
+        if (c_.places() == 1)
             return;
         page_.section("Where it changes");
         page_.paragraph("Cells that are named by the exact test of their discordant pairs, over all cells of a limit "
@@ -389,8 +389,7 @@ void draw_maps(const Comparison& comparison, const std::string& limit, const std
     MapPicture picture;
     picture.title = title;
     picture.subtitle = fmt::format("named: {}", adjustment_text(comparison));
-    picture.frequency_hz = comparison.frequency_hz;
-    picture.pga_m_s2 = comparison.pga_m_s2;
+    picture.axes() = comparison;
     const std::size_t n = comparison.variants.size();
     picture.columns = n == 1 ? 1 : n <= 4 ? 2 : 3;
     picture.key = "lines: probability of the base 5, 50 and 95 % · grey: no pair";
@@ -454,7 +453,7 @@ void comparison_picture(const Comparison& comparison, const std::optional<std::s
 {
     const std::string name = limit_of(comparison.variants.front(), limit).name;
     const std::string heading = title.value_or(fmt::format("Change of {}: base {}", name, comparison.base_name));
-    if (!comparison.frequency_hz.empty())
+    if (comparison.cells() > 0)
         draw_maps(comparison, name, heading, file);
     else if (!comparison.intensity.empty())
         draw_stripes(comparison, name, heading, file);

@@ -78,8 +78,8 @@ Json cells_json(const Comparison& comparison, const LimitComparison& limit)
     for (std::size_t cell = 0; cell < limit.cells.size(); ++cell) {
         Json json = place_json(limit, limit.cells[cell]);
         json.member("cell", cell);
-        if (!comparison.frequency_hz.empty())
-            json.member("frequency_hz", comparison.frequency_hz[cell / comparison.pga_m_s2.size()])
+        if (comparison.cells() > 0)
+            json.member(comparison.row_quantity().key, comparison.rows()[cell / comparison.pga_m_s2.size()])
                 .member("pga_m_s2", comparison.pga_m_s2[cell % comparison.pga_m_s2.size()]);
         if (!comparison.intensity.empty())
             json.member("intensity", comparison.intensity[cell]);
@@ -306,9 +306,9 @@ std::string over_all(const Comparison& c)
 {
     if (c.motions > 0)
         return fmt::format("over {}{}", counted(c.motions, "motion"),
-                           c.cells() > 1 ? fmt::format(" at {} intensities", c.cells()) : "");
-    return c.cells() > 1 ? fmt::format("over the {} cells of the study, each with the same weight", c.cells())
-                         : "under the study's shaking";
+                           c.places() > 1 ? fmt::format(" at {} intensities", c.places()) : "");
+    return c.places() > 1 ? fmt::format("over the {} cells of the study, each with the same weight", c.places())
+                          : "under the study's shaking";
 }
 
 std::string interval_text(const PairedDifference& d)
@@ -347,7 +347,7 @@ std::string third_text(const InputDependence& input, std::size_t third)
 std::optional<std::string> cells_text(const Comparison& c, const VariantComparison& variant, bool worse)
 {
     const LimitComparison& limit = variant.limits.front();
-    if (c.cells() == 1 || !limit.damage)
+    if (c.places() == 1 || !limit.damage)
         return std::nullopt;
     const std::vector<std::size_t> cells = limit.named(c.rate, worse); // the largest difference first
     if (cells.empty())

@@ -67,8 +67,7 @@ LawBand band_of(const Comparison& comparison, const std::vector<ContactLaw>& law
                 band.notes.push_back(law.name + ": " + *law.note);
         }
     band.left_out = laws_left_out(laws);
-    band.frequency_hz = comparison.frequency_hz;
-    band.pga_m_s2 = comparison.pga_m_s2;
+    band.axes() = comparison;
     band.measure = comparison.measure;
     band.intensity = comparison.intensity;
     for (std::size_t cell = 0; cell < comparison.variants.front().limits.front().cells.size(); ++cell)

@@ -185,7 +185,7 @@ bool compute(const LoadedStudy& loaded, const fs::path& results, bool resume, co
              Observer& observer)
 {
     const ResultHeader header = loaded.result_header();
-    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2);
+    SurfaceCounts counts(header);
     const std::unique_ptr<ResultWriter> writer =
         resume ? ResultWriter::resume(results, header) : ResultWriter::create(results, header);
     RunPlan plan;

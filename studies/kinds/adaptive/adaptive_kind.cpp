@@ -15,8 +15,7 @@ namespace {
 SurfaceTable table_of(AdaptiveAllocation& allocation, const ResultHeader& header, const SurfaceTrials& data)
 {
     SurfaceTable table;
-    table.frequency_hz = header.frequency_hz;
-    table.pga_m_s2 = header.pga_m_s2;
+    table.axes() = header;
     table.trials = data.trials;
     table.collapses = data.collapses;
     for (const CellEstimate& cell : allocation.estimate(data)) {
@@ -103,14 +102,14 @@ SurfaceTrials CellOutcomes::trials(const std::vector<std::uint64_t>& asked) cons
 }
 
 AdaptiveKind::AdaptiveKind(const Study& study, const ResultHeader& header)
-    : SurfaceKind(study, header), outcomes_(header.frequency_hz.size(), header.pga_m_s2.size(), study.realizations)
+    : SurfaceKind(study, header), outcomes_(header.rows().size(), header.pga_m_s2.size(), study.realizations)
 {
 }
 
 bool AdaptiveKind::plan(Rounds& rounds)
 {
     const AdaptiveSpec& spec = *study_.surface->adaptive;
-    AdaptiveAllocation allocation(spec, header_.frequency_hz.size(), header_.pga_m_s2.size(), study_.realizations);
+    AdaptiveAllocation allocation(spec, header_.rows().size(), header_.pga_m_s2.size(), study_.realizations);
     rounds.progress.total = spec.budget;
     rounds.progress.open_end = true;
     std::vector<std::uint64_t> before = allocation.asked();

@@ -33,22 +33,19 @@ SurfaceTable with_shares(SurfaceTable table)
 
 } // namespace
 
-SurfaceCounts::SurfaceCounts(std::vector<double> frequency_hz, std::vector<double> pga_m_s2, LimitState limit)
-    : limit_(limit)
+SurfaceCounts::SurfaceCounts(const SurfaceAxes& axes, LimitState limit) : limit_(limit)
 {
-    const std::size_t cells = frequency_hz.size() * pga_m_s2.size();
-    table_.frequency_hz = std::move(frequency_hz);
-    table_.pga_m_s2 = std::move(pga_m_s2);
-    table_.trials.resize(cells);
-    table_.collapses.resize(cells);
+    table_.axes() = axes;
+    table_.trials.resize(axes.cells());
+    table_.collapses.resize(axes.cells());
 }
 
-SurfaceCounts::SurfaceCounts(const SurfaceTable& counted)
+SurfaceCounts SurfaceCounts::of(const SurfaceTable& counted)
 {
-    table_.frequency_hz = counted.frequency_hz;
-    table_.pga_m_s2 = counted.pga_m_s2;
-    table_.trials = counted.trials;
-    table_.collapses = counted.collapses;
+    SurfaceCounts counts(counted.axes());
+    counts.table_.trials = counted.trials;
+    counts.table_.collapses = counted.collapses;
+    return counts;
 }
 
 void SurfaceCounts::add(const ResultRow& row)
@@ -67,8 +64,7 @@ SurfaceTable SurfaceCounts::table() const
 SurfaceTable surface_of(const ResultHeader& header, const Tally& tally, LimitState limit)
 {
     SurfaceTable table;
-    table.frequency_hz = header.frequency_hz;
-    table.pga_m_s2 = header.pga_m_s2;
+    table.axes() = header;
     table.trials = tally.trials;
     for (std::size_t cell = 0; cell < tally.cells(); ++cell)
         table.collapses.push_back(tally.reached[cell * tally.limit_states + static_cast<std::size_t>(limit)]);
@@ -91,15 +87,15 @@ constexpr std::size_t most_with_intervals = 10;
 
 HtmlTable cell_table(const SurfaceTable& surface)
 {
-    const std::size_t nf = surface.frequency_hz.size(), np = surface.pga_m_s2.size();
+    const std::size_t nf = surface.rows().size(), np = surface.pga_m_s2.size();
     const bool intervals = nf <= most_with_intervals;
     HtmlTable table;
-    table.caption = fmt::format("Probability of collapse [%]{}; columns: frequency [Hz], rows: PGA [m/s²]",
-                                intervals ? ", below it its interval" : "");
+    table.caption = fmt::format("Probability of collapse [%]{}; columns: {}, rows: PGA [m/s²]",
+                                intervals ? ", below it its interval" : "", surface.row_quantity().label);
     table.align = "r" + std::string(nf, 'c');
     table.head = {"PGA"};
-    for (const double frequency : surface.frequency_hz)
-        table.head.emplace_back(fmt::format("{:.3g}", frequency));
+    for (const double value : surface.rows())
+        table.head.emplace_back(fmt::format("{:.3g}", value));
     for (std::size_t p = np; p-- > 0;) {
         std::vector<Html> row = {fmt::format("{:.3g}", surface.pga_m_s2[p])};
         for (std::size_t f = 0; f < nf; ++f) {
@@ -131,32 +127,33 @@ std::vector<double> unit_edges(const CellAxis& axis)
 CellMap surface_map(const SurfaceTable& table)
 {
     CellMap map;
-    map.title = fmt::format("Map of the probability of collapse, {} frequencies by {} values of PGA",
-                            table.frequency_hz.size(), table.pga_m_s2.size());
-    map.x_label = "frequency [Hz]";
+    map.title = fmt::format("Map of the probability of collapse, {} {} by {} values of PGA", table.rows().size(),
+                            table.row_quantity().plural, table.pga_m_s2.size());
+    map.x_label = table.row_quantity().label;
     map.y_label = "PGA [m/s²]";
     map.value_label = "probability of collapse";
-    map.x = table.frequency_hz;
+    map.x = table.rows();
     map.y = table.pga_m_s2;
-    map.x_edges = unit_edges(make_cell_axis(map.x, "frequency_hz"));
+    map.x_edges = unit_edges(make_cell_axis(map.x, table.row_quantity().key));
     map.y_edges = unit_edges(make_cell_axis(map.y, "pga_m_s2"));
     map.value = table.probability;
     map.contours = surface_contours(table);
     return map;
 }
 
-/// The probability over PGA at some frequencies, with its intervals.
+/// The probability over PGA at some frequencies or directions, with its intervals.
 Figure slice_figure(const SurfaceTable& table)
 {
     Figure figure;
-    figure.title = "Probability of collapse over PGA at some frequencies";
+    const RowQuantity& of = table.row_quantity();
+    figure.title = fmt::format("Probability of collapse over PGA at some {}", of.plural);
     figure.x_label = "PGA [m/s²]";
     figure.y_label = "probability of collapse";
     figure.x_log = make_cell_axis(table.pga_m_s2, "pga_m_s2").log;
     const std::size_t np = table.pga_m_s2.size();
     for (const std::size_t row : slice_rows(table, {})) {
         FigureSeries series{
-            fmt::format("{:.3g} Hz", table.frequency_hz[row]), SeriesKind::line, table.pga_m_s2, {}, {}, {}};
+            fmt::format("{:.3g}{}", table.rows()[row], of.symbol), SeriesKind::line, table.pga_m_s2, {}, {}, {}};
         for (std::size_t p = 0; p < np; ++p) {
             series.y.push_back(table.probability[row * np + p]);
             series.low.push_back(table.lower[row * np + p]);
@@ -184,8 +181,7 @@ std::optional<SurfaceRange> range_of(const LawBand* laws, LimitState limit)
 
 } // namespace
 
-SurfaceKind::SurfaceKind(const Study& study, const ResultHeader& header)
-    : Kind(study, header), counts_by_cell_(header.frequency_hz, header.pga_m_s2)
+SurfaceKind::SurfaceKind(const Study& study, const ResultHeader& header) : Kind(study, header), counts_by_cell_(header)
 {
 }
 
@@ -197,18 +193,20 @@ void SurfaceKind::take(const ResultRow& row)
 
 void SurfaceKind::take(const Tally& tally)
 {
-    counts_by_cell_ = SurfaceCounts(surface_of(header_, tally, LimitState::collapse));
+    counts_by_cell_ = SurfaceCounts::of(surface_of(header_, tally, LimitState::collapse));
 }
 
 ChosenCells SurfaceKind::choose(const CellChoice& choice, const std::string& results) const
 {
-    if (choice.motion || choice.intensity)
+    const bool directions = !header_.direction_deg.empty();
+    if (choice.motion || choice.intensity || (directions ? choice.frequency_hz : choice.direction_deg))
         return Kind::choose(choice, results);
     std::optional<std::uint64_t> f, p;
     ChosenCells cells;
-    if (choice.frequency_hz) {
-        f = nearest_on_axis(header_.frequency_hz, *choice.frequency_hz, "--frequency", "Hz", results);
-        cells.words = fmt::format("at {:.4g} Hz", header_.frequency_hz[*f]);
+    const RowQuantity& of = header_.row_quantity();
+    if (const auto& value = directions ? choice.direction_deg : choice.frequency_hz) {
+        f = nearest_on_axis(header_.rows(), *value, of.option, of.unit, results);
+        cells.words = fmt::format("at {:.4g}{}", header_.rows()[*f], of.symbol);
     }
     if (choice.pga_m_s2) {
         p = nearest_on_axis(header_.pga_m_s2, *choice.pga_m_s2, "--pga", "m/s2", results);
@@ -227,21 +225,24 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
     if (request.limit && std::find(known.begin(), known.end(), *request.limit) == known.end())
         throw InputError(
             fmt::format("--limit {}: the limit states of a surface are {}", *request.limit, fmt::join(known, ", ")));
+    if (const RowQuantity& of = header_.row_quantity(); request.rows_by && *request.rows_by != of.option)
+        throw InputError(
+            fmt::format("{}: {} is a surface over {}; give {}", *request.rows_by, results, of.plural, of.option));
     const LimitState limit = request.limit ? limit_state_of(*request.limit) : LimitState::collapse;
     const SurfaceTable surface = surface_so_far(reader, study_, results, limit);
     Picture picture;
     picture.name = request.name;
-    if (!request.frequencies_hz.empty())
-        for (const std::size_t row : slice_rows(surface, request.frequencies_hz))
-            picture.name += fmt::format("_{:.4g}Hz", surface.frequency_hz[row]);
+    if (!request.rows.empty())
+        for (const std::size_t row : slice_rows(surface, request.rows))
+            picture.name += fmt::format("_{:.4g}{}", surface.rows()[row], surface.direction_deg.empty() ? "Hz" : "deg");
     if (request.limit)
         picture.name += "_" + *request.limit;
     picture.title = "Probability of " + std::string(describe(limit));
     picture.partial = partial_words(reader, study_, surface);
     if (request.name == "slice")
-        picture.draw = [surface, limit, frequencies = request.frequencies_hz](const std::string& title,
-                                                                              const std::filesystem::path& file) {
-            plot_slice(surface, frequencies, describe(limit), title, file);
+        picture.draw = [surface, limit, rows = request.rows](const std::string& title,
+                                                             const std::filesystem::path& file) {
+            plot_slice(surface, rows, describe(limit), title, file);
         };
     else
         picture.draw = [surface, limit, range = range_of(request.laws, limit)](const std::string& title,
@@ -256,15 +257,17 @@ void SurfaceKind::sections(PageWriter& writer) const
     const SurfaceTable table = *surface();
     writer.page.section("Probability of collapse");
     writer.page.figure(map_svg(surface_map(table)),
-                       "The probability of collapse over frequency and PGA. Lines: 0.05, 0.5 and 0.95.");
+                       fmt::format("The probability of collapse over {} and PGA. Lines: 0.05, 0.5 and 0.95.",
+                                   table.row_quantity().name));
     if (table.pga_m_s2.size() > 1)
-        writer.page.figure(figure_svg(slice_figure(table)),
-                           "The probability at some frequencies; bands: the intervals of the cells.");
+        writer.page.figure(
+            figure_svg(slice_figure(table)),
+            fmt::format("The probability at some {}; bands: the intervals of the cells.", table.row_quantity().plural));
     writer.page.table(cell_table(table));
     if (const std::optional<std::string> more = remark(table))
         writer.page.note(*more);
     writer.page.note(describe_realizations(table) + "; " + describe_interval(table.interval) +
-                     (table.frequency_hz.size() <= most_with_intervals
+                     (table.rows().size() <= most_with_intervals
                           ? "."
                           : ". The intervals of all cells are in the file, and in the tables of stylobate export "
                             "--to csv."));
@@ -295,7 +298,7 @@ SurfaceTable surface_so_far(const ResultReader& reader, const Study& study, cons
                                      results));
     if (const Tally* tally = reader.tally())
         return surface_of(header, *tally, limit);
-    SurfaceCounts counts(header.frequency_hz, header.pga_m_s2, limit);
+    SurfaceCounts counts(header, limit);
     const std::uint64_t originals = study.originals();
     const RunOrder order(originals);
     std::uint64_t places = header.selected ? 0 : originals; // those of an adaptive surface are begun round by round

@@ -1,5 +1,5 @@
 #pragma once
-/// A surface: realizations in every cell of frequency by PGA, as rows or as counts.
+/// A surface: realizations in every cell of frequency, or direction, by PGA, as rows or as counts.
 
 #include "studies/kinds/kind.hpp"
 
@@ -10,10 +10,9 @@ namespace stylobate {
 /// Counts realizations cell by cell; those that are invalid are no trials.
 class SurfaceCounts {
 public:
-    SurfaceCounts(std::vector<double> frequency_hz, std::vector<double> pga_m_s2,
-                  LimitState limit = LimitState::collapse);
+    explicit SurfaceCounts(const SurfaceAxes& axes, LimitState limit = LimitState::collapse);
     /// Of what has been counted; its probabilities are computed anew.
-    explicit SurfaceCounts(const SurfaceTable& counted);
+    static SurfaceCounts of(const SurfaceTable& counted);
     void add(const ResultRow& row);
     /// Probability and Jeffreys interval of every cell.
     SurfaceTable table() const;
@@ -34,7 +33,10 @@ public:
     std::optional<SurfaceTable> surface() const override { return counts_by_cell_.table(); }
 
     ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
-    std::optional<std::string> chosen_by() const override { return "--frequency and --pga"; }
+    std::optional<std::string> chosen_by() const override
+    {
+        return std::string(header_.row_quantity().option) + " and --pga";
+    }
 
     static constexpr PictureKind own_pictures[] = {{"surface", "a surface", true}, {"slice", "a surface", true, true}};
     std::span<const PictureKind> pictures() const override { return own_pictures; }

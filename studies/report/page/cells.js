@@ -1,7 +1,7 @@
 // The map of a surface: what is known of a cell under the pointer or under the keys; a click or Enter opens the cell.
-// Data: {frequency_hz, pga_m_s2, interval, trials, collapses, probability, lower, upper, file, [method], [outcomes:
+// Data: {rows, row_name, row_symbol, row_option, pga_m_s2, interval, trials, collapses, probability, lower, upper, file, [method], [outcomes:
 // {state: [counts]}, first: {cell: [[name, count]]}, times: {cell: [first, median, last]}], [rose: {cell: [falls by
-// direction]}]}; arrays by cell, frequency x PGAs + PGA.
+// direction]}]}; arrays by cell, row x PGAs + PGA; the rows are columns of the map.
 
 class CellMap {
   constructor(drawing, data, store) {
@@ -10,7 +10,7 @@ class CellMap {
     this.data = data;
     this.store = store;
     this.rows = data.pga_m_s2.length;
-    this.columns = data.frequency_hz.length;
+    this.columns = data.rows.length;
     this.rects = [];
     for (const rect of drawing.querySelectorAll("[data-cell]")) this.rects[Number(rect.dataset.cell)] = rect;
     this.tip = new Tip(this.figure);
@@ -38,13 +38,16 @@ class CellMap {
   // ---- what is known of a cell ----
 
   title(cell) {
-    const {frequency_hz: f, pga_m_s2: p} = this.data;
-    return `${numberText(f[Math.floor(cell / this.rows)])} Hz, PGA ${numberText(p[cell % this.rows])} m/s²`;
+    return `${this.row(cell)}, PGA ${numberText(this.data.pga_m_s2[cell % this.rows])} m/s²`;
+  }
+
+  row(cell) {
+    return `${numberText(this.data.rows[Math.floor(cell / this.rows)])}${this.data.row_symbol}`;
   }
 
   facts(cell) {
     const d = this.data;
-    const rows = [["frequency", `${numberText(d.frequency_hz[Math.floor(cell / this.rows)])} Hz`],
+    const rows = [[d.row_name, this.row(cell)],
                   ["PGA", `${numberText(d.pga_m_s2[cell % this.rows])} m/s²`]];
     if (!d.trials[cell]) return [...rows, ["realizations", "none"]];
     rows.push(["probability of collapse", percentText(d.probability[cell])],
@@ -128,9 +131,9 @@ class CellMap {
       this.player = playerOf(this.store, list);
       this.panel.append(this.player.element);
     } else if (d.trials[cell]) {
-      const f = d.frequency_hz[Math.floor(cell / this.rows)], p = d.pga_m_s2[cell % this.rows];
+      const f = d.rows[Math.floor(cell / this.rows)], p = d.pga_m_s2[cell % this.rows];
       this.panel.append(html("p", {class: "note"}, "The page has no animation of this cell. One of its realizations: ",
-          html("code", {}, `stylobate replay ${d.file} --frequency ${numberText(f, 6)} --pga ${numberText(p, 6)} -o one.h5`)));
+          html("code", {}, `stylobate replay ${d.file} ${d.row_option} ${numberText(f, 6)} --pga ${numberText(p, 6)} -o one.h5`)));
     }
     this.figure.after(this.panel);
     (this.player ? this.player.stage : this.panel.querySelector(".close")).focus({preventScroll: true});

@@ -41,6 +41,7 @@ std::string single(const std::string& excitation, const std::string& structure =
     return "[study]\nkind = \"single\"\n[excitation]\n" + excitation + "\n" + structure;
 }
 const std::string noise = "kind = \"noise\"\nfrequency_hz = 2\npga_m_s2 = 3\n";
+const std::string noise_of_2_hz = "kind = \"noise\"\nfrequency_hz = 2\n";
 const std::string harmonic = "kind = \"harmonic\"\nfrequency_hz = 2\npga_m_s2 = 3\n";
 const std::string record = "kind = \"record\"\nfile = \"A000.AT2\"\n";
 
@@ -140,6 +141,59 @@ TEST(ShakingInSpace, ADirectionIsDrawnInDegrees)
     expect_refused(single(noise + "direction_deg = 20") +
                        "[perturbation]\ndirection = { distribution = \"uniform\" }\n",
                    7, {"excitation.direction_deg", "give it twice"});
+}
+
+/// A surface with its axes from line 7.
+std::string surface(const std::string& axes, const std::string& excitation = noise_of_2_hz,
+                    const std::string& structure = in_space)
+{
+    return "[study]\nkind = \"surface\"\nrealizations = 2\n[surface]\npga_m_s2 = { from = 1, to = 3, count = 3 }\n" +
+           axes + "\n[excitation]\n" + excitation + structure;
+}
+const std::string directions = "direction_deg = { from = -45, to = 90, count = 4 }";
+const std::string frequencies = "frequency_hz = { from = 1, to = 2, count = 2 }";
+
+TEST(ShakingInSpace, ReadsDirectionsAsRowsOfASurface)
+{
+    const Study study = parse_study(surface(directions), "temple.toml");
+    ASSERT_TRUE(study.surface->direction_deg);
+    EXPECT_EQ(study.surface->cells(), 12);
+    EXPECT_EQ(study.surface->rows().value(1), 0);
+    EXPECT_EQ(study.excitation.frequency_hz, 2);
+    const StudyDesign design = study.design();
+    EXPECT_EQ(design.cells, 12U);
+    EXPECT_EQ(design.columns, 3U);
+    EXPECT_EQ(design.frequency_hz, nullptr);
+    ASSERT_NE(design.direction_deg, nullptr);
+    EXPECT_NE(study.text.find("[surface]\ndirection_deg = {"), std::string::npos) << study.text;
+    EXPECT_EQ(study.text.find("\ndirection_deg = 0"), std::string::npos) << study.text;
+    expect_same_again(study);
+    EXPECT_EQ(parse_study(study.text, "again.toml").design().direction_deg->to, 90);
+    // the frequency stays that of [excitation] in all rows, and may be drawn
+    const Study pulses = parse_study(surface(directions, "kind = \"pulse\"\nfrequency_hz = 1\n") +
+                                         "[perturbation]\npulse_frequency = { distribution = \"normal\", cov = 0.1 }\n",
+                                     "temple.toml");
+    EXPECT_EQ(pulses.perturbations.size(), 1U);
+    EXPECT_FALSE(parse_study(surface(frequencies, "kind = \"noise\"\n"), "temple.toml").surface->direction_deg);
+}
+
+TEST(ShakingInSpace, RefusesDirectionsThatARowCannotHave)
+{
+    expect_refused(surface(directions, noise_of_2_hz, in_plane), 6,
+                   {"surface.direction_deg", "is not used by structure.dimensions = 2", "structure.dimensions = 3"});
+    expect_refused(surface(directions + "\n" + frequencies), 6,
+                   {"direction_deg", "frequency_hz", "exclude each other"});
+    expect_refused(surface("direction_deg = { from = 0, to = 400, count = 2 }"), 6,
+                   {"surface.direction_deg.to", "[-360, 360]"});
+    expect_refused(surface("direction_deg = { from = 0, to = 90, count = 2, spacing = \"log\" }"), 6,
+                   {"surface.direction_deg.spacing", "linear"});
+    expect_refused(surface(directions, "kind = \"noise\"\n"), 7, {"excitation.frequency_hz is missing"});
+    expect_refused(surface(directions, noise_of_2_hz + "direction_deg = 10\n"), 10,
+                   {"excitation.direction_deg", "a study with surface.direction_deg", "[surface]"});
+    expect_refused(surface(directions, noise_of_2_hz + "pga_m_s2 = 10\n"), 10, {"excitation.pga_m_s2", "[surface]"});
+    expect_refused(surface(frequencies), 9, {"excitation.frequency_hz", "a study with surface.frequency_hz"});
+    expect_refused(surface(directions) + "[perturbation]\ndirection = { distribution = \"uniform\" }\n", 20,
+                   {"perturbation.direction", "a study with surface.direction_deg"});
 }
 
 TEST(ShakingInSpace, TheTextDiffersWhereverTheShakingDoes)

@@ -60,9 +60,9 @@ inline Comparison sample_comparison(bool of_motions)
         v.notes = {"structure.columns differs"};
         for (const char* limit : {"collapse", "peak_0.35"}) {
             LimitComparison state{limit, "what it is", true, {}, sample_place(30, 10), {}};
-            for (std::size_t cell = 0; cell < c.cells(); ++cell)
+            for (std::size_t cell = 0; cell < c.places(); ++cell)
                 state.cells.push_back(sample_place(40 - 30 * cell, 10 * cell));
-            for (std::size_t i = 0; of_motions && i < c.cells() * c.motions; ++i)
+            for (std::size_t i = 0; of_motions && i < c.places() * c.motions; ++i)
                 state.by_motion.push_back({i % 4, 3 - i % 3, i % 3, 1});
             v.limits.push_back(state);
         }

@@ -219,7 +219,7 @@ TEST(LimitState, SurfaceOfEach)
     const std::vector<std::uint64_t> left = {2, 0, 1, 0, 0}; // rows 0, 1, 7, 8 of the list above
     const std::vector<std::uint64_t> right = {2, 1, 3, 2, 1};
     for (std::size_t i = 0; i < left.size(); ++i) {
-        SurfaceCounts counts({1.0}, {2.0, 3.0}, static_cast<LimitState>(i));
+        SurfaceCounts counts({{1.0}, {2.0, 3.0}, {}}, static_cast<LimitState>(i));
         std::vector<ResultRow> rows = ten_rows();
         for (std::size_t k = 0; k < rows.size(); ++k) {
             rows[k].cell = k == 0 || k == 1 || k == 7 || k == 8 ? 0 : 1;
