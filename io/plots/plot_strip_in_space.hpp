@@ -10,11 +10,12 @@
 
 namespace stylobate {
 
-/// Draws snapshots to one scale, in the frame of the base and from one oblique view, the time under each (1800 pixels
-/// wide, as high as it needs); below them the plan with the orbit of the top, and the elevations from the front and
-/// from the side at the last sample; below these, over time, the displacements of the top and of the base along x and
-/// along z, with marks at the snapshots and a line at each fall. Blocks that have fallen by then have red outlines. The
-/// top and its displacement are those of `plot_strip`, which calls this function; so are the parameters and the errors.
+/// Draws snapshots to one scale, in the frame of the base and from one oblique view, the time under each and below it
+/// the plan with the orbit of the top so far (1800 pixels wide, as high as it needs); below them the elevations from
+/// the front and from the side and the plan at the last sample; below these, over time, the displacements of the top
+/// and of the base along x and along z, with marks at the snapshots and a line at each fall. Blocks that have fallen by
+/// then have red outlines. The top and its displacement are those of `plot_strip`, which calls this function; so are
+/// the parameters and the errors.
 void plot_strip_in_space(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
                          const std::filesystem::path& png, std::size_t snapshots);
 

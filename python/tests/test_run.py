@@ -208,8 +208,9 @@ def test_a_structure_in_space(folder):
     numpy.testing.assert_allclose(corners.mean(axis=2), middle, atol=1e-12)
     heights = numpy.linalg.norm(corners[:, :, 4:].mean(axis=2) - corners[:, :, :4].mean(axis=2), axis=-1)
     numpy.testing.assert_allclose(heights, numpy.broadcast_to(2 * replay.half_height_m, heights.shape), rtol=1e-12)
-    with pytest.raises(stylobate.InputError, match="no picture in motion yet"):
-        result.animate(3)
+    pytest.importorskip("matplotlib")
+    result.animate(3, seconds=0.2).save("fall.gif", writer="pillow")
+    assert pathlib.Path("fall.gif").read_bytes().startswith(b"GIF8")
 
 
 def test_arrays_share_memory_are_read_only_and_keep_their_owner(small_surface):

@@ -295,8 +295,18 @@ TEST_F(LibraryRun, FollowsAStructureInSpace)
     EXPECT_TRUE(std::isnan(got.outcome.top_path_m));
     EXPECT_GT(got.outcome.out_of_plane_share, 0);
     EXPECT_EQ(got.outcome.out_of_plane_share, result.outcomes()[3].out_of_plane_share);
-    EXPECT_THROW(api::write_svg(got, 0, folder / "t.svg"), api::InputError);
-    EXPECT_THROW(api::write_strip(got, folder / "t.png"), api::InputError);
+    api::write_svg(got, 0, folder / "t.svg");
+    const std::string svg = read_bytes(folder / "t.svg");
+    EXPECT_EQ(count_of(svg, "<polygon"), 1 + 6 * (12 + 1 + 1U)) << "the ground; sides, top and outline of each drum";
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    api::write_strip(got, folder / "t.png");
+    EXPECT_TRUE(read_bytes(folder / "t.png").starts_with("\x89PNG"));
+    api::Trajectory broken = got;
+    broken.top_half_z_m[2] = 0;
+    EXPECT_THROW(api::write_svg(broken, 0, folder / "broken.svg"), api::InputError);
+    broken = got;
+    broken.q_w.pop_back();
+    EXPECT_THROW(api::write_svg(broken, 0, folder / "broken.svg"), api::InputError);
 }
 
 TEST_F(LibraryRun, RefusesWhatTheProgramRefusesWithItsWords)

@@ -176,6 +176,13 @@ TEST_F(Check, DrawsTheStructure)
     EXPECT_EQ(run(and_also({"-o", "column.PNG"})).status, 0);
     EXPECT_TRUE(read_bytes(folder / "column.PNG").starts_with("\x89PNG"));
 
+    const Words in_space{"check", input("round_column"), "--pilot", "0", "--trial-seconds", "0", "--quiet", "--to",
+                         "svg"};
+    EXPECT_EQ(run(in_space).status, 0);
+    const std::string space = read_bytes(folder / "round_column_structure.svg");
+    for (const char* words : {"from the front", "from the side", ">plan<", "drums 1 to 6: diameter 1 m, height 1 m"})
+        EXPECT_NE(space.find(words), std::string::npos) << words;
+
     expect_refused(and_also({"--to", "svg"}), {"doric_column_structure.svg", "exists already", "--force"});
     EXPECT_EQ(run(and_also({"--to", "svg", "--force"})).status, 0);
     expect_refused(and_also({"--to", "gif"}), {"--to", "gif"});
