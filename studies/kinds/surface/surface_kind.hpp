@@ -3,6 +3,8 @@
 
 #include "studies/kinds/kind.hpp"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 namespace stylobate {
@@ -35,7 +37,7 @@ public:
     ChosenCells choose(const CellChoice& choice, const std::string& results) const override;
     std::optional<std::string> chosen_by() const override
     {
-        return std::string(header_.row_quantity().option) + " and --pga";
+        return fmt::format("{} and --pga", header_.row_quantity().option);
     }
 
     static constexpr PictureKind own_pictures[] = {{"surface", "a surface", true}, {"slice", "a surface", true, true}};
