@@ -308,7 +308,7 @@ TEST(StudyFile, RefusesKeysThatTheKindDoesNotUse)
                    {"excitation.cycles = 8", "not used by excitation.kind = \"record\""});
     expect_line_refused(16, "duration_s = 3",
                         {"excitation.duration_s = 3 is not used by excitation.kind = \"harmonic\""});
-    expect_line_refused(16, "frequency_hz = 3", {"excitation.frequency_hz", "study.kind = \"surface\"", "[surface]"});
+    expect_line_refused(16, "frequency_hz = 3", {"excitation.frequency_hz", "surface.frequency_hz", "[surface]"});
     expect_line_refused(16, "pga_m_s2 = 3", {"excitation.pga_m_s2", "[surface]"});
     expect_line_refused(21, "friction = { distribution = \"normal\", cov = 0.1, sigma_ln = 0.1 }",
                         {"perturbation.friction.sigma_ln", "not used by distribution = \"normal\""});
@@ -327,7 +327,7 @@ TEST(StudyFile, RefusesKeysThatTheKindDoesNotUse)
     expect_refused(joined(lines), "temple.toml:15", {"excitation.kind = \"none\"", "has no motion"});
     lines[15] = "kind = \"record\"\nfile = \"a.at2\"";
     lines[16] = "time_scale = 2";
-    expect_refused(joined(lines), "temple.toml:17", {"excitation.time_scale", "study.kind = \"surface\""});
+    expect_refused(joined(lines), "temple.toml:17", {"excitation.time_scale", "surface.frequency_hz"});
 }
 
 TEST(StudyFile, RefusesContradictions)

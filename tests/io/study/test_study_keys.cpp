@@ -133,6 +133,9 @@ std::vector<std::string> samples()
         single(harmonic, bays) + every_mechanism(),
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "adaptive = { budget = 100 }\n",
         surface + "[excitation]\nkind = \"harmonic\"\n" + axes + "[twins]\n",
+        "[study]\nkind = \"surface\"\nrealizations = 40\n" + solid_drums + area_contact +
+            "[excitation]\nkind = \"harmonic\"\nfrequency_hz = 2\n[surface]\ndirection_deg" + range + "pga_m_s2" +
+            range,
         pulses + "intensity = { measure = \"sa\", period_s = 1, from = 1, to = 2, count = 2 }\n",
         pulses + "intensity = { from = 1, to = 2, count = 2 }\n",
         fragility + "[excitation]\nkind = \"record\"\n[fragility]\nmethod = \"cloud\"\n" + records + "]\n",
