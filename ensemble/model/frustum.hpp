@@ -13,15 +13,17 @@ namespace stylobate {
 /// The outline of a block seen from above.
 enum class Shape : std::uint8_t { round, square, rectangle };
 
-/// A frustum of a cone (round) or of a pyramid.
+/// A frustum of a cone (round) or of a pyramid; of a capital it may stand on an echinus: a frustum of a cone whose
+/// upper circle touches the sides of the bottom face.
 struct Frustum {
     Shape shape = Shape::round;
     double width_m = 0; ///< of the bottom face along x; of a round one its diameter
     double depth_m = 0; ///< of the bottom face along z; of a round one the same
     double height_m = 0;
-    double top_ratio = 1; ///< t: top face over bottom face, along x and z alike; > 0
+    double top_ratio = 1;     ///< t: top face over bottom face, along x and z alike; > 0
+    double echinus_part = 0;  ///< of the height, at the bottom: the echinus; 0: there is none
+    double echinus_ratio = 0; ///< diameter of its bottom over `width_m`
 
-    double bottom_area_m2() const;
     double volume_m3() const;
     /// Of the centre of mass above the bottom face.
     double centre_height_m() const;

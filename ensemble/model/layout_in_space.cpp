@@ -46,14 +46,17 @@ void check_bed(const PlacedBlock& lower, const PlacedBlock& upper, const BedSpec
                                      "(bed_inner_ratio = {:g}). Lower bed_inner_ratio, or widen the drum.",
                                      upper.name, distance_words(width), lower.name, distance_words(hole),
                                      bed.inner_ratio));
-    const bool smaller = above.half_x_m < below.half_x_m * (1 - layout_rounding) ||
-                         above.half_z_m < below.half_z_m * (1 - layout_rounding);
-    if (upper.capital && smaller)
+    const auto covers = [&](const PlanFace& face) {
+        return face.half_x_m >= below.half_x_m * (1 - layout_rounding) &&
+               face.half_z_m >= below.half_z_m * (1 - layout_rounding);
+    };
+    const PlanFace abacus = face_of(upper, 1), &smaller = covers(abacus) ? above : abacus;
+    if (upper.capital && !covers(smaller))
         throw InputError(
             fmt::format("structure: {} is {} x {} wide at its bottom, smaller than the top of {}, {} x {}. "
                         "An abacus covers the drum: widen the capital.",
-                        upper.name, distance_words(2 * above.half_x_m), distance_words(2 * above.half_z_m), lower.name,
-                        distance_words(2 * below.half_x_m), distance_words(2 * below.half_z_m)));
+                        upper.name, distance_words(2 * smaller.half_x_m), distance_words(2 * smaller.half_z_m),
+                        lower.name, distance_words(2 * below.half_x_m), distance_words(2 * below.half_z_m)));
 }
 
 /// Whether a point is inside the convex outline of others: seen from it they leave no half plane empty.
@@ -73,23 +76,25 @@ bool is_among(double x, double z, const std::vector<PlanFace>& rectangles)
 }
 
 /// The columns on which an epistyle lies, in the order of their places along it.
-std::vector<int> columns_under(const EpistyleSpec& epistyle, const StructureSpec& structure)
+/// @param block the epistyle   @param tops index of the topmost block of each column
+std::vector<int> columns_under(const EpistyleSpec& epistyle, const PlacedBlock& block, const StructureSpec& structure,
+                               const std::vector<int>& tops, const Layout& layout)
 {
     const bool along_z = epistyle.along == Along::z;
     const auto along = [&](int c) {
         const ColumnSpec& column = structure.columns[static_cast<std::size_t>(c)];
         return along_z ? column.z_m : column.x_m;
     };
-    const auto across = [&](int c) {
-        const ColumnSpec& column = structure.columns[static_cast<std::size_t>(c)];
-        return along_z ? column.x_m - epistyle.x_m : column.z_m - epistyle.z_m;
+    const auto is_under = [&](int c) {
+        const PlanFace top = top_face(block_at(layout, tops[static_cast<std::size_t>(c)]));
+        return gap_m(top, bottom_face(block)) < -layout_rounding * epistyle.width_m;
     };
     const double from = std::min(along(epistyle.first_column), along(epistyle.last_column));
     const double to = std::max(along(epistyle.first_column), along(epistyle.last_column));
     std::vector<int> under;
     for (int c = 0; c < static_cast<int>(structure.columns.size()); ++c)
         if (c == epistyle.first_column || c == epistyle.last_column ||
-            (along(c) > from && along(c) < to && std::abs(across(c)) < epistyle.width_m / 2))
+            (along(c) > from && along(c) < to && is_under(c)))
             under.push_back(c);
     std::stable_sort(under.begin(), under.end(), [&](int a, int b) { return along(a) < along(b); });
     return under;
@@ -127,7 +132,7 @@ void place_epistyle_in_space(const EpistyleSpec& epistyle, int number, const Str
         epistyle.last_column >= columns)
         throw InputError(fmt::format("structure: {} lies on the columns from {} to {}, but the columns are 1 to {}.",
                                      block.name, epistyle.first_column + 1, epistyle.last_column + 1, columns));
-    const std::vector<int> under = columns_under(epistyle, structure);
+    const std::vector<int> under = columns_under(epistyle, block, structure, tops, layout);
     const auto top_of = [&](int column) -> const PlacedBlock& {
         return block_at(layout, tops[static_cast<std::size_t>(column)]);
     };
@@ -165,7 +170,10 @@ void place_epistyle_in_space(const EpistyleSpec& epistyle, int number, const Str
 
 PlanFace bottom_face(const PlacedBlock& block)
 {
-    return face_of(block, 1);
+    if (!(block.echinus_part > 0))
+        return face_of(block, 1);
+    const double radius = block.echinus_ratio * block.width_m / 2;
+    return {true, block.x_m(), block.z_m(), radius, radius};
 }
 
 PlanFace top_face(const PlacedBlock& block)

@@ -80,6 +80,8 @@ int place_column(const ColumnSpec& column, int number, const std::string& of_col
             block.axis_z_m = column.z_m;
             block.offset_z_m = drum.offset_z_m;
             block.capital = drum.capital;
+            block.echinus_part = drum.echinus_height_m / drum.height_m;
+            block.echinus_ratio = drum.echinus_width_m / drum.width_m;
         }
         block.y_m = top + drum.height_m / 2;
         block.fixed = i < column.fixed_blocks;

@@ -51,9 +51,11 @@ struct DrumSpec {
     bool capital = false; ///< the uppermost one of its column may be
     // in space
     Shape shape = Shape::round;
-    double depth_m = 0;     ///< extent along z of the bottom face; of round and square ones the width
-    double top_width_m = 0; ///< width of the top face, whose depth is smaller in the same proportion
-    double offset_z_m = 0;  ///< of its centre from the axis of its column, along z
+    double depth_m = 0;          ///< extent along z of the bottom face; of round and square ones the width
+    double top_width_m = 0;      ///< width of the top face, whose depth is smaller in the same proportion
+    double offset_z_m = 0;       ///< of its centre from the axis of its column, along z
+    double echinus_height_m = 0; ///< of a capital: the part of its height that is the echinus, at its bottom; 0: none
+    double echinus_width_m = 0;  ///< diameter of the echinus at its bottom
     friend bool operator==(const DrumSpec&, const DrumSpec&) = default;
 };
 
@@ -68,8 +70,8 @@ struct ColumnSpec {
 /// The axis along which an epistyle reaches, in space.
 enum class Along : std::uint8_t { x, z };
 
-/// Lies on every column from the first to the last one. In space: on these two, and on those between them whose axes
-/// are under it.
+/// Lies on every column from the first to the last one. In space: on these two, and on those between them whose tops
+/// are under a part of it.
 struct EpistyleSpec {
     int first_column = 0; ///< from 0, from the left
     int last_column = 0;
@@ -117,16 +119,17 @@ struct PlacedBlock {
     bool fixed = false;
     // in space
     Shape shape = Shape::rectangle;
-    double depth_m = 0;     ///< along z, at its bottom
-    double top_ratio = 1;   ///< of the top face over the bottom one, along x and z
-    double axis_z_m = 0;    ///< as `axis_m`, along z
-    double offset_z_m = 0;  ///< of its centre from there
-    Along along = Along::x; ///< of an epistyle
+    double depth_m = 0;   ///< along z, at its bottom
+    double top_ratio = 1; ///< of the top face over the bottom one, along x and z; of a capital of its abacus
+    double echinus_part = 0, echinus_ratio = 0; ///< of a capital (`Frustum`)
+    double axis_z_m = 0;                        ///< as `axis_m`, along z
+    double offset_z_m = 0;                      ///< of its centre from there
+    Along along = Along::x;                     ///< of an epistyle
     bool capital = false;
 
     double z_m() const { return axis_z_m + offset_z_m; } ///< centre
     /// Its body in space.
-    Frustum frustum() const { return {shape, width_m, depth_m, height_m, top_ratio}; }
+    Frustum frustum() const { return {shape, width_m, depth_m, height_m, top_ratio, echinus_part, echinus_ratio}; }
     /// The extent that a realization may draw (`Quantity::drum_width`): its width, of an epistyle its length.
     double drawn_width_m() const { return along == Along::z ? depth_m : width_m; }
 

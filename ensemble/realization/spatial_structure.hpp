@@ -21,7 +21,8 @@ struct Face {
     double half_z_m = 0; ///< along the second one; of a disc the radius
 };
 
-/// A rigid body: a drum (a frustum of a cone) or a prism (a frustum of a pyramid), upright in the reference state.
+/// A rigid body: a drum (a frustum of a cone), a prism (a frustum of a pyramid), or a capital, whose bottom may be a
+/// disc and whose top a rectangle; upright in the reference state.
 struct Solid {
     Face bottom, top;
     double height_m = 0;

@@ -96,6 +96,7 @@ struct SolidShape {
     double half_height = 0;
     HalfSizes bottom = {}, top = {};
     bool round = true;
+    bool square_top = false; ///< of a round one: a capital with an echinus, drawn from its disc straight to its abacus
 
     /// Corners of the bottom face or the top one of the upright body, counter-clockwise as seen from above.
     std::vector<SpacePoint> ring(bool of_top) const
@@ -106,14 +107,16 @@ struct SolidShape {
             return {{half.x, y, half.z}, {half.x, y, -half.z}, {-half.x, y, -half.z}, {-half.x, y, half.z}};
         std::vector<SpacePoint> points;
         for (int i = 0; i < drum_sides; ++i) {
-            const double a = 2 * std::numbers::pi * i / drum_sides;
-            points.push_back({half.x * std::cos(a), y, -half.z * std::sin(a)});
+            const double a = 2 * std::numbers::pi * i / drum_sides, cosine = std::cos(a), sine = std::sin(a);
+            // on a rectangle its corners are among the points
+            const double out = of_top && square_top ? 1 / std::fmax(std::fabs(cosine), std::fabs(sine)) : 1;
+            points.push_back({half.x * out * cosine, y, -half.z * out * sine});
         }
         return points;
     }
     SolidShape scaled(double by) const
     {
-        return {by * half_height, {by * bottom.x, by * bottom.z}, {by * top.x, by * top.z}, round};
+        return {by * half_height, {by * bottom.x, by * bottom.z}, {by * top.x, by * top.z}, round, square_top};
     }
     double half_diagonal() const
     {
@@ -173,7 +176,8 @@ inline SolidShape shape_of(const Trajectory& t, std::size_t block)
     return {lists[13][block],
             {lists[14][block], lists[15][block]},
             {lists[16][block], lists[17][block]},
-            lists[18][block] != 0};
+            lists[18][block] != 0,
+            lists[18][block] == 2};
 }
 
 /// A body of a spatial trajectory at a sample, in metres, in the frame of the base. @pre is_spatial(t)
@@ -189,11 +193,14 @@ inline PlacedSolid solid_of(const Trajectory& t, std::size_t sample, std::size_t
 /// A block as built, in metres.
 inline PlacedSolid solid_of(const PlacedBlock& block)
 {
-    const HalfSizes bottom = {block.width_m / 2, block.depth_m / 2};
+    const HalfSizes face = {block.width_m / 2, block.depth_m / 2};
+    const bool echinus = block.echinus_part > 0, round = block.shape == Shape::round;
+    const double radius = block.echinus_ratio * face.x;
     return {{block.height_m / 2,
-             bottom,
-             {block.top_ratio * bottom.x, block.top_ratio * bottom.z},
-             block.shape == Shape::round},
+             echinus ? HalfSizes{radius, radius} : face,
+             {block.top_ratio * face.x, block.top_ratio * face.z},
+             round || echinus,
+             echinus && !round},
             {block.x_m(), block.y_m, block.z_m()},
             Attitude()};
 }

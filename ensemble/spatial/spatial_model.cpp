@@ -334,7 +334,7 @@ Trajectory SpatialModel::trajectory_of(const Realization& realization, std::vect
         t["bottom_half_z_m"].push_back(solid.bottom.half_z_m);
         t["top_half_x_m"].push_back(solid.top.half_x_m);
         t["top_half_z_m"].push_back(solid.top.half_z_m);
-        t["round"].push_back(solid.bottom.round ? 1 : 0);
+        t["round"].push_back(!solid.bottom.round ? 0 : solid.top.round ? 1 : 2);
         t.role.push_back(solid.role);
         t.column.push_back(solid.column);
     }

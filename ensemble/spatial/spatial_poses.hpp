@@ -29,7 +29,8 @@ inline constexpr std::array spatial_channels = {
     TrajectoryChannel{"bottom_half_z_m", ListOf::blocks, "half size of the bottom face along z; radius of a disc"},
     TrajectoryChannel{"top_half_x_m", ListOf::blocks, "half size of the top face along x; radius of a disc"},
     TrajectoryChannel{"top_half_z_m", ListOf::blocks, "half size of the top face along z; radius of a disc"},
-    TrajectoryChannel{"round", ListOf::blocks, "1: the faces are discs; 0: rectangles"},
+    TrajectoryChannel{"round", ListOf::blocks,
+                      "1: the faces are discs; 0: rectangles; 2: the bottom one is a disc, the top one a rectangle"},
 };
 
 /// Whether a trajectory is of the spatial model.

@@ -49,7 +49,8 @@ struct Trajectory {
     std::vector<double> bottom_half_z_m;    ///< (blocks)
     std::vector<double> top_half_x_m;       ///< (blocks)
     std::vector<double> top_half_z_m;       ///< (blocks)
-    std::vector<double> round;              ///< (blocks) 1: the faces are discs; 0: rectangles
+    std::vector<double> round;              ///< (blocks) 1: the faces are discs; 0: rectangles; 2: the bottom
+                                            ///< one is a disc, the top one a rectangle
 
     std::size_t blocks() const { return half_height_m.size(); }
     /// The last sample that is not after a time; the first one before all.

@@ -39,6 +39,14 @@ inline const WordKey<Shape> own_shape("shape", &DrumSpec::shape, shape_names, "o
                                       {.absent = "that of the column", .models = in_space()});
 inline const WordKey<Shape> capital_shape("shape", Shape::square, shape_names,
                                           "outline seen from above: an abacus is square", {.models = in_space()});
+inline const NumberKey
+    echinus_height("echinus_height_m", &DrumSpec::echinus_height_m, length_range,
+                   "height of the echinus, a part of the capital's height: a frustum of a cone below "
+                   "the abacus, whose sides its upper circle touches",
+                   {.absent = "no echinus: the abacus lies on the drum", .models = in_space()});
+inline const NumberKey echinus_width("echinus_width_m", &DrumSpec::echinus_width_m, length_range,
+                                     "diameter of the echinus at its bottom",
+                                     {.absent = "the top width of the drum below", .models = in_space()});
 inline const NumberKey own_inner_ratio("bed_inner_ratio", &BedSpec::inner_ratio, inner_ratio_range,
                                        "hollow bed under the block: inner over outer size of its faces",
                                        {.absent = "that of the column; of a capital 0", .models = in_space()});
@@ -112,10 +120,26 @@ inline const NumberKey density_of_all("density_kg_m3", density_range,
                                       "density of all blocks that have no mass and no density of their own",
                                       {.absent = "masses are given", .example = "2700"});
 inline const TableKey capital("capital", "an additional block on top of the column",
-                              {&width, &height, &capital_shape, &own_depth, &own_top_width, &mass, &density, &offset,
-                               &offset_z, &bed_friction, &bed_normal_stiffness, &bed_tangential_stiffness,
-                               &bed_area_stiffness, &bed_area_tangential_stiffness, &own_inner_ratio, &bed_restitution,
-                               &bed_normal_damping, &bed_tangential_damping},
+                              {&width,
+                               &height,
+                               &capital_shape,
+                               &own_depth,
+                               &own_top_width,
+                               &echinus_height,
+                               &echinus_width,
+                               &mass,
+                               &density,
+                               &offset,
+                               &offset_z,
+                               &bed_friction,
+                               &bed_normal_stiffness,
+                               &bed_tangential_stiffness,
+                               &bed_area_stiffness,
+                               &bed_area_tangential_stiffness,
+                               &own_inner_ratio,
+                               &bed_restitution,
+                               &bed_normal_damping,
+                               &bed_tangential_damping},
                               {.absent = "no capital"});
 inline const NumberKey gravity("gravity_m_s2", &StructureSpec::gravity_m_s2, gravity_range, "acceleration of gravity");
 
@@ -160,6 +184,11 @@ inline const WordKey<Along> along("along", &EpistyleSpec::along, along_names, "t
 inline const NumberKey own_epistyle_width("width_m", &EpistyleSpec::width_m, length_range,
                                           "width of the piece, across its length",
                                           {.absent = "epistyle_width_m", .models = in_space()});
+inline const WholeKey abreast("abreast", 1,
+                              {1, 8, "Equal pieces that lie side by side, as an architrave of two beams."},
+                              "so many equal pieces lie side by side across the length, each of this width and mass; "
+                              "together they are centred",
+                              {.models = in_space()});
 inline const NumberKey length("length_m", &EpistyleSpec::length_m, length_range, "length along the colonnade",
                               {.absent = "epistyle_length_m"});
 inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, length_range, "height of the piece",
@@ -167,7 +196,7 @@ inline const NumberKey own_epistyle_height("height_m", &EpistyleSpec::height_m, 
 inline const NumberKey seat_friction("friction", &BedSpec::friction, friction_range,
                                      "coefficient of friction of its seats", {.absent = "contact.friction"});
 inline const TableKey epistyles("epistyles", "the epistyles one by one from the left; [] for none",
-                                {&first_column, &last_column, &epistyle_x, &epistyle_z, &along, &length,
+                                {&first_column, &last_column, &epistyle_x, &epistyle_z, &along, &abreast, &length,
                                  &own_epistyle_width, &own_epistyle_height, &mass, &density, &seat_friction,
                                  &bed_normal_stiffness, &bed_tangential_stiffness, &bed_area_stiffness,
                                  &bed_area_tangential_stiffness, &bed_restitution, &bed_normal_damping,
@@ -184,6 +213,9 @@ inline const NumberKey epistyle_height("epistyle_height_m", length_range, "heigh
 inline const NumberKey epistyle_width(
     "epistyle_width_m", length_range, "width of the epistyles, across their length",
     {.absent = "each of `epistyles` has its own", .used = of_colonnade.used, .example = "1.0", .models = in_space()});
+inline const WholeKey epistyle_abreast("epistyle_abreast", 1, {1, 8, abreast.hint},
+                                       "so many equal pieces lie side by side over each bay, each of epistyle_width_m",
+                                       {.used = of_colonnade.used, .models = in_space()});
 inline const NumberKey epistyle_mass("epistyle_mass_kg", mass_range, "mass of each piece",
                                      colonnade_facts("from the density"));
 inline const NumberKey epistyle_density("epistyle_density_kg_m3", density_range, "density of the epistyles",
@@ -194,19 +226,13 @@ inline const WordKey<StructureKind> kind("kind", &StructureSpec::kind, structure
 inline const WholeKey dimensions("dimensions", &StructureSpec::dimensions,
                                  {2, 3, "2: in the plane, blocks are rectangles; 3: in space."},
                                  "2: a structure in the plane; 3: in space, with round or square drums");
-inline const TableKey table("structure", "the columns and epistyles", {&dimensions,     &kind,
-                                                                       &blocks,         &fixed_blocks,
-                                                                       &drums,          &shape,
-                                                                       &drum_width,     &drum_depth,
-                                                                       &drum_height,    &top_width,
-                                                                       &depth,          &drum_mass,
-                                                                       &density_of_all, &inner_ratio,
-                                                                       &capital,        &gravity,
-                                                                       &columns,        &column_spacing,
-                                                                       &column_list,    &epistyles,
-                                                                       &epistyle_bays,  &epistyle_length,
-                                                                       &epistyle_width, &epistyle_height,
-                                                                       &epistyle_mass,  &epistyle_density});
+inline const TableKey
+    table("structure", "the columns and epistyles",
+          {&dimensions,      &kind,          &blocks,          &fixed_blocks,    &drums,          &shape,
+           &drum_width,      &drum_depth,    &drum_height,     &top_width,       &depth,          &drum_mass,
+           &density_of_all,  &inner_ratio,   &capital,         &gravity,         &columns,        &column_spacing,
+           &column_list,     &epistyles,     &epistyle_bays,   &epistyle_length, &epistyle_width, &epistyle_abreast,
+           &epistyle_height, &epistyle_mass, &epistyle_density});
 
 } // namespace structure_keys
 

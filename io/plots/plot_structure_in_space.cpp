@@ -236,7 +236,11 @@ void draw_plan_view(const SpaceDrawing& d, DrawingSheet& sheet)
 
 std::string size_words(const SpaceDrawing& d, const PlacedBlock& b)
 {
-    const std::string unit = d.in_mm ? "mm" : "m", height = fmt::format("height {} {}", d.number(b.height_m), unit);
+    const std::string unit = d.in_mm ? "mm" : "m";
+    std::string height = fmt::format("height {} {}", d.number(b.height_m), unit);
+    if (b.echinus_part > 0)
+        height += fmt::format(", of which an echinus {}, diameter {} {}", d.number(b.echinus_part * b.height_m),
+                              d.number(b.echinus_ratio * b.width_m), unit);
     const bool tapers = !same(b.top_ratio, 1);
     const auto faces = [&](const std::string& bottom, const std::string& top) {
         return tapers ? fmt::format("{} (top {})", bottom, top) : bottom;

@@ -84,7 +84,14 @@ double read_mass(const std::vector<MassSource>& sources, const Source& size, dou
 
 double volume_of(const DrumSpec& drum)
 {
-    return Frustum{drum.shape, drum.width_m, drum.depth_m, drum.height_m, drum.top_width_m / drum.width_m}.volume_m3();
+    return Frustum{drum.shape,
+                   drum.width_m,
+                   drum.depth_m,
+                   drum.height_m,
+                   drum.top_width_m / drum.width_m,
+                   drum.echinus_height_m / drum.height_m,
+                   drum.echinus_width_m / drum.width_m}
+        .volume_m3();
 }
 
 /// The keys of one column: its own ones, and behind them those of the structure for the keys that it omits.
@@ -105,7 +112,7 @@ public:
         else
             column.drums = equal_or_tapering_drums(shape);
         if (const KeyReader& keys = which(capital); keys.has(capital))
-            column.drums.push_back(read_capital(keys.table(capital)));
+            column.drums.push_back(read_capital(keys.table(capital), column.drums.back()));
         if (column.drums.size() > most_blocks)
             shape.refuse(shape.has(drums) ? drums.name : blocks.name,
                          fmt::format("makes a column of {} blocks", column.drums.size()),
@@ -212,7 +219,7 @@ private:
         std::vector<DrumSpec> all;
         for (const KeyReader& keys : shape.tables(drums)) {
             const DrumSpec drum =
-                read_drum(keys, &drum_width, &drum_height, {{&keys, &mass, &density}, common_mass()}, false);
+                read_drum(keys, &drum_width, &drum_height, {{&keys, &mass, &density}, common_mass()}, nullptr);
             all.insert(all.end(), keys.read(count), drum);
         }
         if (all.empty())
@@ -221,19 +228,41 @@ private:
         return all;
     }
 
-    DrumSpec read_capital(const KeyReader& keys) const
+    DrumSpec read_capital(const KeyReader& keys, const DrumSpec& below) const
     {
         using namespace structure_keys;
         DrumSpec top = read_drum(keys, nullptr, nullptr,
-                                 {{&keys, &mass, &density}, {common_mass().keys, nullptr, &density_of_all}}, true);
+                                 {{&keys, &mass, &density}, {common_mass().keys, nullptr, &density_of_all}}, &below);
         top.capital = true;
         return top;
     }
 
-    /// Shape, depth, taper, bed and place of a block in space. @param drum its width must be read
-    void read_in_space(const KeyReader& keys, bool is_capital, DrumSpec& drum) const
+    /// The lower part of a capital. @param below the drum on which it lies
+    static void read_echinus(const KeyReader& keys, const DrumSpec& below, DrumSpec& drum)
     {
         using namespace structure_keys;
+        if (!keys.has(echinus_height)) {
+            if (keys.has(echinus_width))
+                keys.refuse(echinus_width.name, "belongs to an echinus, and there is none", "Give echinus_height_m.");
+            return;
+        }
+        drum.echinus_height_m = keys.read(echinus_height);
+        if (!(drum.echinus_height_m < drum.height_m))
+            keys.refuse(echinus_height.name, fmt::format("leaves no abacus: the capital is {:g} m high", drum.height_m),
+                        "It is a part of height_m: give less.");
+        drum.echinus_width_m = keys.read_or(echinus_width, below.top_width_m);
+        const double abacus_m = std::min(drum.width_m, drum.depth_m);
+        if (keys.has(echinus_width) && drum.echinus_width_m > abacus_m)
+            keys.refuse(echinus_width.name, fmt::format("is above the width of the abacus, {:g} m", abacus_m),
+                        "An echinus widens from the drum to the abacus.");
+    }
+
+    /// Shape, depth, taper, bed and place of a block in space.
+    /// @param below of a capital the drum on which it lies; null: it is none   @param drum its sizes must be read
+    void read_in_space(const KeyReader& keys, const DrumSpec* below, DrumSpec& drum) const
+    {
+        using namespace structure_keys;
+        const bool is_capital = below != nullptr;
         if (is_capital)
             drum.shape = keys.read(capital_shape);
         else
@@ -248,6 +277,8 @@ private:
         drum.depth_m = drum.shape == Shape::rectangle ? need(depths).read() : drum.width_m;
         drum.top_width_m = keys.read_or(own_top_width, drum.width_m);
         drum.bed.inner_ratio = is_capital ? 0 : which(inner_ratio).read(inner_ratio);
+        if (is_capital)
+            read_echinus(keys, *below, drum);
         Range allowed = offset_z.range;
         allowed.low = -drum.depth_m;
         allowed.high = drum.depth_m;
@@ -255,8 +286,9 @@ private:
     }
 
     /// @param width_of_all, height_of_all keys of the column or the structure; null: there are none
+    /// @param below of a capital the drum on which it lies; null: it is none
     DrumSpec read_drum(const KeyReader& keys, const NumberKey* width_of_all, const NumberKey* height_of_all,
-                       const std::vector<MassSource>& masses, bool is_capital) const
+                       const std::vector<MassSource>& masses, const DrumSpec* below) const
     {
         using namespace structure_keys;
         const auto with = [&](const NumberKey& own, const NumberKey* of_all) {
@@ -271,7 +303,7 @@ private:
         drum.width_m = size.read();
         drum.height_m = need(with(height, height_of_all)).read();
         if (spatial_)
-            read_in_space(keys, is_capital, drum);
+            read_in_space(keys, below, drum);
         drum.mass_kg = read_mass(masses, size, spatial_ ? volume_of(drum) : drum.width_m * drum.height_m * depth_m_);
         Range allowed = offset.range;
         allowed.low = -drum.width_m;
@@ -339,6 +371,17 @@ Along row_of(const KeyReader& keys, const std::vector<ColumnSpec>& columns)
     return along;
 }
 
+/// Adds an epistyle, or so many of them side by side about its place. Where it is written out it is one by one.
+void add_abreast(const EpistyleSpec& epistyle, std::uint64_t number, std::vector<EpistyleSpec>& all)
+{
+    for (std::uint64_t i = 0; i < number; ++i) {
+        EpistyleSpec piece = epistyle;
+        (piece.along == Along::z ? piece.x_m : piece.z_m) +=
+            (static_cast<double>(i) - 0.5 * static_cast<double>(number - 1)) * piece.width_m;
+        all.push_back(piece);
+    }
+}
+
 /// The epistyles that are given one by one.
 std::vector<EpistyleSpec> listed_epistyles(const KeyReader& keys, const StructureSpec& structure)
 {
@@ -369,7 +412,7 @@ std::vector<EpistyleSpec> listed_epistyles(const KeyReader& keys, const Structur
             {{&own, &mass, &density}, {&keys, &epistyle_mass, &epistyle_density}, {&keys, nullptr, &density_of_all}},
             size, epistyle.length_m * epistyle.height_m * across);
         own.read_fields(epistyles, epistyle.bed);
-        all.push_back(epistyle);
+        add_abreast(epistyle, structure.spatial() ? own.read_or(abreast, keys.read(epistyle_abreast)) : 1, all);
     }
     return all;
 }
@@ -450,7 +493,7 @@ std::vector<EpistyleSpec> epistyles_by_bays(const KeyReader& keys, const Structu
         epistyle.mass_kg =
             read_mass({{&keys, &key::epistyle_mass, &key::epistyle_density}, {&keys, nullptr, &key::density_of_all}},
                       {&keys, &key::epistyle_height}, epistyle.length_m * height * width);
-        epistyles.push_back(epistyle);
+        add_abreast(epistyle, structure.spatial() ? keys.read(key::epistyle_abreast) : 1, epistyles);
     }
     return epistyles;
 }

@@ -122,6 +122,10 @@ Entries entries_of(const DrumSpec& drum, const KeyUse& use)
     if (drum.top_width_m == drum.width_m)
         of_drum = of_drum.without({&own_top_width});
     out.add_fields(drums, drum, of_drum);
+    if (drum.echinus_height_m > 0) {
+        out.add(echinus_height, drum.echinus_height_m);
+        out.add(echinus_width, drum.echinus_width_m);
+    }
     return out.add_fields(drums, drum.bed, use);
 }
 

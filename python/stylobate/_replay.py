@@ -27,7 +27,7 @@ class Replay:
     base_y_m, base_z_m            (nt) m
     rest_z_m       (nb) m
     bottom_half_x_m, bottom_half_z_m, top_half_x_m, top_half_z_m   (nb) m   half sizes of the faces, of a disc its radius
-    round          (nb) 1: the faces are discs; 0: rectangles
+    round          (nb) 1: the faces are discs; 0: rectangles; 2: the bottom one is a disc, the top one a rectangle
     """
 
     def __init__(self, core):

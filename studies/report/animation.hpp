@@ -63,7 +63,7 @@ struct AnimatedBlock {
 
 /// What the player in space draws besides.
 struct SpaceLooks {
-    std::vector<std::size_t> round;  ///< (blocks) 1: drawn as a drum; 0: as a prism
+    std::vector<std::size_t> round;  ///< (blocks) 1: drawn as a drum; 0: as a prism; 2: round below, square above
     std::vector<std::size_t> orbits; ///< blocks whose orbits are drawn at first
 };
 

@@ -285,7 +285,7 @@ std::string animations_json(const KeptAnimations& kept, const Study& study)
         const PlacedBlock& block = placed[i];
         const bool epistyle = block.role == BlockRole::epistyle;
         blocks.push_back({block.name, block.fixed ? "fixed" : epistyle ? "lintel" : "stone"});
-        looks.round.push_back(block.shape == Shape::round ? 1 : 0);
+        looks.round.push_back(block.shape == Shape::round ? 1 : block.echinus_part > 0 ? 2 : 0);
         if (!block.fixed && is_top(placed, i))
             looks.orbits.push_back(i);
     }

@@ -29,12 +29,19 @@ PlanFace in_plan(const Solid& solid, const Face& face)
 /// Its outline, at its widest.
 PlanFace outline(const Solid& solid)
 {
-    return in_plan(solid, solid.bottom.half_x_m >= solid.top.half_x_m ? solid.bottom : solid.top);
+    return in_plan(solid, solid.bottom.half_x_m > solid.top.half_x_m ? solid.bottom : solid.top);
 }
 
 Face face_of(const Frustum& frustum, double ratio)
 {
     return {frustum.shape == Shape::round, ratio * frustum.width_m / 2, ratio * frustum.depth_m / 2};
+}
+
+/// Of an echinus the disc at its bottom.
+Face bottom_of(const Frustum& frustum)
+{
+    const double radius = frustum.echinus_ratio * frustum.width_m / 2;
+    return frustum.echinus_part > 0 ? Face{true, radius, radius} : face_of(frustum, 1);
 }
 
 /// Along x or z, as an index of a vector.
@@ -154,7 +161,7 @@ Solid SpatialBuilder::solid(const RealizationValues& values, std::size_t i, doub
     const double nominal_volume = placed.frustum().volume_m3();
 
     Solid solid;
-    solid.bottom = face_of(frustum, 1);
+    solid.bottom = bottom_of(frustum);
     solid.top = face_of(frustum, frustum.top_ratio);
     solid.height_m = height_m;
     // the nominal mass times what has changed: without perturbation it is the nominal mass to the last bit

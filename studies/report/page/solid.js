@@ -39,12 +39,16 @@ function tiltOf([w, x, y, z]) { return 2 * Math.atan2(Math.hypot(x, z), Math.hyp
 
 // ---- bodies ----
 
-/** Corners of a level face, counter-clockwise as seen from above. */
-function ring([halfX, halfZ], y, round) {
+/**
+ * Corners of a level face, counter-clockwise as seen from above.
+ * @param square of a round body: the corners lie on a rectangle, and its own are among them
+ */
+function ring([halfX, halfZ], y, round, square = false) {
   if (!round) return [[halfX, y, halfZ], [halfX, y, -halfZ], [-halfX, y, -halfZ], [-halfX, y, halfZ]];
   return Array.from({length: drumSides}, (_, i) => {
-    const angle = 2 * Math.PI * i / drumSides;
-    return [halfX * Math.cos(angle), y, -halfZ * Math.sin(angle)];
+    const angle = 2 * Math.PI * i / drumSides, cosine = Math.cos(angle), sine = Math.sin(angle);
+    const out = square ? 1 / Math.max(Math.abs(cosine), Math.abs(sine)) : 1;
+    return [halfX * out * cosine, y, -halfZ * out * sine];
   });
 }
 
@@ -52,11 +56,12 @@ function ring([halfX, halfZ], y, round) {
  * An upright body about its middle. Faces are lists of corners, counter-clockwise as seen from outside: bottom, top,
  * then the sides.
  * @param bottom, top half sizes along x and z
+ * @param kind 0: a prism, 1: a drum, 2: a capital with an echinus, drawn from its disc straight to its abacus
  */
-function bodyOf(halfHeight, bottom, top, round) {
-  const low = ring(bottom, -halfHeight, round), n = low.length;
+function bodyOf(halfHeight, bottom, top, kind) {
+  const round = kind > 0, low = ring(bottom, -halfHeight, round), n = low.length;
   const sides = Array.from({length: n}, (_, i) => [i, (i + 1) % n, n + (i + 1) % n, n + i]);
-  return {corners: [...low, ...ring(top, halfHeight, round)], round,
+  return {corners: [...low, ...ring(top, halfHeight, round, kind === 2)], round,
           faces: [low.map((_, i) => n - 1 - i), low.map((_, i) => n + i), ...sides]};
 }
 

@@ -1,7 +1,7 @@
 // Realizations of structures in space in motion (player.js): a view that can be turned (solid.js), and a plan with the
 // orbits of blocks. The animations have these members besides:
 //
-//   {dimensions: 3, pivot, reach, round: [0 or 1], orbits: [block], list: [{azimuth_rad}]}
+//   {dimensions: 3, pivot, reach, round: [0, 1 or 2], orbits: [block], list: [{azimuth_rad}]}
 //
 // pivot: height of the middle of the drawing above the ground [px]; reach: half the side of the ground [px]; orbits:
 // blocks whose orbits are drawn at first; azimuth_rad: direction of the fall, from x towards z, where there is one.
@@ -115,7 +115,7 @@ class SpacePlayer extends Player {
     const quantum = this.store.quantum_px;
     this.bodies = this.now.sizes.map((size, block) => {
       const [height, x0, z0, x1, z1] = size.map((length) => length * quantum);
-      return bodyOf(height, [x0, z0], [x1, z1], this.store.round[block] === 1);
+      return bodyOf(height, [x0, z0], [x1, z1], this.store.round[block]);
     });
     const steps = Array.from(this.larger.options, (option) => Number(option.value));
     const fits = steps.filter((factor) => factor * this.farthest() <= this.narrowest() / 2);

@@ -85,5 +85,32 @@ TEST(Frustum, IsTheSumOfItsSlices)
     }
 }
 
+/// A capital is a cone frustum below a prism: the same numbers from slices of both.
+TEST(Frustum, OfACapitalIsAnEchinusBelowAnAbacus)
+{
+    // half of 0.8 m is an echinus from 0.9 m to the 1.2 m of the narrower side
+    const Frustum capital{Shape::rectangle, 1.5, 1.2, 0.8, 0.9, 0.5, 0.6};
+    constexpr int slices = 200000;
+    const double dy = 0.8 / slices;
+    double volume = 0, first = 0, second = 0, xx = 0, zz = 0;
+    for (int i = 0; i < slices; ++i) {
+        const double y = (i + 0.5) * dy, up = (y - 0.4) / 0.4;
+        const double d = 0.9 + 0.3 * (y / 0.4), s = 1 - 0.1 * up;
+        const double area = y < 0.4 ? pi * d * d / 4 : s * s * 1.5 * 1.2;
+        volume += area * dy;
+        first += y * area * dy;
+        second += y * y * area * dy;
+        xx += area * (y < 0.4 ? d * d / 16 : s * s * 1.5 * 1.5 / 12) * dy;
+        zz += area * (y < 0.4 ? d * d / 16 : s * s * 1.2 * 1.2 / 12) * dy;
+    }
+    const double centre = first / volume, yy = second / volume - centre * centre;
+    EXPECT_NEAR(capital.volume_m3(), volume, 1e-9);
+    EXPECT_NEAR(capital.centre_height_m(), centre, 1e-9);
+    const std::array<double, 3> inertia = capital.inertia_per_mass_m2();
+    EXPECT_NEAR(inertia[0], zz / volume + yy, 1e-9);
+    EXPECT_NEAR(inertia[1], (xx + zz) / volume, 1e-9);
+    EXPECT_NEAR(inertia[2], xx / volume + yy, 1e-9);
+}
+
 } // namespace
 } // namespace stylobate

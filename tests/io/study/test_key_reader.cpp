@@ -57,6 +57,7 @@ TEST(TomlKeys, TheUnitIsPartOfTheName)
                                                       {"contact.normal_damping_n_s_m", "N s/m"},
                                                       {"contact.normal_stiffness_n_m3", "N/m3"},
                                                       {"excitation.direction_deg", "degrees"},
+                                                      {"surface.direction_deg", "degrees"},
                                                       {"mechanisms.adhesion.strength_pa", "Pa"}};
     std::set<std::string> seen;
     for_each_key([&](const std::string& path, const TomlKey& key) {

@@ -60,7 +60,8 @@ const std::set<std::string> other_ways = {"structure.drums",
                                           "structure.shape",
                                           "structure.drum_depth_m",
                                           "structure.bed_inner_ratio",
-                                          "structure.epistyle_width_m"};
+                                          "structure.epistyle_width_m",
+                                          "structure.epistyle_abreast"};
 
 /// What the study says of a text with one setting more; empty if it is taken.
 std::string message(const std::string& text, const std::string& setting)

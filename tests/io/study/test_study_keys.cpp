@@ -44,7 +44,8 @@ const std::string contact = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 
 const std::string solid_drums =
     "[structure]\ndimensions = 3\nshape = \"rectangle\"\nblocks = 3\ndrum_width_m = 1\ndrum_depth_m = 1\n"
     "drum_height_m = 1\ndensity_kg_m3 = 2700\n"
-    "capital = { width_m = 1.2, height_m = 0.3, shape = \"rectangle\", depth_m = 1.2 }\n";
+    "capital = { width_m = 1.2, height_m = 0.3, shape = \"rectangle\", depth_m = 1.2, echinus_height_m = 0.1, "
+    "echinus_width_m = 1.1 }\n";
 const std::string solid_bays =
     "[structure]\ndimensions = 3\nkind = \"colonnade\"\ndensity_kg_m3 = 2700\ncolumns = 3\ncolumn_spacing_m = 3\n"
     "blocks = 2\ndrum_width_m = 1\ndrum_height_m = 2\ncapital = { width_m = 1.2, height_m = 0.3 }\n"
@@ -162,6 +163,9 @@ std::vector<std::string> samples()
              {"kind = \"harmonic" + motion + "second_ratio = 0.5\n", "kind = \"noise" + motion + "second_ratio = 0.5\n",
               std::string("kind = \"record\"\nfile = \"a\"\nsecond = { }\nvertical = { }\n")})
             all.push_back(single(shaking, structure, area_contact));
+    all.push_back("[study]\nkind = \"surface\"\nrealizations = 40\n" + solid_drums + area_contact +
+                  "[excitation]\nkind = \"harmonic\"\nfrequency_hz = 1.7\n[surface]\ndirection_deg" + range +
+                  "pga_m_s2" + range);
     all.push_back("[study]\nkind = \"fragility\"\nrealizations = 4\n" + solid_drums + area_contact +
                   "[excitation]\nkind = \"noise\"\nfrequency_hz = 1.7\nsecond_ratio = 0.5\n[fragility]\nmotions = 9\n"
                   "intensity = { from = 1, to = 2, count = 2 }\n");
@@ -428,9 +432,10 @@ TEST_F(StudyKeys, TheReaderKnowsEachByItsType)
 /// size of a block.
 bool narrower_in_a_study(const std::string& path)
 {
-    static const std::set<std::string> names = {
-        "block",   "blocks",     "joint",    "joints",          "fixed_blocks", "contacts",    "offset_m",
-        "moves_m", "offset_z_m", "followed", "tilt_from_block", "minimum",      "first_column"};
+    static const std::set<std::string> names = {"block",           "blocks",           "joint",           "joints",
+                                                "fixed_blocks",    "contacts",         "offset_m",        "moves_m",
+                                                "offset_z_m",      "echinus_height_m", "echinus_width_m", "followed",
+                                                "tilt_from_block", "minimum",          "first_column"};
     static const std::set<std::string> paths = {"structure.epistyle_bays", "surface.adaptive.budget", "fragility.twins",
                                                 "sensitivity.samples", "mechanisms.clamp.height_m"};
     return names.contains(path.substr(path.rfind('.') + 1)) || paths.contains(path) ||

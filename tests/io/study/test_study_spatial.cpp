@@ -1,6 +1,7 @@
 /// Studies in space: the ways to write columns and colonnades, what each misuse says, and which keys are of the plane.
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/layout_in_space.hpp"
 #include "ensemble/model/nominal.hpp"
 #include "ensemble/sampling/plausible.hpp"
 #include "io/study/study_file.hpp"
@@ -144,6 +145,66 @@ TEST(StudyInSpace, ColonnadesAlongBothAxes)
     EXPECT_EQ(layout.beds.size(), 3U * 4U + 4U);
 }
 
+TEST(StudyInSpace, AnEchinusIsAPartOfItsCapital)
+{
+    const Study study = read(six_drums + "top_width_m = 0.8\ncapital = { width_m = 1.2, height_m = 0.5, "
+                                         "echinus_height_m = 0.3 }\n");
+    const DrumSpec& capital = study.structure.columns[0].drums.back();
+    EXPECT_EQ(capital.echinus_height_m, 0.3);
+    EXPECT_DOUBLE_EQ(capital.echinus_width_m, 0.8); // of the drum below
+    // pi h (R2 + R r + r2) / 3 and the prism
+    const double volume = pi * 0.3 * (0.16 + 0.24 + 0.36) / 3 + 1.44 * 0.2;
+    EXPECT_NEAR(capital.mass_kg, 2700 * volume, 1e-9);
+    const Layout layout = lay_out(study.structure);
+    EXPECT_TRUE(bottom_face(layout.blocks.back()).round);
+    EXPECT_DOUBLE_EQ(bottom_face(layout.blocks.back()).half_x_m, 0.4);
+    EXPECT_FALSE(top_face(layout.blocks.back()).round);
+    EXPECT_DOUBLE_EQ(top_face(layout.blocks.back()).half_z_m, 0.6);
+
+    const std::string capital_of = "capital = { width_m = 1.2, height_m = 0.5, ";
+    expect_refused(in_space(six_drums + capital_of + "echinus_width_m = 1.0 }\n"),
+                   {"temple.toml:9", "structure.capital.echinus_width_m", "there is none", "Give echinus_height_m."});
+    expect_refused(in_space(six_drums + capital_of + "echinus_height_m = 0.5 }\n"),
+                   {"structure.capital.echinus_height_m", "leaves no abacus: the capital is 0.5 m high"});
+    expect_refused(in_space(six_drums + capital_of + "echinus_height_m = 0.3, echinus_width_m = 1.3 }\n"),
+                   {"structure.capital.echinus_width_m", "is above the width of the abacus, 1.2 m"});
+    expect_refused(in_space(six_drums + capital_of + "echinus_height_m = 0.3, echinus_width_m = 0.9 }\n"),
+                   {"capital is 900 mm x 900 mm wide at its bottom, smaller than the top of drum 6, 1 m x 1 m"});
+    // its abacus, whatever the echinus is
+    expect_refused(in_space(six_drums + "capital = { width_m = 0.9, height_m = 0.5, echinus_height_m = 0.3 }\n"),
+                   {"capital is 900 mm x 900 mm wide at its bottom, smaller than the top of drum 6, 1 m x 1 m"});
+}
+
+TEST(StudyInSpace, EpistylesAbreast)
+{
+    std::string three = portal;
+    three.replace(three.find("columns = 2"), 11, "columns = 3");
+    three.replace(three.find("epistyle_width_m = 1.1"), 22, "epistyle_width_m = 0.6");
+    const Study study = read(three + "epistyle_bays = \"all\"\nepistyle_abreast = 2\n");
+    const std::vector<EpistyleSpec>& beams = study.structure.epistyles;
+    ASSERT_EQ(beams.size(), 2U);
+    EXPECT_DOUBLE_EQ(beams[0].z_m, -0.3);
+    EXPECT_DOUBLE_EQ(beams[1].z_m, 0.3);
+    for (const EpistyleSpec& beam : beams)
+        EXPECT_NEAR(beam.mass_kg, 2700 * 9.2 * 0.6 * 0.8, 1e-8);
+    // both lie on the column in the middle too, whose axis is under neither
+    EXPECT_EQ(lay_out(study.structure).beds.size(), 3U * 4U + 2U * 3U);
+    // one of a list, turned, and the default of the list
+    std::string turned = portal;
+    turned.replace(turned.find("columns = 2\ncolumn_spacing_m = 4.0\n"), 35,
+                   "column_list = [ { x_m = 0 }, { x_m = 0, z_m = 4 } ]\n");
+    const Study listed = read(turned + "epistyles = [ { first_column = 0, last_column = 1, length_m = 4.6, width_m = "
+                                       "0.4, abreast = 3 } ]\n");
+    ASSERT_EQ(listed.structure.epistyles.size(), 3U);
+    EXPECT_EQ(listed.structure.epistyles[0].along, Along::z);
+    EXPECT_DOUBLE_EQ(listed.structure.epistyles[0].x_m, -0.4);
+    EXPECT_EQ(listed.structure.epistyles[1].x_m, 0);
+    EXPECT_EQ(read(turned + "epistyle_abreast = 2\nepistyles = [ { first_column = 0, last_column = 1, length_m = 4.6, "
+                            "width_m = 0.6 } ]\n")
+                  .structure.epistyles.size(),
+              2U);
+}
+
 TEST(StudyInSpace, StructuresThatCannotStandSayWhy)
 {
     const std::string listed = "drum_width_m = 1.0\ndrum_height_m = 1.0\ndensity_kg_m3 = 2700\ndrums = ";
@@ -226,7 +287,8 @@ TEST(StudyInSpace, KeysOfSpaceAreRefusedInThePlane)
          {"structure.shape=round", "structure.bed_inner_ratio=0.5", "structure.drum_depth_m=1",
           "contact.normal_stiffness_n_m3=3e9", "contact.tangential_stiffness_n_m3=3e9", "initial.tilt_direction_rad=0",
           "mechanisms.wedge={ angle_x_rad = 0.01 }", "mechanisms.eccentricity={ offset_z_m = 0.01 }",
-          "structure.capital={ width_m = 1.2, height_m = 0.2, shape = \"square\" }"}) {
+          "structure.capital={ width_m = 1.2, height_m = 0.2, shape = \"square\" }",
+          "structure.capital={ width_m = 1.2, height_m = 0.2, echinus_height_m = 0.1 }"}) {
         try {
             parse_study(plane, "temple.toml", {setting});
             ADD_FAILURE() << setting;
