@@ -252,7 +252,7 @@ private:
                         "It is a part of height_m: give less.");
         drum.echinus_width_m = keys.read_or(echinus_width, below.top_width_m);
         const double abacus_m = std::min(drum.width_m, drum.depth_m);
-        if (keys.has(echinus_width) && drum.echinus_width_m > abacus_m)
+        if (keys.has(echinus_width) && drum.echinus_width_m > abacus_m * (1 + 1e-9)) // as `layout_rounding`
             keys.refuse(echinus_width.name, fmt::format("is above the width of the abacus, {:g} m", abacus_m),
                         "An echinus widens from the drum to the abacus.");
     }

@@ -275,6 +275,35 @@ TEST(StudyInSpace, RefusesKeysOfThePlane)
                    {"study.kind = \"survival\" is not available with structure.dimensions = 3"});
 }
 
+/// Also in lists: the line, the key and what to give instead.
+TEST(StudyInSpace, KeysOfTheOtherModelAreNamedWhereTheyStand)
+{
+    const std::string listed = "drum_width_m = 1.0\ndrum_height_m = 1.0\ndensity_kg_m3 = 2700\ndrums = [ { },\n  { ";
+    expect_refused(in_space(listed + "normal_stiffness_n_m2 = 1e9 } ]\n"),
+                   {"temple.toml:9: structure.drums[1].normal_stiffness_n_m2 = 1e9 is not used by structure.dimensions "
+                    "= 3",
+                    "Give normal_stiffness_n_m3"});
+    expect_refused(in_space(listed + "restitution = 0.2 } ]\n"),
+                   {"temple.toml:9: structure.drums[1].restitution", "Remove it, or give structure.dimensions = 2."});
+    const std::string plane = "[study]\nkind = \"single\"\n[structure]\ndepth_m = 1\n";
+    const std::string rest = "[contact]\nnormal_stiffness_n_m2 = 3e9\nfriction = 0.7\n"
+                             "[excitation]\nkind = \"none\"\nduration_s = 1\n";
+    expect_refused(plane + listed + "top_width_m = 0.9 } ]\n" + rest,
+                   {"temple.toml:9: structure.drums[1].top_width_m = 0.9 is not used by structure.dimensions = 2",
+                    "Remove it, or give structure.dimensions = 3."});
+    const std::string columns = "kind = \"colonnade\"\nblocks = 1\n" + listed.substr(0, listed.find("drums")) +
+                                "epistyle_height_m = 0.5\ncolumn_list = [ { x_m = 0 },\n  { x_m = 3";
+    expect_refused(plane + columns + ", z_m = 1 } ]\n" + rest,
+                   {"structure.column_list[1].z_m = 1 is not used by structure.dimensions = 2"});
+    for (const std::string key : {"along = \"z\"", "abreast = 2", "width_m = 0.6", "z_m = 0.1"})
+        expect_refused(
+            plane + columns + " } ]\nepistyles = [ { first_column = 0, last_column = 1, length_m = 4, " + key +
+                " } ]\n" + rest,
+            {"structure.epistyles[0]." + key.substr(0, key.find(' ')), "is not used by structure.dimensions = 2"});
+    expect_refused(plane + columns + " } ]\nepistyle_abreast = 2\n" + rest,
+                   {"structure.epistyle_abreast = 2 is not used by structure.dimensions = 2"});
+}
+
 TEST(StudyInSpace, KeysOfSpaceAreRefusedInThePlane)
 {
     const std::string plane = "[study]\nkind = \"single\"\n[structure]\ndepth_m = 1\n" + six_drums +

@@ -107,8 +107,21 @@ for path, value in [
     (("contact", "normal_stiffness_n_m3"), None),
     (("run", "precision"), "single"),
     (("twins",), {}),
+    (("surface", "direction_deg"), {"from": 0.0, "to": 90.0, "count": 3}),  # in the place of frequency_hz
+    (("surface", "frequency_hz"), None),
 ]:
     refuse(spatial, path, value)
+turning = changed(spatial, ("surface", "direction_deg"), {"from": -45.0, "to": 90.0, "count": 3})
+turning = changed(changed(turning, ("surface", "frequency_hz"), None), ("perturbation", "direction"), None)
+turning = changed(turning, ("excitation", "frequency_hz"), 1.0)
+accept("a surface over directions", turning)
+for path, value in [
+    (("excitation", "direction_deg"), 10.0),  # the axis gives it
+    (("perturbation", "direction"), {"distribution": "uniform"}),
+    (("surface", "direction_deg", "to"), 400.0),
+    (("structure", "dimensions"), None),
+]:
+    refuse(turning, path, value)
 refuse(column, ("structure", "depth_m"), None)
 
 for failure in failures:
