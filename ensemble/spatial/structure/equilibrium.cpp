@@ -241,9 +241,11 @@ private:
         const auto joints = static_cast<std::size_t>(topology_.joints);
         forces_.put(rest_.poses);
         std::vector<BedForces> here(joints);
+        std::vector<bool> open(joints); // a butt joint that just touches would press when one body moves only
         slips_ = false;
         for (std::size_t j = 0; j < joints; ++j) {
             here[j] = forces_.forces(static_cast<int>(j));
+            open[j] = !(depth_m_[j] > 0) && !(forces_.normal_n(static_cast<int>(j)) > 0);
             slips_ = slips_ || forces_.slips(static_cast<int>(j));
         }
         const double most_m = difference * *std::max_element(depth_m_.begin(), depth_m_.end());
@@ -263,7 +265,7 @@ private:
                 forces_.put(poses);
                 for (std::size_t j = 0; j < joints; ++j)
                     for (const int i : {topology_.joint[j].lower, topology_.joint[j].upper})
-                        if (color_[static_cast<std::size_t>(i)] == c)
+                        if (color_[static_cast<std::size_t>(i)] == c && !open[j])
                             add_column(static_cast<int>(j), here[j], i, k, by_m[static_cast<std::size_t>(i)]);
             }
         K_.setFromTriplets(entries_.begin(), entries_.end());

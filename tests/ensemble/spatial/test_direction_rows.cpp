@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -94,28 +93,31 @@ TEST(DirectionRows, NoiseHasTheFrequencyOfTheExcitationInEveryRow)
     }
 }
 
-/// One component, no imperfection: the rows 0 and 90 degrees of a square column differ in their axes alone. Both
-/// shakings overturn it, the gentler one later.
+/// One component, no imperfection: the rows 0 and 90 degrees of a square column differ in their axes alone. The gentle
+/// shaking rocks it, the strong one overturns it; while it falls, rounding in the plane of the shaking grows out of it
+/// (spatial motion is unstable), to a few parts in 10,000.
 TEST(DirectionRows, ASquareColumnFallsAlikeAlongBothItsAxes)
 {
-    const std::string pulse = "kind = \"full_sine\"\nfrequency_hz = 1.0\ntail_s = 3\n";
+    const std::string pulse = "kind = \"full_sine\"\nfrequency_hz = 1.5\ntail_s = 3\n";
     const Study study =
-        surface_over("{ from = 0, to = 90, count = 2 }", "{ from = 3.5, to = 9, count = 2 }", pulse, "");
+        surface_over("{ from = 0, to = 90, count = 2 }", "{ from = 2.6, to = 9, count = 2 }", pulse, "");
     const std::vector<Outcome> outcomes = outcomes_of(study, {});
     ASSERT_EQ(outcomes.size(), 12U);
-    for (const std::size_t pga : {0U, 1U}) {
-        const Outcome &x = outcomes[3 * pga], &z = outcomes[6 + 3 * pga];
-        EXPECT_EQ(x.state, State::collapsed);
+    for (const bool strong : {false, true}) {
+        const Outcome &x = outcomes[strong ? 3 : 0], &z = outcomes[strong ? 9 : 6];
+        const double rounding = strong ? 1e-5 : 1e-9;
+        EXPECT_EQ(x.state, strong ? State::collapsed : State::rocked);
         EXPECT_EQ(x.state, z.state);
         EXPECT_GT(x.peak_top_displacement_m, 0.02);
-        EXPECT_NEAR(x.peak_top_displacement_m, z.peak_top_displacement_m, 1e-6 * x.peak_top_displacement_m);
-        EXPECT_NEAR(x.total_rocking_rad, z.total_rocking_rad, 1e-6 * x.total_rocking_rad);
-        EXPECT_LT(x.out_of_plane_share, 1e-6);
-        EXPECT_LT(z.out_of_plane_share, 1e-6);
-        EXPECT_NEAR(x.collapse_time_s, z.collapse_time_s, 1e-6);
-        const double turned =
-            std::remainder(z.fall_azimuth_rad - x.fall_azimuth_rad - std::numbers::pi / 2, 2 * std::numbers::pi);
-        EXPECT_NEAR(turned, 0, 1e-6);
+        EXPECT_NEAR(z.peak_top_displacement_m / x.peak_top_displacement_m, 1, rounding);
+        EXPECT_NEAR(z.total_rocking_rad / x.total_rocking_rad, 1, rounding);
+        EXPECT_NEAR(x.collapse_time_s, z.collapse_time_s, rounding);
+        for (const Outcome* each : {&x, &z})
+            EXPECT_LT(each->out_of_plane_share, strong ? 1e-3 : 1e-9);
+        if (strong) {
+            const double quarter = z.fall_azimuth_rad - x.fall_azimuth_rad - std::numbers::pi / 2;
+            EXPECT_NEAR(std::remainder(quarter, 2 * std::numbers::pi), 0, 3e-3);
+        }
     }
     EXPECT_LT(outcomes[3].collapse_time_s, outcomes[0].collapse_time_s);
 }

@@ -163,9 +163,6 @@ std::vector<std::string> samples()
              {"kind = \"harmonic" + motion + "second_ratio = 0.5\n", "kind = \"noise" + motion + "second_ratio = 0.5\n",
               std::string("kind = \"record\"\nfile = \"a\"\nsecond = { }\nvertical = { }\n")})
             all.push_back(single(shaking, structure, area_contact));
-    all.push_back("[study]\nkind = \"surface\"\nrealizations = 40\n" + solid_drums + area_contact +
-                  "[excitation]\nkind = \"harmonic\"\nfrequency_hz = 1.7\n[surface]\ndirection_deg" + range +
-                  "pga_m_s2" + range);
     all.push_back("[study]\nkind = \"fragility\"\nrealizations = 4\n" + solid_drums + area_contact +
                   "[excitation]\nkind = \"noise\"\nfrequency_hz = 1.7\nsecond_ratio = 0.5\n[fragility]\nmotions = 9\n"
                   "intensity = { from = 1, to = 2, count = 2 }\n");

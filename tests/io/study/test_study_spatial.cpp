@@ -280,8 +280,8 @@ TEST(StudyInSpace, KeysOfTheOtherModelAreNamedWhereTheyStand)
 {
     const std::string listed = "drum_width_m = 1.0\ndrum_height_m = 1.0\ndensity_kg_m3 = 2700\ndrums = [ { },\n  { ";
     expect_refused(in_space(listed + "normal_stiffness_n_m2 = 1e9 } ]\n"),
-                   {"temple.toml:9: structure.drums[1].normal_stiffness_n_m2 = 1e9 is not used by structure.dimensions "
-                    "= 3",
+                   {"temple.toml:9: structure.drums[1].normal_stiffness_n_m2 = 1000000000 is not used by "
+                    "structure.dimensions = 3",
                     "Give normal_stiffness_n_m3"});
     expect_refused(in_space(listed + "restitution = 0.2 } ]\n"),
                    {"temple.toml:9: structure.drums[1].restitution", "Remove it, or give structure.dimensions = 2."});
