@@ -1,13 +1,11 @@
 /// MuJoCo: spatial in joint coordinates, double precision, soft contacts by convex optimisation.
 
 #include "bench/peers/engine.hpp"
+#include "bench/peers/engines/mujoco_simulation.hpp"
 
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 
 #include <array>
-#include <cstring>
-#include <stdexcept>
 
 namespace stylobate::peers {
 
@@ -49,57 +47,35 @@ std::string model_text(const Scene& scene, const Setting& setting, double step_s
 
 class MujocoWorld final : public World {
 public:
-    MujocoWorld(const Scene& scene, const Setting& setting, double step_s) : scene_(scene)
+    MujocoWorld(const Scene& scene, const Setting& setting, double step_s)
+        : scene_(scene), simulation_(model_text(scene, setting, step_s))
     {
-        const std::string text = model_text(scene, setting, step_s);
-        const auto files = std::make_unique<mjVFS>();
-        mj_defaultVFS(files.get());
-        mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text.size()));
-        std::memcpy(files->filedata[mj_findFileVFS(files.get(), "scene.xml")], text.data(), text.size());
-        char error[1000] = "";
-        model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
-        mj_deleteVFS(files.get());
-        if (model_ == nullptr)
-            throw std::runtime_error(std::string("MuJoCo does not take the scene: ") + error);
-        data_ = mj_makeData(model_);
         int joint = 0;
         for (const Body& body : scene.bodies) {
             joints_.push_back(body.fixed ? -1 : joint);
             if (body.fixed)
                 continue;
-            data_->qpos[joint + 2] = body.start.theta_rad;
+            simulation_.positions()[joint + 2] = body.start.theta_rad;
             joint += 3;
         }
     }
 
-    ~MujocoWorld() override
-    {
-        mj_deleteData(data_);
-        mj_deleteModel(model_);
-    }
-
-    void step(double ground_acceleration) override
-    {
-        model_->opt.gravity[0] = -ground_acceleration;
-        model_->opt.gravity[2] = -scene_.gravity_m_s2;
-        mj_step(model_, data_);
-    }
+    void step(double ground_acceleration) override { simulation_.step(-ground_acceleration, 0, -scene_.gravity_m_s2); }
 
     Pose pose(std::size_t body) const override
     {
         Pose at = scene_.bodies[body].start;
         if (const int joint = joints_[body]; joint >= 0) {
-            at.x_m += data_->qpos[joint];
-            at.y_m += data_->qpos[joint + 1];
-            at.theta_rad = data_->qpos[joint + 2];
+            at.x_m += simulation_.positions()[joint];
+            at.y_m += simulation_.positions()[joint + 1];
+            at.theta_rad = simulation_.positions()[joint + 2];
         }
         return at;
     }
 
 private:
     Scene scene_;
-    mjModel* model_ = nullptr;
-    mjData* data_ = nullptr;
+    MujocoSimulation simulation_;
     std::vector<int> joints_; ///< first of each body's three; -1: fixed
 };
 

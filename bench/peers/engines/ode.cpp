@@ -2,15 +2,12 @@
 /// iterated.
 
 #include "bench/peers/engine.hpp"
-
-#include <ode/ode.h>
+#include "bench/peers/engines/ode_simulation.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdint>
-#include <stdexcept>
 
 namespace stylobate::peers {
 
@@ -26,35 +23,24 @@ constexpr std::array settings{Setting{"QuickStep, 20 iterations", 20}, Setting{"
 class OdeWorld final : public World {
 public:
     OdeWorld(const Scene& scene, const Setting& setting, double step_s)
-        : setting_(setting), gravity_(scene.gravity_m_s2), step_(step_s)
+        : gravity_(scene.gravity_m_s2),
+          simulation_(setting.iterations, step_s, [this](dGeomID a, dGeomID b) { return friction(a, b); })
     {
-        static const bool ready = dInitODE2(0) != 0; // for the life of the process
-        if (!ready)
-            throw std::runtime_error("ODE does not start");
-        // its exact solver complains of every redundant contact, and goes on
-        dSetMessageHandler([](int, const char*, va_list) {});
-        dRandSetSeed(0);
-        world_ = dWorldCreate();
-        space_ = dSimpleSpaceCreate(nullptr);
-        group_ = dJointGroupCreate(0);
-        dWorldSetAutoDisableFlag(world_, 0);
-        if (setting.iterations > 0)
-            dWorldSetQuickStepNumIterations(world_, setting.iterations);
         for (const Body& body : scene.bodies) {
-            const dGeomID geom =
-                dCreateBox(space_, 2 * body.half_width_m, 2 * body.half_height_m, body.fixed ? 1 : body.depth_m);
+            const dGeomID geom = dCreateBox(simulation_.space(), 2 * body.half_width_m, 2 * body.half_height_m,
+                                            body.fixed ? 1 : body.depth_m);
             dQuaternion turn;
             dQFromAxisAndAngle(turn, 0, 0, 1, body.start.theta_rad);
             if (body.fixed) {
                 bodies_.push_back(nullptr);
             } else {
-                const dBodyID made = dBodyCreate(world_);
+                const dBodyID made = dBodyCreate(simulation_.world());
                 dMass mass;
                 dMassSetBoxTotal(&mass, body.mass_kg, 2 * body.half_width_m, 2 * body.half_height_m, body.depth_m);
                 dBodySetMass(made, &mass);
                 dGeomSetBody(geom, made);
                 bodies_.push_back(made);
-                dJointAttach(dJointCreatePlane2D(world_, nullptr), made, nullptr);
+                dJointAttach(dJointCreatePlane2D(simulation_.world(), nullptr), made, nullptr);
             }
             dGeomSetPosition(geom, body.start.x_m, body.start.y_m, 0);
             dGeomSetQuaternion(geom, turn);
@@ -64,24 +50,9 @@ public:
         }
     }
 
-    ~OdeWorld() override
-    {
-        dJointGroupDestroy(group_);
-        for (const dGeomID geom : geoms_)
-            dGeomDestroy(geom);
-        dSpaceDestroy(space_);
-        dWorldDestroy(world_);
-    }
-
     void step(double ground_acceleration) override
     {
-        dWorldSetGravity(world_, -ground_acceleration, -gravity_, 0);
-        dSpaceCollide(space_, this, &OdeWorld::meet);
-        if (setting_.iterations > 0)
-            dWorldQuickStep(world_, step_);
-        else
-            dWorldStep(world_, step_);
-        dJointGroupEmpty(group_);
+        simulation_.step(-ground_acceleration, -gravity_, 0);
         // what its manual asks for with Plane2D: the constraint's drift is taken out
         for (const dBodyID body : bodies_)
             if (body != nullptr) {
@@ -103,30 +74,15 @@ public:
     }
 
 private:
-    static void meet(void* self, dGeomID a, dGeomID b)
+    /// Of neighbours in the scene the later one has the friction of their bed.
+    double friction(dGeomID a, dGeomID b) const
     {
-        auto& world = *static_cast<OdeWorld*>(self);
-        const dBodyID first = dGeomGetBody(a), second = dGeomGetBody(b);
-        if (first == nullptr && second == nullptr)
-            return;
-        constexpr int most = 8;
-        dContact contacts[most] = {};
-        const int count = dCollide(a, b, most, &contacts[0].geom, sizeof(dContact));
-        // of neighbours in the scene the later one has the friction of their bed
-        const auto later = std::max(reinterpret_cast<std::uintptr_t>(dGeomGetData(a)),
-                                    reinterpret_cast<std::uintptr_t>(dGeomGetData(b)));
-        for (int i = 0; i < count; ++i) {
-            contacts[i].surface.mode = dContactApprox1;
-            contacts[i].surface.mu = world.friction_[later];
-            dJointAttach(dJointCreateContact(world.world_, world.group_, &contacts[i]), first, second);
-        }
+        return friction_[std::max(reinterpret_cast<std::uintptr_t>(dGeomGetData(a)),
+                                  reinterpret_cast<std::uintptr_t>(dGeomGetData(b)))];
     }
 
-    Setting setting_;
-    double gravity_, step_;
-    dWorldID world_;
-    dSpaceID space_;
-    dJointGroupID group_;
+    double gravity_;
+    OdeSimulation simulation_;
     std::vector<dBodyID> bodies_; ///< null: fixed
     std::vector<dGeomID> geoms_;
     std::vector<double> friction_; ///< of each body against the one before

@@ -1,13 +1,11 @@
 /// MuJoCo with cylinders: free joints, elliptic friction cones.
 
+#include "bench/peers/engines/mujoco_simulation.hpp"
 #include "bench/peers/space/space_engine.hpp"
 
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 
 #include <array>
-#include <cstring>
-#include <stdexcept>
 
 namespace stylobate::peers {
 
@@ -45,19 +43,9 @@ std::string model_text(const SpaceScene& scene, const Setting& setting, double s
 
 class MujocoInSpace final : public SpaceWorld {
 public:
-    MujocoInSpace(const SpaceScene& scene, const Setting& setting, double step_s) : scene_(scene)
+    MujocoInSpace(const SpaceScene& scene, const Setting& setting, double step_s)
+        : scene_(scene), simulation_(model_text(scene, setting, step_s))
     {
-        const std::string text = model_text(scene, setting, step_s);
-        const auto files = std::make_unique<mjVFS>();
-        mj_defaultVFS(files.get());
-        mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(text.size()));
-        std::memcpy(files->filedata[mj_findFileVFS(files.get(), "scene.xml")], text.data(), text.size());
-        char error[1000] = "";
-        model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
-        mj_deleteVFS(files.get());
-        if (model_ == nullptr)
-            throw std::runtime_error(std::string("MuJoCo does not take the scene: ") + error);
-        data_ = mj_makeData(model_);
         int joint = 0;
         for (const Drum& d : scene.drums) {
             joints_.push_back(d.fixed ? -1 : joint);
@@ -66,39 +54,29 @@ public:
             // its rotation is in the body's own frame
             const SpaceVector v = y_third(d.velocity_m_s),
                               w = y_third(rotated_back(spatial::minus_identity(d.attitude), d.omega_rad_s));
-            mjtNum* const at = data_->qvel + 6 * joint;
+            mjtNum* const at = simulation_.velocities() + 6 * joint;
             at[0] = v.x, at[1] = v.y, at[2] = v.z, at[3] = w.x, at[4] = w.y, at[5] = w.z;
             ++joint;
         }
     }
 
-    ~MujocoInSpace() override
-    {
-        mj_deleteData(data_);
-        mj_deleteModel(model_);
-    }
-
     void step(const SpaceVector& a) override
     {
         const SpaceVector pull = y_third(SpaceVector{0 - a.x, 0 - a.y - scene_.gravity_m_s2, 0 - a.z});
-        model_->opt.gravity[0] = pull.x;
-        model_->opt.gravity[1] = pull.y;
-        model_->opt.gravity[2] = pull.z;
-        mj_step(model_, data_);
+        simulation_.step(pull.x, pull.y, pull.z);
     }
 
     SpacePose pose(std::size_t drum) const override
     {
         if (joints_[drum] < 0)
             return {scene_.drums[drum].centre_m, scene_.drums[drum].attitude};
-        const mjtNum* const q = data_->qpos + 7 * joints_[drum];
+        const mjtNum* const q = simulation_.positions() + 7 * joints_[drum];
         return {y_second(SpaceVector{q[0], q[1], q[2]}), y_second(SpaceAttitude{q[3], q[4], q[5], q[6]})};
     }
 
 private:
     SpaceScene scene_;
-    mjModel* model_ = nullptr;
-    mjData* data_ = nullptr;
+    MujocoSimulation simulation_;
     std::vector<int> joints_; ///< of each drum among the free ones; -1: fixed
 };
 
