@@ -1,7 +1,7 @@
 #include "io/plots/plot_structure.hpp"
 
-#include "io/plots/drawing_sheet.hpp"
 #include "io/plots/plot_structure_in_space.hpp"
+#include "io/plots/structure_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -20,53 +20,19 @@ constexpr double slab = 28, row = 75; ///< of the ground; between dimension line
 constexpr char bed_colour[] = "#c0271b";
 
 /// What is drawn, and the scale.
-struct Drawing {
-    const Study& study;
-    Layout layout = lay_out(study.structure);
-    std::vector<std::vector<std::size_t>> columns{}; ///< blocks of each, from the bottom
-    std::vector<std::size_t> epistyles{};
+struct Drawing : DrawnStructure {
+    using DrawnStructure::DrawnStructure;
     bool alike = true; ///< all columns are
-    double left_m = 0, right_m = 0, top_m = 0;
+    double left_m = std::numeric_limits<double>::infinity(), right_m = -left_m;
     double per_metre = 0, left = 0, ground = 0; ///< pixels
-    bool in_mm = false;
 
-    const PlacedBlock& block(std::size_t i) const { return layout.blocks[i]; }
     double x(double metres) const { return left + (metres - left_m) * per_metre; }
     double y(double metres) const { return ground - metres * per_metre; }
-    const char* unit() const { return in_mm ? "mm" : "m"; }
-    std::string number(double metres) const { return fmt::format("{:.4g}", in_mm ? 1000 * metres : metres); }
-    std::string length(double metres) const { return number(metres) + " " + unit(); }
     std::string size(const PlacedBlock& b) const
     {
         return fmt::format("{} × {} {}", number(b.width_m), number(b.height_m), unit());
     }
 };
-
-/// What of a bed is not that of [contact]; nullopt if nothing is.
-std::optional<std::string> bed_words(const BedSpec& bed)
-{
-    std::string words;
-    const auto add = [&](const char* name, const std::optional<double>& value, const char* unit) {
-        if (value)
-            words += fmt::format("{}{} {:.3g}{}", words.empty() ? "" : ", ", name, *value, unit);
-    };
-    add("friction", bed.friction, "");
-    add("K_N", bed.normal_stiffness_n_m2, " N/m2");
-    add("K_T", bed.tangential_stiffness_n_m, " N/m");
-    add("restitution", bed.restitution, "");
-    add("damping", bed.normal_damping_ratio, "");
-    add("tangential damping", bed.tangential_damping_ratio, "");
-    return words.empty() ? std::nullopt : std::optional(words);
-}
-
-/// Of the beds under a block; of an epistyle that of its first seat.
-const BedSpec* bed_under(const Drawing& d, std::size_t block)
-{
-    for (const PlacedBed& bed : d.layout.beds)
-        if (bed.upper == static_cast<int>(block))
-            return &bed.bed;
-    return nullptr;
-}
 
 bool alike(const PlacedBlock& a, const PlacedBlock& b)
 {
@@ -76,22 +42,15 @@ bool alike(const PlacedBlock& a, const PlacedBlock& b)
 
 bool same_beds(const Drawing& d, std::size_t a, std::size_t b)
 {
-    const BedSpec *of_a = bed_under(d, a), *of_b = bed_under(d, b);
-    return (of_a ? bed_words(*of_a) : std::nullopt) == (of_b ? bed_words(*of_b) : std::nullopt);
+    return d.bed_words(a) == d.bed_words(b);
 }
 
 Drawing make_drawing(const Study& study)
 {
-    Drawing d{study};
-    d.left_m = std::numeric_limits<double>::infinity();
-    d.right_m = -d.left_m;
-    d.columns.resize(study.structure.columns.size());
-    for (std::size_t i = 0; i < d.layout.blocks.size(); ++i) {
-        const PlacedBlock& b = d.block(i);
-        (b.role == BlockRole::epistyle ? d.epistyles : d.columns[static_cast<std::size_t>(b.column)]).push_back(i);
+    Drawing d(study);
+    for (const PlacedBlock& b : d.layout.blocks) {
         d.left_m = std::min(d.left_m, b.left());
         d.right_m = std::max(d.right_m, b.right());
-        d.top_m = std::max(d.top_m, b.top());
     }
     for (const auto& column : d.columns) {
         d.alike = d.alike && column.size() == d.columns[0].size();
@@ -100,12 +59,6 @@ Drawing make_drawing(const Study& study)
     }
     d.in_mm = std::max(d.right_m - d.left_m, d.top_m) < 1;
     return d;
-}
-
-/// "drum 3", "capital", "epistyle 1": without its column.
-std::string short_name(const PlacedBlock& block)
-{
-    return block.name.substr(0, block.name.find(" of column"));
 }
 
 /// Dimension rows below the ground.
@@ -143,7 +96,7 @@ void draw_blocks(const Drawing& d, DrawingSheet& sheet)
                         epistyle ? "#27475c" : "#4a3b24");
     }
     for (const PlacedBed& bed : d.layout.beds) {
-        if (!bed_words(bed.bed))
+        if (!words_of_bed(bed.bed))
             continue;
         const PlacedBlock& upper = d.block(static_cast<std::size_t>(bed.upper));
         double from = upper.left(), to = upper.right();
@@ -152,36 +105,6 @@ void draw_blocks(const Drawing& d, DrawingSheet& sheet)
             to = std::min(to, d.block(static_cast<std::size_t>(bed.lower)).right());
         }
         sheet.line(d.x(from), d.y(upper.bottom()), d.x(to), d.y(upper.bottom()), bed_colour, 2);
-    }
-}
-
-/// The chain of heights on the left, and the whole height.
-void draw_heights(const Drawing& d, DrawingSheet& sheet)
-{
-    std::vector<std::size_t> pile = d.columns.front();
-    for (const std::size_t e : d.epistyles)
-        if (d.study.structure.epistyles[e - d.epistyles.front()].first_column == 0) {
-            pile.push_back(e);
-            break;
-        }
-    const double at = d.x(d.left_m) - 55;
-    double top = 0;
-    for (const auto& run : runs_of(pile, [&](std::size_t a, std::size_t b) {
-             return same(d.block(a).height_m, d.block(b).height_m) && d.block(a).role == d.block(b).role;
-         })) {
-        const PlacedBlock &low = d.block(run.front()), &high = d.block(run.back());
-        top = high.top();
-        sheet.along(at, d.y(low.bottom()), d.y(top),
-                    run.size() == 1 ? d.length(low.height_m)
-                                    : fmt::format("{} × {}", run.size(), d.length(low.height_m)));
-        for (const std::size_t i : run)
-            sheet.line(at - 4, d.y(d.block(i).top()), at + 4, d.y(d.block(i).top()), "#27475c", 0.6);
-    }
-    if (pile.size() > 1 || !same(top, d.top_m)) {
-        const double outer = at - 190;
-        sheet.along(outer, d.y(0), d.y(d.top_m), d.length(d.top_m), true);
-        for (const double y : {d.y(0), d.y(d.top_m)})
-            sheet.line(outer - 10, y, d.x(d.left_m) - 12, y, "#b0b0b0", 0.4);
     }
 }
 
@@ -227,15 +150,8 @@ void draw_tops(const Drawing& d, DrawingSheet& sheet)
 
 std::string words_of(const Drawing& d, const std::vector<std::size_t>& run)
 {
-    const PlacedBlock &first = d.block(run.front()), &last = d.block(run.back());
-    std::string name = short_name(first);
-    if (run.size() > 1) {
-        const std::size_t blank = name.rfind(' ');
-        const std::string other = short_name(last);
-        name = fmt::format("{}s {} to {}", name.substr(0, blank), name.substr(blank + 1),
-                           other.substr(other.rfind(' ') + 1));
-    }
-    std::string words = fmt::format("{}: {}, {}", name, d.size(first), mass_text(first.mass_kg));
+    const PlacedBlock& first = d.block(run.front());
+    std::string words = fmt::format("{}: {}, {}", d.name_of(run), d.size(first), mass_text(first.mass_kg));
     if (std::fabs(first.offset_m) > 1e-9 * first.width_m && first.role == BlockRole::drum)
         words += ", offset " + d.length(first.offset_m);
     if (first.fixed)
@@ -255,16 +171,14 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
     std::vector<Entry> entries;
     const auto add = [&](const std::vector<std::size_t>& run, bool of_row) {
         const PlacedBlock &low = d.block(run.front()), &high = d.block(run.back());
-        const BedSpec* bed = bed_under(d, run.front());
         double right = 0;
         for (const std::size_t i : run)
             right = std::max(right, d.block(i).right());
         const double top = d.y(of_row ? low.top() : high.top()), bottom = d.y(low.bottom());
-        entries.push_back(
-            {words_of(d, run), bed ? bed_words(*bed) : std::nullopt, top, bottom, d.x(right), (top + bottom) / 2});
+        entries.push_back({words_of(d, run), d.bed_words(run.front()), top, bottom, d.x(right), (top + bottom) / 2});
     };
     const auto is_alike = [&](std::size_t a, std::size_t b) {
-        return alike(d.block(a), d.block(b)) && same_beds(d, a, b) && short_name(d.block(b)) != "capital";
+        return alike(d.block(a), d.block(b)) && same_beds(d, a, b) && d.name_of({b}) != "capital";
     };
     for (const auto& run : runs_of(d.columns.back(), is_alike))
         add(run, false);
@@ -312,11 +226,10 @@ std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
 {
     static constexpr char black[] = "#000000"; // the texts point to it
     const PlacedBlock& b = d.block(i);
-    const std::pair<std::string, const char*> name{short_name(b), black}, size{d.size(b), black};
+    const std::pair<std::string, const char*> name{d.name_of({i}), black}, size{d.size(b), black};
     if (d.alike) // the list has the rest
         return {{name}};
-    const BedSpec* bed = bed_under(d, i);
-    const auto of_bed = bed ? bed_words(*bed) : std::nullopt;
+    const auto of_bed = d.bed_words(i);
     std::vector<BlockText> texts;
     if (of_bed)
         texts = {{name, size, {*of_bed, bed_colour}}, {size, {*of_bed, bed_colour}}};
@@ -352,20 +265,6 @@ void draw_in_blocks(const Drawing& d, DrawingSheet& sheet)
     }
 }
 
-std::string subtitle_of(const Drawing& d)
-{
-    double sum = 0;
-    std::size_t fixed = 0;
-    for (const PlacedBlock& b : d.layout.blocks) {
-        sum += b.mass_kg;
-        fixed += b.fixed;
-    }
-    const std::size_t blocks = d.layout.blocks.size();
-    return fmt::format("{} block{}{} · depth {} · friction {:.3g} · {} in all", blocks, blocks == 1 ? "" : "s",
-                       fixed > 0 ? fmt::format(", {} fixed", fixed) : "", d.length(d.study.structure.depth_m),
-                       d.study.contact.friction, mass_text(sum));
-}
-
 } // namespace
 
 void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file)
@@ -376,12 +275,15 @@ void plot_structure(const Study& study, const std::string& title, const std::fil
     DrawingSheet sheet(scale(d));
     draw_blocks(d, sheet);
     draw_in_blocks(d, sheet);
-    draw_heights(d, sheet);
+    draw_heights(d, sheet, d.x(d.left_m), d.ground, d.per_metre);
     draw_plan(d, sheet);
     draw_tops(d, sheet);
     if (d.alike)
         draw_list(d, sheet);
-    sheet.write(title, subtitle_of(d), file);
+    sheet.write(title,
+                fmt::format("{} · depth {} · friction {:.3g} · {} in all", d.count_words(),
+                            d.length(study.structure.depth_m), study.contact.friction, d.whole_mass()),
+                file);
 }
 
 } // namespace stylobate

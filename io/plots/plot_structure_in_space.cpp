@@ -1,6 +1,7 @@
 #include "io/plots/plot_structure_in_space.hpp"
 
 #include "io/plots/solid_sheet.hpp"
+#include "io/plots/structure_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -33,40 +34,28 @@ struct Range {
 };
 
 /// What is drawn, and where.
-struct SpaceDrawing {
-    const Study& study;
-    Layout layout = lay_out(study.structure);
-    std::vector<DrawnSolid> solids = {};
-    std::vector<std::vector<std::size_t>> columns = {}; ///< blocks of each, from the bottom
-    std::vector<std::size_t> epistyles = {};
-    Range x = {}, z = {};
-    double top = 0;
-    bool in_mm = false;
-    SheetPlace front = {}, side = {}, plan = {};
+struct SpaceDrawing : DrawnStructure {
+    using DrawnStructure::DrawnStructure;
+    std::vector<DrawnSolid> solids;
+    Range x, z;
+    SheetPlace front, side, plan;
     double ground = 0;
-
-    const PlacedBlock& block(std::size_t i) const { return layout.blocks[i]; }
-    std::string number(double metres) const { return fmt::format("{:.4g}", in_mm ? 1000 * metres : metres); }
-    std::string length(double metres) const { return number(metres) + (in_mm ? " mm" : " m"); }
 };
 
 SpaceDrawing drawing_of(const Study& study)
 {
-    SpaceDrawing d{study};
-    d.columns.resize(study.structure.columns.size());
-    for (std::size_t i = 0; i < d.layout.blocks.size(); ++i) {
-        const PlacedBlock& b = d.block(i);
-        const bool epistyle = b.role == BlockRole::epistyle;
-        (epistyle ? d.epistyles : d.columns[static_cast<std::size_t>(b.column)]).push_back(i);
+    SpaceDrawing d(study);
+    for (const PlacedBlock& b : d.layout.blocks) {
         const PlacedSolid solid = solid_of(b);
-        d.solids.push_back({solid, b.fixed ? SolidLook::fixed : epistyle ? SolidLook::lintel : SolidLook::stone});
+        d.solids.push_back({solid, b.fixed                         ? SolidLook::fixed
+                                   : b.role == BlockRole::epistyle ? SolidLook::lintel
+                                                                   : SolidLook::stone});
         const double half_x = std::max(solid.shape.bottom.x, solid.shape.top.x);
         const double half_z = std::max(solid.shape.bottom.z, solid.shape.top.z);
         d.x.add(b.x_m() - half_x, b.x_m() + half_x);
         d.z.add(b.z_m() - half_z, b.z_m() + half_z);
-        d.top = std::max(d.top, b.top());
     }
-    d.in_mm = std::max({d.x.length(), d.z.length(), d.top}) < 1;
+    d.in_mm = std::max({d.x.length(), d.z.length(), d.top_m}) < 1;
     return d;
 }
 
@@ -74,42 +63,17 @@ SpaceDrawing drawing_of(const Study& study)
 double place_views(SpaceDrawing& d)
 {
     const double room = sheet_width - room_left - room_right - room_between;
-    const double scale = std::min({room / (d.x.length() + d.z.length()), most_high / d.top, most_deep / d.z.length()});
+    const double scale =
+        std::min({room / (d.x.length() + d.z.length()), most_high / d.top_m, most_deep / d.z.length()});
     const double used = (d.x.length() + d.z.length()) * scale;
     const double left = room_left + (room - used) / 3;
-    d.ground = above_drawing + d.top * scale;
+    d.ground = above_drawing + d.top_m * scale;
     d.front = {left - d.x.from * scale, d.ground, scale};
     // from the side z is to the left: the front of the structure comes first
     d.side = {left + d.x.length() * scale + room_between + d.z.to * scale, d.ground, scale};
     const double plan_top = d.ground + floor_px + 2 * dimension_row + 105;
     d.plan = {d.front.x, plan_top - d.z.from * scale, scale};
     return plan_top + d.z.length() * scale + 85;
-}
-
-/// What of a bed is not that of [contact]; nullopt if nothing is.
-std::optional<std::string> words_of_bed(const BedSpec& bed)
-{
-    std::string words;
-    const auto add = [&](const char* name, const std::optional<double>& value, const char* unit) {
-        if (value)
-            words += fmt::format("{}{} {:.3g}{}", words.empty() ? "" : ", ", name, *value, unit);
-    };
-    add("friction", bed.friction, "");
-    add("normal stiffness", bed.normal_stiffness_n_m3, " N/m3");
-    add("tangential stiffness", bed.tangential_stiffness_n_m3, " N/m3");
-    add("damping", bed.normal_damping_ratio, "");
-    add("tangential damping", bed.tangential_damping_ratio, "");
-    add("hollow: inner size", bed.inner_ratio > 0 ? std::optional(bed.inner_ratio) : std::nullopt, " of the outer");
-    return words.empty() ? std::nullopt : std::optional(words);
-}
-
-/// Of the beds under a block; of an epistyle that of its first seat.
-std::optional<std::string> bed_of(const SpaceDrawing& d, std::size_t block)
-{
-    for (const PlacedBed& bed : d.layout.beds)
-        if (bed.upper == static_cast<int>(block))
-            return words_of_bed(bed.bed);
-    return std::nullopt;
 }
 
 void draw_elevation(const SpaceDrawing& d, DrawingSheet& sheet, const SolidView& view, const SheetPlace& place,
@@ -120,7 +84,7 @@ void draw_elevation(const SpaceDrawing& d, DrawingSheet& sheet, const SolidView&
                     d.ground + floor_px, "#6f6f6f");
     draw_solids(sheet, d.solids, view, place);
     for (std::size_t i = 0; i < d.layout.blocks.size(); ++i) {
-        if (!bed_of(d, i))
+        if (!d.bed_words(i))
             continue;
         const PlacedSolid solid = solid_of(d.block(i));
         const ViewPoint middle = view.place({solid.middle[0], d.block(i).bottom(), solid.middle[2]});
@@ -128,34 +92,6 @@ void draw_elevation(const SpaceDrawing& d, DrawingSheet& sheet, const SolidView&
         const auto [x0, y0] = place.of({middle.x - half, middle.y});
         const auto [x1, y1] = place.of({middle.x + half, middle.y});
         sheet.line(x0, y0, x1, y1, red, 2);
-    }
-}
-
-/// The chain of heights of the first column, with the epistyle on it, and the whole height.
-void draw_heights(const SpaceDrawing& d, DrawingSheet& sheet)
-{
-    std::vector<std::size_t> pile = d.columns.front();
-    for (const std::size_t e : d.epistyles)
-        if (d.study.structure.epistyles[e - d.epistyles.front()].first_column == 0) {
-            pile.push_back(e);
-            break;
-        }
-    const auto y = [&](double metres) { return d.ground - metres * d.front.per_metre; };
-    const double left = d.front.x + d.x.from * d.front.per_metre, at = left - 55;
-    double top = 0;
-    for (const auto& run : runs_of(pile, [&](std::size_t a, std::size_t b) {
-             return same(d.block(a).height_m, d.block(b).height_m) && d.block(a).role == d.block(b).role;
-         })) {
-        const PlacedBlock &low = d.block(run.front()), &high = d.block(run.back());
-        top = high.top();
-        sheet.along(at, y(low.bottom()), y(top),
-                    run.size() == 1 ? d.length(low.height_m)
-                                    : fmt::format("{} × {}", run.size(), d.length(low.height_m)));
-    }
-    if (pile.size() > 1 || !same(top, d.top)) {
-        sheet.along(at - 190, y(0), y(d.top), d.length(d.top), true);
-        for (const double level : {y(0), y(d.top)})
-            sheet.line(at - 200, level, left - 12, level, "#b0b0b0", 0.4);
     }
 }
 
@@ -236,7 +172,7 @@ void draw_plan_view(const SpaceDrawing& d, DrawingSheet& sheet)
 
 std::string size_words(const SpaceDrawing& d, const PlacedBlock& b)
 {
-    const std::string unit = d.in_mm ? "mm" : "m";
+    const char* const unit = d.unit();
     std::string height = fmt::format("height {} {}", d.number(b.height_m), unit);
     if (b.echinus_part > 0)
         height += fmt::format(", of which an echinus {}, diameter {} {}", d.number(b.echinus_part * b.height_m),
@@ -254,38 +190,25 @@ std::string size_words(const SpaceDrawing& d, const PlacedBlock& b)
     return fmt::format("{} {}, {}", faces(face(1), face(b.top_ratio)), unit, height);
 }
 
-/// "drum 3", "capital", "epistyle 1": without its column.
-std::string name_alone(const PlacedBlock& block)
-{
-    return block.name.substr(0, block.name.find(" of column"));
-}
-
 /// A line for each run of neighbours that are alike.
 std::vector<std::string> lines_of(const SpaceDrawing& d, const std::vector<std::size_t>& blocks)
 {
     const auto alike = [&](std::size_t i, std::size_t k) {
         const PlacedBlock &a = d.block(i), &b = d.block(k);
         return size_words(d, a) == size_words(d, b) && same(a.mass_kg, b.mass_kg) && a.fixed == b.fixed &&
-               a.capital == b.capital && bed_of(d, i) == bed_of(d, k) && same(1 + a.offset_m, 1 + b.offset_m) &&
+               a.capital == b.capital && d.bed_words(i) == d.bed_words(k) && same(1 + a.offset_m, 1 + b.offset_m) &&
                same(1 + a.offset_z_m, 1 + b.offset_z_m);
     };
     std::vector<std::string> lines;
     for (const auto& run : runs_of(blocks, alike)) {
         const PlacedBlock& first = d.block(run.front());
-        std::string name = name_alone(first);
-        if (run.size() > 1) {
-            const std::size_t blank = name.rfind(' ');
-            const std::string last = name_alone(d.block(run.back()));
-            name = fmt::format("{}s {} to {}", name.substr(0, blank), name.substr(blank + 1),
-                               last.substr(last.rfind(' ') + 1));
-        }
-        std::string words = fmt::format("{}: {}, {}", name, size_words(d, first), mass_text(first.mass_kg));
+        std::string words = fmt::format("{}: {}, {}", d.name_of(run), size_words(d, first), mass_text(first.mass_kg));
         if (first.role == BlockRole::drum && std::hypot(first.offset_m, first.offset_z_m) > 1e-9 * first.width_m)
             words +=
                 fmt::format(", offset {} along x, {} along z", d.length(first.offset_m), d.length(first.offset_z_m));
         if (first.fixed)
             words += ", fixed";
-        if (const std::optional<std::string> bed = bed_of(d, run.front()))
+        if (const std::optional<std::string> bed = d.bed_words(run.front()))
             words += "; bed: " + *bed;
         lines.push_back(std::move(words));
     }
@@ -317,20 +240,6 @@ std::vector<std::string> block_list(const SpaceDrawing& d)
     return list;
 }
 
-std::string words_below_title(const SpaceDrawing& d)
-{
-    double sum = 0;
-    std::size_t fixed = 0;
-    for (const PlacedBlock& b : d.layout.blocks) {
-        sum += b.mass_kg;
-        fixed += b.fixed;
-    }
-    const std::size_t blocks = d.layout.blocks.size();
-    return fmt::format("{} block{}{} · friction {:.3g} · {} in all · x to the right, z towards the viewer", blocks,
-                       blocks == 1 ? "" : "s", fixed > 0 ? fmt::format(", {} fixed", fixed) : "",
-                       d.study.contact.friction, mass_text(sum));
-}
-
 } // namespace
 
 void plot_structure_in_space(const Study& study, const std::string& title, const std::filesystem::path& file)
@@ -350,7 +259,7 @@ void plot_structure_in_space(const Study& study, const std::string& title, const
     draw_elevation(d, sheet, SolidView::front(), d.front, d.x.from, d.x.to);
     draw_elevation(d, sheet, SolidView::side(), d.side, -d.z.to, -d.z.from);
     draw_plan_view(d, sheet);
-    draw_heights(d, sheet);
+    draw_heights(d, sheet, d.front.x + d.x.from * d.front.per_metre, d.ground, d.front.per_metre);
     std::vector<double> axes_x, axes_z;
     for (const auto& column : d.columns) {
         axes_x.push_back(d.block(column.front()).axis_m);
@@ -373,7 +282,10 @@ void plot_structure_in_space(const Study& study, const std::string& title, const
         sheet.text(words, 120, y, DrawingSheet::fitting(words, sheet_width - 240, 17), TextAt::left);
         y += line;
     }
-    sheet.write(title, words_below_title(d), file);
+    sheet.write(title,
+                fmt::format("{} · friction {:.3g} · {} in all · x to the right, z towards the viewer", d.count_words(),
+                            study.contact.friction, d.whole_mass()),
+                file);
 }
 
 } // namespace stylobate
