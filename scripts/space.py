@@ -17,6 +17,16 @@ kind = "surface"
 seed = {seed}
 realizations = {realizations}
 
+[excitation]
+kind = "noise"
+{shaking}
+
+[surface]
+frequency_hz = {{ from = 2.0, to = 2.0, count = 1, spacing = "linear" }}
+pga_m_s2 = {{ from = {first}, to = {last}, count = 3, spacing = "linear" }}
+"""
+
+COLUMN = """
 [structure]
 {space}kind = "column"
 blocks = 6
@@ -29,41 +39,36 @@ density_kg_m3 = 2700
 normal_damping_ratio = {damping}
 tangential_damping_ratio = {damping}
 friction = 0.7
-
-[excitation]
-kind = "noise"
-{shaking}
-{mechanisms}
-[surface]
-frequency_hz = {{ from = 2.0, to = 2.0, count = 1, spacing = "linear" }}
-pga_m_s2 = {{ from = {first}, to = {last}, count = 3, spacing = "linear" }}
+{contact}
 
 [perturbation]
 drum_offset = {{ distribution = "normal", sd_m = 0.001, per = "block" }}
 """
 
 
-def study(space="", shaking="", factor=1.0, stiffness=3e9, damping=0.1, contact="", mechanisms="", seed=7, realizations=0):
-    """@param space: the shape in space; nothing: in the plane.  @param factor: on the PGAs"""
-    return STUDY.format(
-        seed=seed,
-        realizations=realizations,
-        damping=damping,
+def column(space="", stiffness=3e9, damping=0.1, contact=""):
+    """The column of this page, as part of a study. @param space: the shape in space; nothing: in the plane"""
+    return COLUMN.format(
         space=f'dimensions = 3\nshape = "{space}"\n' if space else "depth_m = 1.0\n",
-        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}\n{contact}",
-        mechanisms=mechanisms,
-        shaking=shaking,
-        first=factor * PGAS[0],
-        last=factor * PGAS[-1],
+        stiffness=f"normal_stiffness_n_m{3 if space else 2} = {stiffness:g}",
+        damping=damping,
+        contact=contact,
     )
+
+
+def study(shaking="", factor=1.0, seed=7, realizations=0, **of_column):
+    """@param factor: on the PGAs.  @param of_column: as in `column`"""
+    return STUDY.format(
+        seed=seed, realizations=realizations, shaking=shaking, first=factor * PGAS[0], last=factor * PGAS[-1]
+    ) + column(**of_column)
 
 
 BOTH = "second_ratio = 0.8"
 ENDS = 'damping = "ends"'
-SPREAD = {"contact": 'damping_per = "chord"', "mechanisms": "\n[mechanisms]\nface_damping = { share = 0.3333333333333333 }\n"}
+SPREAD = 'damping_per = "chord"\n\n[mechanisms]\nface_damping = { share = 0.3333333333333333 }'
 CASES = [  # name, words, settings
     ("plane", "in the plane, along x", {}),
-    ("plane_spread", "the same, with dashpots spread over the faces as in space", SPREAD),
+    ("plane_spread", "the same, with dashpots spread over the faces as in space", {"contact": SPREAD}),
     ("plane_across", "in the plane, by the weaker component (0.8 of the PGA; independent noise)", {"factor": 0.8, "seed": 8}),
     ("one", "round, in space, one component", {"space": "round"}),
     ("both", "round, in space, both components at once", {"space": "round", "shaking": BOTH}),
@@ -135,4 +140,5 @@ def main():
         print(f"- at {pga} m/s², {more} fall in space under both components and not in the plane, {less} the other way round.")
 
 
-main()
+if __name__ == "__main__":
+    main()

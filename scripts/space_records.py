@@ -15,6 +15,7 @@ import sys
 import tomllib
 
 import numpy as np
+import space
 import stylobate
 
 LEVELS = (2, 3, 4, 6)
@@ -25,19 +26,6 @@ kind = "fragility"
 seed = 11
 realizations = {realizations}
 
-[structure]
-{space}kind = "column"
-blocks = 6
-drum_width_m = 1.0
-drum_height_m = 1.0
-density_kg_m3 = 2700
-
-[contact]
-{stiffness} = 3e9
-normal_damping_ratio = 0.1
-tangential_damping_ratio = 0.1
-friction = 0.7
-
 [excitation]
 kind = "record"
 
@@ -47,9 +35,6 @@ scale = {level}
 records = [
 {records}
 ]
-
-[perturbation]
-drum_offset = {{ distribution = "normal", sd_m = 0.001, per = "block" }}
 """
 
 CASES = [  # name, words, shape in space, components
@@ -101,13 +86,7 @@ def fallen(folder, case, level, pairs, realizations):
     for i in range(len(pairs)):
         second = f', second = {{ file = "pair{i}_second.csv", unit = "m/s2" }}' if components == "pair" else ""
         rows.append(f'    {{ file = "pair{i}_{"first" if components == "pair" else components}.csv", unit = "m/s2"{second} }},')
-    text = STUDY.format(
-        realizations=realizations,
-        space=f'dimensions = 3\nshape = "{shape}"\n' if shape else "depth_m = 1.0\n",
-        stiffness=f"normal_stiffness_n_m{3 if shape else 2}",
-        level=level,
-        records="\n".join(rows),
-    )
+    text = STUDY.format(realizations=realizations, level=level, records="\n".join(rows)) + space.column(space=shape)
     study = folder / f"{name}_{level}.toml"
     study.write_text(text)
     of = stylobate.run(study, folder / f"{name}_{level}.h5").arrays()
