@@ -245,5 +245,20 @@ TEST_F(FragilityProgram, WhereNothingFallsThereIsNoCurveButABound)
     }
 }
 
+TEST_F(FragilityProgram, WithoutACurveItsTablesAreExportedAllTheSame)
+{
+    const Ended ended = run(words("still.h5", "2", "auto",
+                                  {"fragility.intensity={measure=\"pgv\",from=0.01,to=0.01,count=1,spacing=\"log\"}"}));
+    ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
+    EXPECT_EQ(run(std::vector<std::string>{"export", "still.h5", "--to", "csv", "-o", "tables"}).status, 0);
+    EXPECT_TRUE(fs::exists(folder / "tables" / "realizations.csv"));
+    EXPECT_TRUE(fs::exists(folder / "tables" / "motions.csv"));
+    const Ended curves = run(std::vector<std::string>{"export", "still.h5", "--to", "nrml"});
+    EXPECT_EQ(curves.status, 2) << testing::PrintToString(curves);
+    EXPECT_NE(curves.err.find("no limit state has a curve"), std::string::npos) << curves.err;
+    EXPECT_NE(curves.err.find("--to csv"), std::string::npos) << curves.err;
+    EXPECT_FALSE(fs::exists(folder / "still_nrml"));
+}
+
 } // namespace
 } // namespace stylobate

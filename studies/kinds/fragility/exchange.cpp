@@ -142,9 +142,6 @@ std::vector<FragilityModel> fragility_models(const Fragility& f, const std::stri
         if (!model.functions.empty())
             models.push_back(std::move(model));
     }
-    if (models.empty())
-        throw InputError(study + ": no limit state has a curve or shares by stripe to export" +
-                         (f.says.empty() ? "" : ":\n  " + f.says.front()));
     return models;
 }
 

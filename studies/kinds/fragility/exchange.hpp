@@ -14,7 +14,7 @@ namespace stylobate {
 /// the collapse. A model has the shares of the stripes as a discrete function, and the lognormal curves where all its
 /// states have one and these do not cross within the study's intensities (`FragilityFunction::note` says where they
 /// do).
-/// @throws InputError if there is no curve and no stripe to pass on
+/// @return none where no limit state has a curve or two stripes
 std::vector<FragilityModel> fragility_models(const Fragility& fragility, const std::string& study);
 
 /// Each model as ID.xml (NRML 0.5), ID.json or fragility_ID.csv: names of files and their texts.

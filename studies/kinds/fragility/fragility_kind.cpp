@@ -106,9 +106,13 @@ std::vector<std::pair<std::string, std::string>> FragilityKind::files(const std:
     std::vector<std::pair<std::string, std::string>> files;
     if (format == "csv")
         files.emplace_back("motions.csv", csv_text(motions_list(header_.motions)));
-    if (format != "csv" || !fragility_.states.empty())
-        for (auto& file : model_files(fragility_models(fragility_, name), format))
-            files.push_back(std::move(file));
+    const std::vector<FragilityModel> models = fragility_models(fragility_, name);
+    if (models.empty() && format != "csv")
+        throw InputError(name + ": no limit state has a curve or shares by stripe to export" +
+                         (fragility_.says.empty() ? "" : ":\n  " + fragility_.says.front()) +
+                         "\n  The motions and all realizations: --to csv.");
+    for (auto& file : model_files(models, format))
+        files.push_back(std::move(file));
     return files;
 }
 
