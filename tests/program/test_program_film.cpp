@@ -13,8 +13,11 @@ protected:
     void SetUp() override
     {
         Program::SetUp();
-        const std::string study = STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml";
-        EXPECT_EQ(run({"run", study, "-o", "one.h5", "--quiet"}).status, 0);
+        make("one.h5", STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml");
+    }
+    void make(const std::string& results, const std::string& study) const
+    {
+        EXPECT_EQ(run({"run", study, "-o", results, "--quiet"}).status, 0);
     }
     void TearDown() override
     {
@@ -53,6 +56,54 @@ TEST_F(FilmExport, GivesEveryFrameToFfmpeg)
         const std::size_t one = all.size() / count;
         EXPECT_NE(all.substr(0, one), all.substr(all.size() - one));
     }
+}
+
+/// Pixels whose colour has the ratios of this one: a shaded face.
+std::size_t pixels_like(std::string_view frame, double red, double green, double blue)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 2 < frame.size(); i += 3) {
+        const auto part = [&](std::size_t k) { return static_cast<double>(static_cast<unsigned char>(frame[i + k])); };
+        const double brightness = part(0) / red;
+        count += brightness > 0.5 && std::abs(part(1) - brightness * green) <= 2 &&
+                 std::abs(part(2) - brightness * blue) <= 2;
+    }
+    return count;
+}
+
+TEST_F(FilmExport, InSpaceADrumFallsAndChangesItsColour)
+{
+    write_bytes(folder / "drum.toml", R"([study]
+kind = "single"
+[structure]
+dimensions = 3
+blocks = 1
+drum_width_m = 0.5
+drum_height_m = 2
+density_kg_m3 = 2700
+[contact]
+normal_stiffness_n_m3 = 1e9
+friction = 0.7
+[excitation]
+kind = "full_sine"
+frequency_hz = 1
+pga_m_s2 = 6
+tail_s = 3
+)");
+    make("drum.h5", "drum.toml");
+    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
+    use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
+                    frames));
+    EXPECT_EQ(run({"export", "drum.h5", "-o", "drum.gif"}).status, 0);
+    const std::string said = read_bytes(words), all = read_bytes(frames);
+    int width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
+    const std::size_t one = 3U * static_cast<unsigned>(width * height);
+    ASSERT_EQ(all.size() % one, 0U);
+    const std::string_view first(all.data(), one), last(all.data() + all.size() - one, one);
+    EXPECT_GT(pixels_like(first, 233, 226, 208), 200U);
+    EXPECT_LT(pixels_like(first, 227, 160, 143), 20U);
+    EXPECT_GT(pixels_like(last, 227, 160, 143), 200U);
 }
 
 TEST_F(FilmExport, AsAPageOfItsOwn)
