@@ -47,8 +47,9 @@ std::vector<Html> markdown_cells(std::string_view line)
 std::string left_out_text(int dimensions)
 {
     if (dimensions == 3)
-        return "The model in space ends each realization with its first fall, computes no contacts beside the beds, "
-               "and loses less energy in an impact than rigid bodies do (docs/space.md).";
+        return "The model in space ends each realization with its first fall and computes no contacts beside the beds; "
+               "with dashpots spread over the contact it loses less energy in an impact than rigid bodies do "
+               "(docs/space.md).";
     return fmt::format("The plane leaves out the second horizontal component of the shaking and the round face of the "
                        "drums: with both, a column of six drums fell {} as often at a PGA of {} (docs/space.md).",
                        times_as_often, at_pga);

@@ -64,8 +64,8 @@ ForcesAtRest::ForcesAtRest(const SpatialStructure& structure, const SolidTopolog
     copy_rows<W::Field>(bundle, lane, bundle_, 1);
     if (topology_.model.mechanisms) {
         copy_rows<M::Field>(bundle, lane, bundle_, topology_.joints);
-        for (int j = 0; j < topology_.joints; ++j) // the way from the reference state is no slide
-            for (const M::Field field : {M::friction_drop, M::wear, M::adhesion})
+        for (int j = 0; j < topology_.joints; ++j) // the way from the reference state is no slide and no impact
+            for (const M::Field field : {M::friction_drop, M::wear, M::adhesion, M::face_share, M::face_dashpot})
                 bundle_.at(field, j, 0) = 0;
     }
     for (const int solid : topology.order()) {

@@ -204,8 +204,8 @@ void SpatialBuilder::stack(const RealizationValues& values, Realization& realiza
     }
 }
 
-/// The epistyles, as they are laid one after the other along each line, in the direction of its axis: one that is too
-/// long for its place pushes the next ones.
+/// The epistyles, as they are laid one after the other along each line, in the direction of its axis, and abreast of
+/// each other: one that is too long or too wide for its place pushes the next ones.
 void SpatialBuilder::lay_epistyles(const RealizationValues& values, Realization& realization) const
 {
     std::vector<Solid>& solids = realization.space.solids;
@@ -214,23 +214,36 @@ void SpatialBuilder::lay_epistyles(const RealizationValues& values, Realization&
         solids.push_back(solid(values, i, values[Quantity::drum_height][i], layout_.blocks[i].bottom()));
     std::vector<std::size_t> order(solids.size() - first);
     std::iota(order.begin(), order.end(), first);
-    const auto place = [&](std::size_t i) {
+    const auto nominal = [&](std::size_t i, std::size_t axis) {
         const PlacedBlock& block = layout_.blocks[i];
-        return block.along == Along::z ? block.z_m() : block.x_m();
+        return axis == 0 ? std::pair(block.x_m(), block.width_m / 2) : std::pair(block.z_m(), block.depth_m / 2);
+    };
+    const auto place = [&](std::size_t i) {
+        const std::size_t axis = index_of(layout_.blocks[i].along);
+        return std::pair(nominal(i, axis).first, nominal(i, 2 - axis).first);
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    // where they are meant to lie apart
+    const auto apart = [&](std::size_t a, std::size_t b, std::size_t axis) {
+        const auto [at_a, half_a] = nominal(a, axis);
+        const auto [at_b, half_b] = nominal(b, axis);
+        return std::abs(at_a - at_b) >= (half_a + half_b) * (1 - rounding);
+    };
     for (std::size_t k = 1; k < order.size(); ++k)
         for (std::size_t before = 0; before < k; ++before) {
             Solid& pushed = solids[order[k]];
             const Solid& other = solids[order[before]];
             const Along along = layout_.blocks[order[k]].along;
-            const std::size_t axis = index_of(along), across = 2 - axis;
-            if (along != layout_.blocks[order[before]].along ||
-                overlap_along(pushed, other, across) <= rounding * half_along(pushed, across) ||
-                overlap_along(pushed, other, 1) <= 0)
+            if (along != layout_.blocks[order[before]].along || overlap_along(pushed, other, 1) <= 0)
                 continue;
-            if (const double overlap = overlap_along(pushed, other, axis); overlap > 0)
-                pushed.centre_m[axis] += overlap;
+            for (const std::size_t axis : {index_of(along), 2 - index_of(along)}) {
+                const double overlap = overlap_along(pushed, other, axis);
+                const bool faces = !apart(order[k], order[before], 2 - axis) || // else corner to corner
+                                   overlap_along(pushed, other, 2 - axis) > rounding * half_along(pushed, 2 - axis);
+                if (apart(order[k], order[before], axis) && faces && overlap > 0)
+                    pushed.centre_m[axis] +=
+                        nominal(order[k], axis).first < nominal(order[before], axis).first ? -overlap : overlap;
+            }
         }
 }
 

@@ -70,6 +70,9 @@ std::vector<Above> weights_above(const SpatialStructure& structure)
                 continue;
             above[j].add(1.0 / static_cast<double>(seats), carried[i].kg, carried[i].moment);
             above[j].alone = seats == 1;
+            if (seats > 1) // its part of the weight passes about through the seat
+                for (const std::size_t k : {std::size_t{0}, std::size_t{2}})
+                    above[j].moment[k] = above[j].kg * structure.joints[j].point_m[k];
             carried[static_cast<std::size_t>(structure.joints[j].lower)].add(1, above[j].kg, above[j].moment);
         }
     }

@@ -27,10 +27,12 @@ std::string colonnade(const std::string& columns, const std::string& epistyles, 
            capital + " }\nepistyle_height_m = 0.6\n" + epistyles;
 }
 
-Study portal_study(const std::string& structure, const std::string& excitation = "kind = \"none\"\nduration_s = 1\n")
+Study portal_study(const std::string& structure, const std::string& excitation = "kind = \"none\"\nduration_s = 1\n",
+                   const std::string& contact = "")
 {
     return parse_study("[study]\nkind = \"single\"\n" + structure +
-                           "[contact]\nnormal_stiffness_n_m3 = 1e9\nfriction = 0.7\n[excitation]\n" + excitation,
+                           "[contact]\nnormal_stiffness_n_m3 = 1e9\nfriction = 0.7\n" + contact + "[excitation]\n" +
+                           excitation,
                        "portal.toml");
 }
 
@@ -131,6 +133,57 @@ TEST(Portals, EpistylesAbreastShareTheCapitals)
     EXPECT_EQ(joint.upper, 7);
     EXPECT_NEAR(joint.area_m2, 4.0 * 0.6, 1e-12);
     expect_rests(study, 2);
+}
+
+/// At rest nothing moves, so dashpots have no part in it, wherever they act.
+TEST(Portals, DashpotsDoNotChangeTheRest)
+{
+    const std::string portal =
+        colonnade("columns = 2\ncolumn_spacing_m = 3\n", "epistyle_width_m = 0.4\nepistyle_abreast = 2\n");
+    const std::string still = "kind = \"none\"\nduration_s = 1\n";
+    AtRest spread(portal_study(portal, still));
+    AtRest ends(portal_study(portal, still, "damping = \"ends\"\nnormal_damping_ratio = 0.5\n"));
+    for (int i = 0; i < spread.s.r.space.drums; ++i) {
+        const Standing::Vec a = spread.s.u(i), b = ends.s.u(i);
+        EXPECT_LT(a.y, -1e-6);
+        EXPECT_NEAR(a.x, b.x, 1e-15) << i;
+        EXPECT_NEAR(a.y, b.y, 1e-15) << i;
+        EXPECT_NEAR(a.z, b.z, 1e-15) << i;
+    }
+}
+
+/// Two bays, two pieces abreast in each: what is drawn pushes a piece away from the one beside it, or before it, by
+/// millimetres, and no piece out of its bay.
+TEST(Portals, PiecesAreLaidBesideEachOtherAndBehindEachOther)
+{
+    const Study study = portal_study(
+        colonnade("columns = 3\ncolumn_spacing_m = 3\n", "epistyle_width_m = 0.4\nepistyle_abreast = 2\n") +
+        "[perturbation]\ndrum_offset = { distribution = \"normal\", sd_m = 0.003, per = \"block\" }\n"
+        "drum_width = { distribution = \"normal\", sd_m = 0.003, per = \"block\" }\n");
+    const SpatialBuilder builder(study);
+    const std::vector<Solid> nominal = builder.build(builder.nominal(), {}).space.solids;
+    const Experiment experiment(study);
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const std::vector<Solid> drawn = experiment.sampler().realization(i).space.solids;
+        ASSERT_EQ(drawn.size(), nominal.size());
+        for (std::size_t b = 0; b < drawn.size(); ++b) {
+            if (drawn[b].role != BlockRole::epistyle)
+                continue;
+            for (const std::size_t axis : {0U, 2U})
+                EXPECT_NEAR(drawn[b].middle_m()[axis], nominal[b].middle_m()[axis], 0.03) << i << ", " << b;
+            for (std::size_t other = b + 1; other < drawn.size(); ++other) {
+                const auto apart = [&](std::size_t axis, double half) {
+                    return std::abs(drawn[b].middle_m()[axis] - drawn[other].middle_m()[axis]) - half;
+                };
+                if (drawn[other].role == BlockRole::epistyle) {
+                    EXPECT_GE(std::max(apart(0, drawn[b].bottom.half_x_m + drawn[other].bottom.half_x_m),
+                                       apart(2, drawn[b].bottom.half_z_m + drawn[other].bottom.half_z_m)),
+                              -1e-9)
+                        << i << ": " << b << ", " << other;
+                }
+            }
+        }
+    }
 }
 
 TEST(Portals, CapitalsWithEchiniAreRoundBelowAndSquareAbove)
