@@ -18,14 +18,15 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr int freedoms = 6;
 constexpr int most_iterations = 60;
 constexpr int most_halvings = 12;
-constexpr double target = 1e-12;         ///< of the weight: the search ends
-constexpr double balanced = 1e-11;       ///< of the weight: at rest
-constexpr double most_allowed = 1e-3;    ///< of the weight, in any case
-constexpr double keeps = 0.1;            ///< a step that leaves less of the residual keeps the derivatives
-constexpr double overshoots = 0.8;       ///< of the first slope of the energy, beyond its minimum
-constexpr double longest_step = 0.05;    ///< of a body's radius of gyration
-constexpr double difference = 1e-2;      ///< of the least depth: the step of the derivatives
-constexpr double least_stiffness = 1e-9; ///< of the largest: what holds a body that has lost all its contacts
+constexpr double target = 1e-12;             ///< of the weight: the search ends
+constexpr double balanced = 1e-11;           ///< of the weight: at rest
+constexpr double most_allowed = 1e-3;        ///< of the weight, in any case
+constexpr double keeps = 0.1;                ///< a step that leaves less of the residual keeps the derivatives
+constexpr double overshoots = 0.8;           ///< of the first slope of the energy, beyond its minimum
+constexpr double longest_step = 0.05;        ///< of a body's radius of gyration
+constexpr double difference = 1e-2;          ///< of the least depth: the step of the derivatives
+constexpr double least_difference_m = 1e-13; ///< of a joint that hardly presses: its derivatives keep four digits
+constexpr double least_stiffness = 1e-9;     ///< of the largest: what holds a body that has lost all its contacts
 
 double smaller_half(const Face& face)
 {
@@ -250,10 +251,16 @@ private:
         }
         const double most_m = difference * *std::max_element(depth_m_.begin(), depth_m_.end());
         std::vector<double> by_m(static_cast<std::size_t>(topology_.bodies), most_m);
-        for (std::size_t j = 0; j < joints; ++j)
+        for (std::size_t j = 0; j < joints; ++j) {
+            // a butt joint has no load of its own: it is as deep as it is pressed now
+            const SolidJoint& joint = structure_.joints[j];
+            const double depth_m =
+                depth_m_[j] > 0 ? depth_m_[j]
+                                : forces_.normal_n(static_cast<int>(j)) / (joint.normal_stiffness_n_m3 * joint.area_m2);
             for (const int i : {topology_.joint[j].lower, topology_.joint[j].upper})
-                if (double& by = by_m[static_cast<std::size_t>(i)]; depth_m_[j] > 0) // not of a butt joint
-                    by = std::min(by, difference * depth_m_[j]);
+                if (double& by = by_m[static_cast<std::size_t>(i)]; depth_m > 0)
+                    by = std::min(by, std::max(difference * depth_m, least_difference_m));
+        }
         entries_.clear();
         for (int c = 0; c < colors_; ++c)
             for (int k = 0; k < freedoms; ++k) {
