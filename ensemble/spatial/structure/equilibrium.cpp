@@ -170,6 +170,9 @@ private:
         rest_.allowed = balanced;
         for (std::size_t j = 0; j < depth_m_.size(); ++j) {
             const SolidJoint& joint = structure_.joints[j];
+            // pieces that just touch: what is not balanced there closes or opens their joint by nanometres
+            if (joint.normal != Normal::y && joint.gap_m == 0)
+                rest_.allowed = most_allowed;
             const double half = std::min(smaller_half(joint.lower_face), smaller_half(joint.upper_face));
             const double sides = (1 + joint.inner_ratio) * half; // those of the recesses, too
             const double jump = joint.normal_stiffness_n_m3 * depth_m_[j] * depth_m_[j] * sides;
@@ -188,15 +191,30 @@ private:
     {
         cone_ = cone;
         derive();
+        bool opened = false; // the derivatives are those with all butt joints open
         for (int i = 0; i < most_iterations && rest_.unbalanced > target; ++i) {
             const double before = rest_.unbalanced;
             const bool fresh = derived_here_, moved = step();
             if (rest_.unbalanced <= keeps * before)
                 continue;
+            if (fresh && !moved && !opened && butts_press()) { // a kink: the step that opens them may lead past it
+                derive(true);
+                opened = true;
+                continue;
+            }
             if (fresh && (!moved || rest_.balanced()))
                 break;
             derive();
+            opened = false;
         }
+    }
+
+    bool butts_press() const
+    {
+        for (std::size_t j = 0; j < depth_m_.size(); ++j)
+            if (!(depth_m_[j] > 0) && forces_.normal_n(static_cast<int>(j)) > 0)
+                return true;
+        return false;
     }
 
     struct Residual {
@@ -237,7 +255,8 @@ private:
     }
 
     /// The derivatives at the present poses, and their factors.
-    void derive()
+    /// @param butts_open as if no butt joint pressed
+    void derive(bool butts_open = false)
     {
         const auto joints = static_cast<std::size_t>(topology_.joints);
         forces_.put(rest_.poses);
@@ -246,7 +265,7 @@ private:
         slips_ = false;
         for (std::size_t j = 0; j < joints; ++j) {
             here[j] = forces_.forces(static_cast<int>(j));
-            open[j] = !(depth_m_[j] > 0) && !(forces_.normal_n(static_cast<int>(j)) > 0);
+            open[j] = !(depth_m_[j] > 0) && (butts_open || !(forces_.normal_n(static_cast<int>(j)) > 0));
             slips_ = slips_ || forces_.slips(static_cast<int>(j));
         }
         const double most_m = difference * *std::max_element(depth_m_.begin(), depth_m_.end());
