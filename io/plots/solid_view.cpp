@@ -94,14 +94,23 @@ struct Appearance {
     }
 };
 
-Plane plane_through(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c)
+/// Of a face whose corners may lie on one line, or not quite in one plane: through their middle, with the normal by
+/// Newell's method (Sutherland, Sproull and Schumacker 1974).
+Plane plane_of(const std::vector<std::size_t>& face, const std::vector<SpacePoint>& corners)
 {
-    const SpacePoint p = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, q = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    SpacePoint normal = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    for (double& part : normal)
+    Plane plane;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+        const SpacePoint &a = corners[face[i]], &b = corners[face[(i + 1) % face.size()]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+            plane.normal[k] += (a[u] - b[u]) * (a[v] + b[v]);
+            plane.at[k] += a[k] / static_cast<double>(face.size());
+        }
+    }
+    const double length = std::hypot(plane.normal[0], plane.normal[1], plane.normal[2]);
+    for (double& part : plane.normal)
         part /= length > 0 ? length : 1;
-    return {a, normal};
+    return plane;
 }
 
 double brightness(const SpacePoint& normal)
@@ -122,7 +131,7 @@ Appearance appearance_of(const PlacedSolid& solid, std::size_t body, const Solid
     }
     const std::vector<std::vector<std::size_t>> faces = solid.faces();
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        const Plane plane = plane_through(corners[faces[f][0]], corners[faces[f][1]], corners[faces[f][2]]);
+        const Plane plane = plane_of(faces[f], corners);
         a.planes.push_back(plane);
         if (plane.normal[2] < edge_on)
             continue;

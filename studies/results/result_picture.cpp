@@ -23,6 +23,9 @@ std::string strip_title(const Results& results, std::uint64_t index)
         const ResultRow row = results.reader().row(index);
         if (row.frequency_hz > 0)
             title += fmt::format(": {:.3g} Hz, {:.3g} m/s²", row.frequency_hz, row.pga_m_s2);
+        const ResultHeader& header = results.header();
+        if (!header.direction_deg.empty())
+            title += fmt::format(", {:.3g}°", header.direction_deg[row.cell / header.pga_m_s2.size()]);
         title += fmt::format(", {}", to_string(row.outcome.state));
     }
     return title;

@@ -98,6 +98,21 @@ function outlineOf(points) {
   return [...half(sorted), ...half(sorted.reverse())];
 }
 
+/** Of a face whose corners may lie on one line, or not quite in one plane: through their middle, with the normal by
+ *  Newell's method. */
+function planeOf(points) {
+  const at = [0, 1, 2].map((k) => points.reduce((sum, p) => sum + p[k], 0) / points.length);
+  const normal = [0, 1, 2].map((k) => {
+    const u = (k + 1) % 3, v = (k + 2) % 3;
+    return points.reduce((sum, a, i) => {
+      const b = points[(i + 1) % points.length];
+      return sum + (a[u] - b[u]) * (a[v] + b[v]);
+    }, 0);
+  });
+  const length = Math.hypot(...normal) || 1;
+  return {at, normal: normal.map((part) => part / length)};
+}
+
 /**
  * What is seen of a body that stands somewhere: the faces that look at the viewer, with their normals in the viewer's
  * frame, the outline, and the planes of all faces, by which `depthAt` finds where a line of sight passes through it.
@@ -107,12 +122,7 @@ function appearance(body, middle, attitude, view) {
     const t = turned(attitude, p);
     return seen(view, [t[0] + middle[0], t[1] + middle[1], t[2] + middle[2]]);
   });
-  const planes = body.faces.map((face) => {
-    const [a, b, c] = face.map((i) => corners[i]);
-    const normal = cross([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
-    const length = Math.hypot(...normal) || 1;
-    return {at: a, normal: normal.map((part) => part / length)};
-  });
+  const planes = body.faces.map((face) => planeOf(face.map((i) => corners[i])));
   const outline = outlineOf(corners);
   const xs = outline.map((p) => p[0]), ys = outline.map((p) => p[1]);
   return {

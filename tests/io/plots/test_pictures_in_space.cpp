@@ -58,6 +58,20 @@ TEST(SolidView, WhatIsInFrontComesLater)
 }
 
 /// The visible faces of a convex body cover its outline once.
+/// The abacus' corners lie on one line with the points between them, and the sides below it in no plane.
+TEST(SolidView, ACapitalWithAnEchinusLiesBelowItsBeam)
+{
+    const PlacedSolid capital = {{0.3, {0.4, 0.4}, {0.6, 0.6}, true, true}, {0, 0.3, 0}, Attitude()};
+    const std::vector<PlacedSolid> solids = {prism({1.5, 0.95, 0}, 4.2, 0.7, 1), capital};
+    const std::vector<std::size_t> below = {1, 0};
+    EXPECT_EQ(order_of(solids, SolidView::above()), below);
+    EXPECT_EQ(order_of(solids, SolidView::oblique()), below);
+    double top = 0; // the abacus is seen as a whole
+    for (const SeenFace& face : painted({capital}, SolidView::above()).front().faces)
+        top = std::max(top, polygon_area(face.points));
+    EXPECT_NEAR(top, 1.44, 1e-12);
+}
+
 TEST(SolidView, FacesCoverTheOutline)
 {
     for (const bool round : {true, false}) {
