@@ -117,8 +117,10 @@ Columns run_own(ContactForm form, double dial, bool shaken, double seconds)
             ++columns.count;
             const bool fell = o.state == State::collapsed || o.state == State::invalid;
             columns.collapsed += fell;
-            // the residual of what still moves at the end is NaN: that has moved, too
-            columns.moved += fell || !(std::fabs(o.residual_top_displacement_m) <= 0.02 * r.blocks.back().half_width_m);
+            // of what still moves at the end the residual is not known: it is at most the largest displacement
+            const double off_m = std::isnan(o.residual_top_displacement_m) ? o.peak_top_displacement_m
+                                                                           : std::fabs(o.residual_top_displacement_m);
+            columns.moved += fell || off_m > 0.02 * r.blocks.back().half_width_m;
             simulated += o.end_time_s;
         };
         Observer quiet;
