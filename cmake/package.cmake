@@ -40,8 +40,8 @@ registers of the processor. Pages for a browser, pictures, tables; fragility
 curves, sensitivity, rare events; calibration and diagnosis by measured data.
 With studies that are ready to run, in /usr/share/stylobate/inputs.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# It draws pictures (export --to png, svg, pdf) and films by programs that it starts; all else it does by itself.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, fonts-dejavu-core")
+# It loads librsvg when it draws a picture as PNG or PDF, and starts ffmpeg for films; all else it does by itself.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "librsvg2-2, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, bash-completion, stylobate-doc, python3-stylobate")
 
 stylobate_package(development libstylobate-dev libdevel

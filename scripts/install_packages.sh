@@ -14,7 +14,7 @@ packages=(
     libhdf5-dev zlib1g-dev libtomlplusplus-dev          # result and study files
     libcli11-dev libfmt-dev                             # command line, text
     libpugixml-dev                                      # fragility functions in NRML
-    gnuplot-nox fonts-dejavu-core                       # pictures
+    librsvg2-dev pkgconf fonts-dejavu-core              # pictures as PNG and PDF
     libgtest-dev libbenchmark-dev python3-jsonschema    # tests, benchmarks
     nlohmann-json3-dev                                  # what tests read of what the program prints
 )

@@ -25,15 +25,11 @@ const char* name(DampingAt damping)
 void draw(const Report& report, const std::filesystem::path& png)
 {
     const verification::PictureAxis cost{"block-steps per simulated second", true, 0, 0};
-    const auto panel = [&](const char* error, const std::vector<verification::Series>& series, bool log) {
-        return verification::curves(cost, {error, log, 0, 0}, series, "tmargin left Left reverse maxcols 1") +
-               "\nreset\n";
-    };
-    run_gnuplot("set multiplot layout 1,3\n" + panel("error of the quarter period", report.quarter_period, true) +
-                    panel("error of the overturning amplitude", report.overturning, true) +
-                    panel("collapse probability less that of a fine step", report.collapse, false) +
-                    "unset multiplot\n",
-                {2400, 1000}, png);
+    write_figures(
+        {verification::curves(cost, {"error of the quarter period", true, 0, 0}, report.quarter_period),
+         verification::curves(cost, {"error of the overturning amplitude", true, 0, 0}, report.overturning),
+         verification::curves(cost, {"collapse probability less that of a fine step", false, 0, 0}, report.collapse)},
+        3, "", "", png, {2400, 1000}, 1.8);
 }
 
 namespace {

@@ -52,7 +52,7 @@ public:
     /// that is there is replaced.
     /// @throws InputError if it cannot be written, and of a past, which has no file
     void write(const std::filesystem::path& file) const;
-    /// Draws the picture of `stylobate export`: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.
+    /// Draws the picture of `stylobate export`: .png, .svg or .pdf. A file that is there is replaced.
     /// @param limit_state nullopt: the principal one
     /// @throws InputError for another ending, for no such limit state, or if the picture cannot be drawn
     void draw(const std::filesystem::path& picture, const std::optional<std::string>& limit_state = {}) const;

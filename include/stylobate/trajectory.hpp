@@ -77,8 +77,8 @@ Trajectory replay(const Result& result, std::uint64_t index, const std::vector<s
 /// @throws InputError if the arrays do not fit each other, or if the file cannot be written
 void write_svg(const Trajectory& trajectory, double time_s, const std::filesystem::path& file);
 
-/// Draws a strip of snapshots with the displacements below (PNG, by gnuplot), as `stylobate export --picture strip`.
-/// @throws InputError if gnuplot is missing, or the file cannot be written
+/// Draws a strip of snapshots with the displacements below (PNG, by librsvg), as `stylobate export --picture strip`.
+/// @throws InputError if librsvg is missing, or the file cannot be written
 void write_strip(const Trajectory& trajectory, const std::filesystem::path& png,
                  const std::optional<std::string>& title = {});
 

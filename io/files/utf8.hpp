@@ -59,4 +59,24 @@ inline std::string replaced_text(std::string_view text)
     return out;
 }
 
+/// A text for XML, HTML and the values of their attributes; what `replaced_text` replaces becomes U+FFFD.
+inline std::string xml_escaped(std::string_view text)
+{
+    std::string out;
+    for (const char c : replaced_text(text))
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else if (c == '\'')
+            out += "&#39;";
+        else
+            out += c;
+    return out;
+}
+
 } // namespace stylobate

@@ -35,7 +35,7 @@ struct MapPicture : SurfaceAxes {
 };
 
 /// The classes of the first panel that has any are explained below the maps.
-/// @throws InputError if the axes are not such, if gnuplot is missing or fails, or if the picture cannot be written
+/// @throws InputError if the axes are not such, or if the picture cannot be written
 void plot_maps(const MapPicture& picture, const std::filesystem::path& png);
 
 } // namespace stylobate

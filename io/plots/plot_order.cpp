@@ -3,13 +3,13 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/suggest.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/colours.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/store/surface_axis.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -32,29 +32,37 @@ std::string order_colour(double part)
     return viridis_colour(0.88 * part);
 }
 
-/// The block's curve as data, $blockN: from 0 to the end of the axis, one step for each fall.
-std::string order_curve(const FallOrder& order, std::size_t block, double end_s)
+/// The block's curve: from 0 to the end of the axis, one step for each fall.
+FigureSeries order_curve(const FallOrder& order, std::size_t block, double end_s, const std::string& colour,
+                         double weight)
 {
     const std::vector<double>& falls = order.blocks[block].fall_time_s;
     const std::size_t stride = falls.size() / most_steps + 1;
-    std::string data = fmt::format("$block{} << EOD\n0 0\n", block);
+    FigureSeries curve{"", SeriesKind::line, {0}, {0}, {}, {}};
+    curve.colour = colour;
+    curve.weight = weight;
+    const auto step = [&](double time_s, double share) {
+        curve.x.insert(curve.x.end(), {time_s, time_s});
+        curve.y.insert(curve.y.end(), {curve.y.back(), share});
+    };
     for (std::size_t k = 0; k < falls.size(); k += stride) {
         const std::size_t last = std::min(k + stride, falls.size()) - 1; // of the falls that this step takes together
-        fmt::format_to(std::back_inserter(data), "{} {}\n", falls[last], fallen_share(order, last + 1));
+        step(falls[last], fallen_share(order, last + 1));
     }
-    return data + fmt::format("{} {}\nEOD\n", end_s, fallen_share(order, falls.size()));
+    curve.x.push_back(end_s);
+    curve.y.push_back(fallen_share(order, falls.size()));
+    return curve;
 }
 
-/// The frame of the curves, whose right and upper edges are given.
-std::string curves_frame(double right, double top, double end_s, double most_share)
+/// The frame of the curves, without curves.
+Figure curves_figure(double end_s, double most_share)
 {
-    return fmt::format(
-        "set lmargin at screen 0.085\nset rmargin at screen {}\nset bmargin at screen 0.1\nset tmargin at screen "
-        "{:.5f}\nunset key\nset border 3 linewidth 0.8\nset tics out nomirror\n"
-        "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
-        "set xrange [0:{}]\nset yrange [0:{}]\nset format y '%g'\n"
-        "set xlabel 'time [s]' offset 0,-0.1\nset ylabel 'share of realizations with the block fallen' offset 0.6,0\n",
-        right, top, end_s, 1.01 * std::min(1.0, 1.1 * most_share));
+    Figure figure;
+    figure.x_label = "time [s]";
+    figure.y_label = "share of realizations with the block fallen";
+    figure.x_range = {0, end_s};
+    figure.y_range = {0, 1.01 * std::min(1.0, 1.1 * most_share)};
+    return figure;
 }
 
 /// Colour of the k-th of n curves.
@@ -63,53 +71,45 @@ std::string colour(std::size_t k, std::size_t n)
     return order_colour(n > 1 ? static_cast<double>(k) / static_cast<double>(n - 1) : 0.0);
 }
 
-/// Where the columns of the table are, in parts of the picture's width.
+/// Where the columns of the table are [px].
 struct Columns {
-    double line = 0.573;
-    double name = 0.605;
-    double fallen = 0.87;
-    double median = 0.929;
-    double first = 0.987;
+    double line = 1031;
+    double name = 1089;
+    double fallen = 1566;
+    double median = 1672;
+    double first = 1777;
 };
 
-std::string cell(const std::string& text, double x, double y, const char* side, double font)
-{
-    return fmt::format("set label {} at screen {}, screen {} {} font ',{:.1f}'\n", gnuplot_text(text), x, y, side,
-                       font);
-}
-
-std::string table(const FallOrder& order, const std::vector<std::size_t>& shown, std::size_t others)
+void draw_table(DrawingSheet& sheet, const FallOrder& order, const std::vector<std::size_t>& shown, std::size_t others)
 {
     const Columns at;
-    const double top = 0.83;
-    const double rows = static_cast<double>(shown.size()) + (others > 0 ? 2 : 1);
-    const double step = std::min(0.037, 0.735 / rows);
-    std::size_t longest = 1;
+    const double top = 230, high = 992; // of all rows
+    const double step = std::min(50.0, high / (static_cast<double>(shown.size()) + (others > 0 ? 2 : 1)));
+    double font = std::min(22.6, 0.62 * step);
     for (const std::size_t block : shown)
-        longest = std::max(longest, order.blocks[block].name.size());
-    const double font = std::min({17.0, 17.0 * step / 0.029, 17.0 * 18 / static_cast<double>(longest)});
-    std::string script = cell("block", at.name, top, "left", font) + cell("fallen", at.fallen, top, "right", font) +
-                         cell("median", at.median, top, "right", font) + cell("first", at.first, top, "right", font);
-    double y = top - 1.15 * step;
-    for (std::size_t k = 0; k < shown.size(); ++k, y -= step) {
+        font = std::min(font, DrawingSheet::fitting(order.blocks[block].name, 215, font));
+    const auto row = [&](const std::string& name, const std::string& fallen, const std::string& median,
+                         const std::string& first, double y) {
+        sheet.text(name, at.name, y, font, TextAt::left);
+        sheet.text(fallen, at.fallen, y, font, TextAt::right);
+        sheet.text(median, at.median, y, font, TextAt::right);
+        sheet.text(first, at.first, y, font, TextAt::right);
+    };
+    row("block", "fallen", "median", "first", top);
+    double y = top + 1.15 * step;
+    for (std::size_t k = 0; k < shown.size(); ++k, y += step) {
         const FallOrder::Block& block = order.blocks[shown[k]];
-        script += fmt::format("set arrow from screen {}, screen {} to screen {}, screen {} nohead linewidth 2.4 "
-                              "linecolor rgb '{}'\n",
-                              at.line, y, at.line + 0.024, y, colour(k, shown.size()));
-        script += cell(block.name, at.name, y, "left", font);
-        script += cell(fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * fallen_share(order, block.fall_time_s.size()),
-                                   100 * block.lower, 100 * block.upper),
-                       at.fallen, y, "right", font);
-        script += cell(fmt::format("{:.2f} s", sorted_median(block.fall_time_s)), at.median, y, "right", font);
-        script += cell(fmt::format("{:.1f} %", 100 * fallen_share(order, block.first)), at.first, y, "right", font);
+        sheet.line(at.line, y, at.line + 43, y, colour(k, shown.size()), 4.8);
+        row(block.name,
+            fmt::format("{:.1f} % ({:.0f} to {:.0f})", 100 * fallen_share(order, block.fall_time_s.size()),
+                        100 * block.lower, 100 * block.upper),
+            fmt::format("{:.2f} s", sorted_median(block.fall_time_s)),
+            fmt::format("{:.1f} %", 100 * fallen_share(order, block.first)), y);
     }
     if (others > 0) {
-        script += fmt::format("set arrow from screen {}, screen {} to screen {}, screen {} nohead linewidth 1.2 "
-                              "linecolor rgb '#b0b0b0'\n",
-                              at.line, y, at.line + 0.024, y);
-        script += cell(fmt::format("{}, less frequent", counted(others, "other")), at.name, y, "left", font);
+        sheet.line(at.line, y, at.line + 43, y, "#b0b0b0", 2.4);
+        sheet.text(fmt::format("{}, less frequent", counted(others, "other")), at.name, y, font, TextAt::left);
     }
-    return script;
 }
 
 /// Where the drawing is, in pixels of the picture from its top left corner.
@@ -131,7 +131,7 @@ bool is_dark(const std::string& colour)
 }
 
 /// The structure to scale, one rectangle for each block.
-std::string drawing_script(const FallOrder& order, const TimeScale& scale, PictureSize size)
+void draw_structure(DrawingSheet& sheet, const FallOrder& order, const TimeScale& scale)
 {
     FallOrder::Place all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0, 0};
     for (const FallOrder::Place& place : order.places) {
@@ -142,38 +142,21 @@ std::string drawing_script(const FallOrder& order, const TimeScale& scale, Pictu
     const double per_metre = std::min((drawing_right - drawing_left) / (all.right - all.left),
                                       (drawing_bottom - drawing_top - ground_pixels) / all.top);
     const double middle = (drawing_left + drawing_right) / 2, ground = drawing_bottom - ground_pixels;
-    const auto x = [&](double metres) {
-        return (middle + (metres - (all.left + all.right) / 2) * per_metre) / size.width;
-    };
-    const auto y = [&](double metres) { return 1 - (ground - metres * per_metre) / size.height; };
-
-    int object = 0;
-    std::string script;
-    const auto rectangle = [&](double left, double right, double bottom, double top, const std::string& fill,
-                               const char* border) {
-        script +=
-            fmt::format("set object {} rectangle from screen {:.5f}, screen {:.5f} to screen {:.5f}, screen {:.5f} "
-                        "fillcolor rgb '{}' fillstyle solid 1 {}\n",
-                        ++object, left, bottom, right, top, fill, border);
-    };
-    rectangle(drawing_left / size.width, drawing_right / size.width, 1 - drawing_bottom / size.height,
-              1 - ground / size.height, "#6f6f6f", "noborder");
+    const auto x = [&](double metres) { return middle + (metres - (all.left + all.right) / 2) * per_metre; };
+    const auto y = [&](double metres) { return ground - metres * per_metre; };
+    sheet.rectangle(drawing_left, ground, drawing_right, drawing_bottom, "#6f6f6f");
     for (std::size_t i = 0; i < order.blocks.size(); ++i) {
         const FallOrder::Place& place = order.places[i];
         const std::vector<double>& falls = order.blocks[i].fall_time_s;
         const std::string fill = falls.empty() ? "#e8e8e8" : order_colour(scale.part(sorted_median(falls)));
-        rectangle(x(place.left), x(place.right), y(place.bottom), y(place.top), fill,
-                  "border linecolor rgb '#303030' linewidth 0.5");
-        const double room = std::min((place.top - place.bottom) * per_metre / 1.5,
-                                     (place.right - place.left) * per_metre / 2.6); // for a percentage of two digits
-        if (const double font = std::min(19.0, room); font >= 8)
-            script += fmt::format(
-                "set label '{:.0f}' at screen {:.5f}, screen {:.5f} center front font ',{:.1f}' textcolor "
-                "rgb '{}'\n",
-                100 * fallen_share(order, falls.size()), (x(place.left) + x(place.right)) / 2,
-                (y(place.bottom) + y(place.top)) / 2, font, falls.empty() || !is_dark(fill) ? "#000000" : "#ffffff");
+        sheet.rectangle(x(place.left), y(place.top), x(place.right), y(place.bottom), fill, "#303030");
+        const std::string share = fmt::format("{:.0f}", 100 * fallen_share(order, falls.size()));
+        const double font = std::min({25.0, 0.8 * (place.top - place.bottom) * per_metre,
+                                      DrawingSheet::fitting("100", 0.9 * (place.right - place.left) * per_metre, 25)});
+        if (font >= 10)
+            sheet.text(share, x((place.left + place.right) / 2), y((place.bottom + place.top) / 2), font,
+                       TextAt::center, falls.empty() || !is_dark(fill) ? "#000000" : "#ffffff");
     }
-    return script;
 }
 
 /// "first: epistyle 1 41.2 %, drum 3 of column 2 20.0 %, 5 others 38.8 %"
@@ -206,6 +189,7 @@ std::string first_words(const FallOrder& order)
 void plot_order_drawn(const FallOrder& order, const std::vector<std::size_t>& shown, double end_s,
                       const std::string& title, const std::string& note, const std::filesystem::path& file)
 {
+    const FigureLook look = picture_look;
     const PictureSize size;
     TimeScale scale;
     std::size_t most = 0;
@@ -215,35 +199,31 @@ void plot_order_drawn(const FallOrder& order, const std::vector<std::size_t>& sh
         scale.to = std::max(scale.to, sorted_median(falls));
         most = std::max(most, falls.size());
     }
-    std::string data, curves;
-    for (const std::size_t block : shown) {
-        data += order_curve(order, block, end_s);
-        const double time_s = sorted_median(order.blocks[block].fall_time_s);
-        curves += fmt::format(", $block{} with steps linecolor rgb '{}' linewidth 1.3", block,
-                              order_colour(scale.part(time_s)));
-    }
-    std::string palette;
-    for (int k = 0; k <= 20; ++k)
-        palette += fmt::format("{}{} '{}'", k > 0 ? ", " : "", k, order_colour(k / 20.0));
-
+    Figure figure = curves_figure(end_s, fallen_share(order, most));
+    for (const std::size_t block : shown)
+        figure.series.push_back(order_curve(
+            order, block, end_s, order_colour(scale.part(sorted_median(order.blocks[block].fall_time_s))), 1.3));
     const std::string subtitle =
         fmt::format("{} realizations · {} of {} blocks fell in some · in the blocks: share that "
                     "fell [%]{}{}",
                     order.trials, shown.size(), order.blocks.size(),
                     shown.size() < order.blocks.size() ? " · grey: never" : "", note.empty() ? "" : " · " + note);
-    std::string script = data + gnuplot_heading(title, subtitle, size) + drawing_script(order, scale, size);
-    script += "set label " + gnuplot_text(first_words(order)) +
-              fmt::format(" at screen {:.5f}, screen {:.5f} center font ',19'\n",
-                          (drawing_left + drawing_right) / 2 / size.width, 1 - (drawing_bottom + 40) / size.height);
-    script += curves_frame(0.97, 1 - (drawing_bottom + 80) / size.height, end_s, fallen_share(order, most));
-    script +=
-        "set palette defined (" + palette + ")\n" +
-        fmt::format("set cbrange [{}:{}]\nset cblabel 'median time of fall [s]' offset 0.6,0\nset cbtics font "
-                    "',18'\nset colorbox user origin screen 0.885, screen {:.5f} size screen 0.018, screen {:.5f}\n",
-                    scale.from, scale.to > scale.from ? scale.to : scale.from + 1, 1 - drawing_bottom / size.height,
-                    (drawing_bottom - drawing_top) / size.height);
-    // the box of colours stands only beside something that uses it
-    run_gnuplot(script + "plot '+' using 1:(1/0):1 with points linecolor palette" + curves, size, file);
+    DrawingSheet sheet(size, look.letters());
+    sheet.heading(title, subtitle);
+    draw_structure(sheet, order, scale);
+    const std::string words = first_words(order);
+    sheet.text(words, (drawing_left + drawing_right) / 2, drawing_bottom + 36,
+               DrawingSheet::fitting(words, drawing_right - drawing_left, 25));
+    FigurePanel panel(figure, look);
+    PlotFrame frame{24 + panel.room_left(), drawing_bottom + 80, 0.97 * size.width, 0};
+    frame.bottom = size.height - 24 - panel.room_below(frame.right - frame.left);
+    panel.draw(sheet, frame);
+    PlotScale colours;
+    colours.from = scale.from;
+    colours.to = scale.to > scale.from ? scale.to : scale.from + 1;
+    draw_colour_scale(sheet, look, {1593, drawing_top, 1626, drawing_bottom}, colours, "median time of fall [s]",
+                      [&](double time_s) { return order_colour(scale.part(time_s)); });
+    sheet.write(file);
 }
 
 } // namespace
@@ -285,30 +265,31 @@ void plot_order(const FallOrder& order, const std::string& title, const std::str
         std::erase_if(
             shown, [&](std::size_t block) { return std::find(others.begin(), others.end(), block) != others.end(); });
     }
-    std::string data;
-    std::string curves;
-    const auto add = [&](std::size_t block, const std::string& rgb, double width) {
-        data += order_curve(order, block, end_s);
-        curves += fmt::format("{}$block{} with steps linecolor rgb '{}' linewidth {}", curves.empty() ? "" : ", ",
-                              block, rgb, width);
-    };
-    for (const std::size_t block : others)
-        add(block, "#b0b0b0", 0.7);
-    for (std::size_t k = 0; k < shown.size(); ++k)
-        add(shown[k], colour(k, shown.size()), 1.5);
-
     std::size_t most = 0;
     for (const std::size_t block : shown)
         most = std::max(most, order.blocks[block].fall_time_s.size());
+    Figure figure = curves_figure(end_s, fallen_share(order, most));
+    for (const std::size_t block : others)
+        figure.series.push_back(order_curve(order, block, end_s, "#b0b0b0", 0.7));
+    for (std::size_t k = 0; k < shown.size(); ++k)
+        figure.series.push_back(order_curve(order, shown[k], end_s, colour(k, shown.size()), 1.5));
+
+    const FigureLook look = picture_look;
+    const PictureSize size;
+    DrawingSheet sheet(size, look.letters());
     const std::string below_title =
         fmt::format("{} realizations · {} of {} blocks fell in some · in brackets: {}", order.trials,
                     shown.size() + others.size(), order.blocks.size(), describe_interval(order.interval));
-    std::string script = data + gnuplot_heading(title, below_title) + table(order, shown, others.size());
+    FigurePanel panel(figure, look);
+    PlotFrame frame{24 + panel.room_left(), sheet.heading(title, below_title), 990, 0};
     if (!note.empty())
-        script += fmt::format("set label {} at screen 0.5, screen 0.873 center font ',19' textcolor rgb '#505050'\n",
-                              gnuplot_text(note));
-    script += curves_frame(0.55, 0.845, end_s, fallen_share(order, most));
-    run_gnuplot(script + "plot " + curves, PictureSize{}, png);
+        sheet.text(note, size.width / 2.0, frame.top + 10, DrawingSheet::fitting(note, 0.95 * size.width, 25),
+                   TextAt::center, "#505050");
+    frame.top += 50;
+    frame.bottom = size.height - 24 - panel.room_below(frame.right - frame.left);
+    panel.draw(sheet, frame);
+    draw_table(sheet, order, shown, others.size());
+    sheet.write(png);
 }
 
 } // namespace stylobate

@@ -37,7 +37,7 @@ struct FallOrder {
 /// shares are grey and not in the table.
 ///
 /// @param note a second line below the title's; may be empty
-/// @throws InputError if no block fell, if gnuplot is missing or fails, or if the picture cannot be written
+/// @throws InputError if no block fell, or if the picture cannot be written
 void plot_order(const FallOrder& order, const std::string& title, const std::string& note,
                 const std::filesystem::path& png);
 

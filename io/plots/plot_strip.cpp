@@ -4,7 +4,7 @@
 #include "ensemble/planar/planar_poses.hpp"
 #include "ensemble/spatial/spatial_poses.hpp"
 #include "io/files/suggest.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/plots/plot_strip_in_space.hpp"
 #include "io/plots/strip_parts.hpp"
 
@@ -12,18 +12,10 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <limits>
 
 namespace stylobate {
 namespace {
-
-/// The title of a vertical axis, at the same place beside each plot however long its tics' labels are.
-std::string axis_title(const char* what, const Unit& unit, double bottom, double top)
-{
-    return fmt::format("set label '{} [{}]' at screen 0.017, screen {} center rotate by 90\n", what, unit.name,
-                       (bottom + top) / 2);
-}
 
 /// Samples up to the first that is not finite.
 /// @throws InputError as `plot_strip`
@@ -101,10 +93,11 @@ double departure(const Trajectory& t, std::size_t sample, std::size_t from)
     return sum;
 }
 
-/// Of the picture, in parts of its width.
-constexpr double left_edge = 0.1;
-constexpr double right_edge = 0.985;
-/// Heights in pixels.
+/// Edges of the plots, and heights of their parts, in pixels.
+constexpr double strip_width = 1800;
+constexpr double left_edge = 180;
+constexpr double right_edge = 1773;
+constexpr double axis_title = 31; ///< middle of the titles of vertical axes
 constexpr double heading_pixels = 182;
 constexpr double one_row_pixels = 526;   ///< of the strip if its snapshots stand in one row
 constexpr double most_rows_pixels = 960; ///< of several rows
@@ -224,42 +217,38 @@ StripLayout make_layout(const Trajectory& t, const Drawn& drawn, const std::vect
     return best;
 }
 
-/// The vertical places of the picture's parts, in parts of its height.
-struct Page {
-    PictureSize size;
-    double at(double pixels_from_top) const { return 1 - pixels_from_top / size.height; }
-};
-
-/// Polygons of one look, for gnuplot.
-struct Shapes {
-    const char* name;
-    const char* fill; ///< nullptr: the outline alone
+/// How a block is drawn.
+struct BlockLook {
+    const char* fill;
     const char* line;
-    std::string data;
-
-    void add(const std::array<Rectangle::Corner, 4>& c, double dx, double dy, double per_metre)
-    {
-        for (std::size_t i = 0; i <= 4; ++i)
-            fmt::format_to(std::back_inserter(data), "{} {}\n", (c[i % 4].x + dx) * per_metre,
-                           (c[i % 4].y + dy) * per_metre);
-        data += '\n';
-    }
 };
+constexpr BlockLook fixed_look{"#a89a7d", "#4a3b24"}, drum_look{"#ead9b5", "#4a3b24"},
+    epistyle_look{"#b9cddb", "#27475c"};
+constexpr char fallen_colour[] = "#c0271b";
 
-/// Script of the strip: the snapshots side by side, one scale for both axes.
-std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
-                         const std::vector<std::size_t>& chosen, const StripLayout& layout, const Page& page)
+/// A vertical axis beside the strip or a panel, with round values.
+/// @param tics places [px] and what they say
+void draw_height_axis(DrawingSheet& sheet, double top, double bottom, const std::string& title,
+                      const std::vector<std::pair<double, std::string>>& tics)
+{
+    sheet.line(left_edge, top, left_edge, bottom, "#303030", 1.6);
+    for (const auto& [y, words] : tics) {
+        sheet.line(left_edge - 8, y, left_edge, y, "#303030", 1.6);
+        sheet.text(words, left_edge - 14, y, 24, TextAt::right);
+    }
+    sheet.text(title, axis_title, (top + bottom) / 2, DrawingSheet::fitting(title, bottom - top + 40, 26),
+               TextAt::center, "#000000", true);
+}
+
+/// The snapshots side by side, one scale for both axes.
+void draw_strip(DrawingSheet& sheet, const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
+                const std::vector<std::size_t>& chosen, const StripLayout& layout)
 {
     const double tallest = *std::max_element(layout.row_height.begin(), layout.row_height.end());
     const Unit unit = unit_for(tallest);
-    Shapes base{"$base", "#6f6f6f", "#6f6f6f", ""};
-    Shapes fixed{"$fixed", "#a89a7d", "#4a3b24", ""};
-    Shapes drums{"$drums", "#ead9b5", "#4a3b24", ""};
-    Shapes epistyles{"$epistyles", "#b9cddb", "#27475c", ""};
-    Shapes fallen{"$fallen", nullptr, "#c0271b", ""};
-
-    const double top = heading_pixels;
-    const double bottom = heading_pixels + layout.pixels;
+    const double bottom = heading_pixels + layout.pixels, scale = layout.pixels_per_m;
+    const auto x = [&](double metres) { return left_edge + metres * scale; };
+    const auto y = [&](double metres) { return bottom - metres * scale; };
     const double span = t.time_s[chosen.back()] - t.time_s[chosen.front()];
     const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(std::max(span, 1e-9)))), 0, 6);
     double narrowest = layout.width;
@@ -268,104 +257,90 @@ std::string strip_script(const Trajectory& t, const Drawn& drawn, const std::vec
         const double next = ends_row ? layout.width : layout.cells[n + 1].left;
         narrowest = std::min(narrowest, next - layout.cells[n].left);
     }
-    const double label_font = std::min(21.0, 1.4 * narrowest * layout.pixels_per_m / (decimals + 5));
-    std::string labels;
+    const std::string widest = fmt::format("{:.{}f} s", t.time_s[chosen.back()], decimals);
+    const double label_font = DrawingSheet::fitting(widest, 0.92 * narrowest * scale, 28);
     for (std::size_t n = 0; n < chosen.size(); ++n) {
         const StripLayout::Cell& cell = layout.cells[n];
         const double time = t.time_s[chosen[n]];
-        for (std::size_t d = 0; d < drawn.blocks.size(); ++d) {
+        sheet.rectangle(x(cell.left), y(cell.ground), x(cell.right), y(cell.ground - layout.slab), "#6f6f6f");
+        const auto draw = [&](std::size_t d, bool outline) {
             const std::size_t block = drawn.blocks[d];
-            const std::array c = rectangle_of(t, chosen[n], block).corners();
-            Shapes& kind = drawn.fixed[d] ? fixed : t.role[block] == BlockRole::epistyle ? epistyles : drums;
-            kind.add(c, cell.shift_x, cell.ground, unit.per_metre);
-            if (has_fallen(fall_time_s, block, time))
-                fallen.add(c, cell.shift_x, cell.ground, unit.per_metre);
-        }
-        base.add({{{cell.left, -layout.slab}, {cell.right, -layout.slab}, {cell.right, 0}, {cell.left, 0}}}, 0,
-                 cell.ground, unit.per_metre);
-        const double row_bottom = *std::max_element(layout.row.begin(), layout.row.end()) == layout.row[n]
-                                      ? 0
-                                      : layout.row_ground[layout.row[n] + 1] + layout.row_height[layout.row[n] + 1] +
-                                            0.03 * tallest + label_pixels / layout.pixels_per_m;
-        labels += fmt::format("set label '{:.{}f} s' at screen {}, screen {} center font ',{:.1f}'\n", time, decimals,
-                              left_edge + (right_edge - left_edge) * (cell.left + cell.right) / 2 / layout.width,
-                              page.at(bottom - row_bottom * layout.pixels_per_m + 30), label_font);
+            std::vector<std::array<double, 2>> corners;
+            for (const Rectangle::Corner& c : rectangle_of(t, chosen[n], block).corners())
+                corners.push_back({x(c.x + cell.shift_x), y(c.y + cell.ground)});
+            const BlockLook& look = drawn.fixed[d]                         ? fixed_look
+                                    : t.role[block] == BlockRole::epistyle ? epistyle_look
+                                                                           : drum_look;
+            if (!outline)
+                sheet.polygon(corners, look.fill, look.line, 1.4);
+            else if (has_fallen(fall_time_s, block, time))
+                sheet.polygon(corners, "", fallen_colour, 2);
+        };
+        for (const bool outline : {false, true}) // red lines above all others
+            for (std::size_t d = 0; d < drawn.blocks.size(); ++d)
+                draw(d, outline);
+        const bool lowest = *std::max_element(layout.row.begin(), layout.row.end()) == layout.row[n];
+        const double row_bottom = lowest ? 0
+                                         : layout.row_ground[layout.row[n] + 1] + layout.row_height[layout.row[n] + 1] +
+                                               0.03 * tallest + label_pixels / scale;
+        sheet.text(fmt::format("{:.{}f} s", time, decimals), x((cell.left + cell.right) / 2), y(row_bottom) + 30,
+                   label_font);
     }
     const double step = round_step(tallest / 2.2);
-    std::string tics;
+    std::vector<std::pair<double, std::string>> tics;
     for (std::size_t r = 0; r < layout.row_ground.size(); ++r)
         for (int k = 0; k * step <= layout.row_height[r] * (1 + 1e-9); ++k)
-            tics += fmt::format("{}'{:g}' {}", tics.empty() ? "" : ", ", k * step * unit.per_metre,
-                                (layout.row_ground[r] + k * step) * unit.per_metre);
-
-    std::string script;
-    std::string fills;
-    std::string lines;
-    for (const Shapes* shapes : {&base, &fixed, &drums, &epistyles, &fallen}) {
-        if (shapes->data.empty())
-            continue;
-        script += fmt::format("{} << EOD\n{}EOD\n", shapes->name, shapes->data);
-        if (shapes->fill)
-            fills += fmt::format("{}{} with filledcurves closed fillcolor rgb '{}' fillstyle solid 1 noborder",
-                                 fills.empty() ? "" : ", ", shapes->name, shapes->fill);
-        lines += fmt::format(", {} with lines linecolor rgb '{}' linewidth {}", shapes->name, shapes->line,
-                             shapes->fill ? 0.7 : 1.0);
-    }
-    script += labels;
-    script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
-                          "set tmargin at screen {}\nset xrange [0:{}]\nset yrange [0:{}]\n",
-                          left_edge, right_edge, page.at(bottom), page.at(top), layout.width * unit.per_metre,
-                          layout.pixels / layout.pixels_per_m * unit.per_metre);
-    script += fmt::format("set border 2 linewidth 0.8\nset ytics out nomirror ({})\nunset xtics\n", tics);
-    script += axis_title("height", unit, page.at(bottom), page.at(top));
-    return script + "plot " + fills + lines + '\n';
+            tics.emplace_back(y(layout.row_ground[r] + k * step), fmt::format("{:g}", k * step * unit.per_metre));
+    draw_height_axis(sheet, heading_pixels, bottom, fmt::format("height [{}]", unit.name), tics);
 }
 
-/// A panel over time, below the strip.
-struct Panel {
-    double top = 0; ///< pixels from the picture's top
-    bool has_time_axis = false;
-};
-
-/// Its frame and its time axis; the plot itself follows.
-std::string panel_frame(const Panel& panel, const Page& page, double first_s, double last_s)
+/// A panel over time, below the strip. @param top of it [px]
+void draw_panel(DrawingSheet& sheet, const Figure& figure, const std::string& title, double top, bool has_time_axis)
 {
-    std::string script = fmt::format("unset label\nset lmargin at screen {}\nset rmargin at screen {}\n"
-                                     "set bmargin at screen {}\nset tmargin at screen {}\n",
-                                     left_edge, right_edge, page.at(panel.top + panel_pixels), page.at(panel.top));
-    script += fmt::format("set xrange [{}:{}]\nset border 3 linewidth 0.8\nset xtics out nomirror {}\n"
-                          "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n",
-                          first_s, last_s > first_s ? last_s : first_s + 1,
-                          panel.has_time_axis ? "format '%g'" : "format ''");
-    if (panel.has_time_axis)
-        script += "set xlabel 'time [s]' offset 0,0.3\n";
-    return script;
+    Figure shown = figure;
+    shown.y_label.clear();
+    shown.x_label = "time [s]";
+    FigurePanel panel(shown, picture_look);
+    panel.draw(sheet, {left_edge, top, right_edge, top + panel_pixels}, has_time_axis);
+    sheet.text(title, axis_title, top + panel_pixels / 2, DrawingSheet::fitting(title, panel_pixels + 40, 26),
+               TextAt::center, "#000000", true);
 }
 
-/// A panel of one displacement.
-std::string displacement_script(const char* name, const char* label, const char* colour, const Panel& panel,
-                                const Page& page, const Trajectory& t, const std::vector<std::size_t>& chosen,
-                                const std::vector<double>& displacement_m)
+/// A figure over the drawn time.
+Figure over_time(double first_s, double last_s)
+{
+    Figure figure;
+    figure.x_range = {first_s, last_s > first_s ? last_s : first_s + 1};
+    return figure;
+}
+
+/// A panel of one displacement, with marks at the snapshots.
+void draw_displacement(DrawingSheet& sheet, const char* what, const char* colour, double top, bool has_time_axis,
+                       const Trajectory& t, const std::vector<std::size_t>& chosen,
+                       const std::vector<double>& displacement_m)
 {
     const auto [least_m, most_m] = std::minmax_element(displacement_m.begin(), displacement_m.end());
     const Unit unit = unit_for(std::max(std::abs(*least_m), std::abs(*most_m)));
     const double least = *least_m * unit.per_metre;
     const double most = *most_m * unit.per_metre;
     const double span = most > least ? most - least : std::max(1.0, std::abs(most));
-    std::string script = fmt::format("{} << EOD\n", name);
-    for (std::size_t s = 0; s < displacement_m.size(); ++s)
-        fmt::format_to(std::back_inserter(script), "{} {}\n", t.time_s[s], displacement_m[s] * unit.per_metre);
-    script += fmt::format("EOD\n{}marks << EOD\n", name);
-    for (const std::size_t s : chosen)
-        script += fmt::format("{} {}\n", t.time_s[s], displacement_m[s] * unit.per_metre);
-    script += "EOD\n" + panel_frame(panel, page, t.time_s.front(), t.time_s[displacement_m.size() - 1]);
-    script += fmt::format("set yrange [{}:{}]\nset ytics out nomirror {}\n", least - 0.06 * span, most + 0.06 * span,
-                          round_step(span / 2.4));
-    script += axis_title(label, unit, page.at(panel.top + panel_pixels), page.at(panel.top));
-    script += fmt::format("plot {0} with lines linecolor rgb '{1}' linewidth 1, {0}marks with points pointtype 7 "
-                          "pointsize 1.2 linecolor rgb '{1}'\n",
-                          name, colour);
-    return script;
+    Figure figure = over_time(t.time_s.front(), t.time_s[displacement_m.size() - 1]);
+    figure.y_range = {least - 0.06 * span, most + 0.06 * span};
+    FigureSeries line, points;
+    points.kind = SeriesKind::points;
+    line.colour = points.colour = colour;
+    line.weight = 0.8;
+    for (std::size_t s = 0; s < displacement_m.size(); ++s) {
+        line.x.push_back(t.time_s[s]);
+        line.y.push_back(displacement_m[s] * unit.per_metre);
+    }
+    for (const std::size_t s : chosen) {
+        points.x.push_back(t.time_s[s]);
+        points.y.push_back(displacement_m[s] * unit.per_metre);
+    }
+    // points of this picture are circles, as no series is beside them
+    figure.series = {std::move(points), std::move(line)};
+    draw_panel(sheet, figure, fmt::format("{} [{}]", what, unit.name), top, has_time_axis);
 }
 
 /// The falls within the drawn time, in their order.
@@ -381,34 +356,34 @@ std::vector<std::size_t> falls_in_order(const Drawn& drawn, const std::vector<do
 }
 
 /// The panel of the falls: how many blocks have fallen, with a point for each.
-std::string falls_script(const Panel& panel, const Page& page, const Trajectory& t,
-                         const std::vector<std::size_t>& falls, const std::vector<double>& fall_time_s, double last_s)
+void draw_falls(DrawingSheet& sheet, double top, const Trajectory& t, const std::vector<std::size_t>& falls,
+                const std::vector<double>& fall_time_s, double last_s)
 {
-    std::string steps = fmt::format("$count << EOD\n{} 0\n", t.time_s.front());
-    std::string points;
+    const double first_s = t.time_s.front();
+    Figure figure = over_time(first_s, last_s);
+    figure.y_range = {0, 1.1 * static_cast<double>(falls.size())};
+    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}}, steps{"", SeriesKind::line, {first_s}, {0}, {}, {}};
+    points.colour = steps.colour = fallen_colour;
     for (std::size_t k = 0; k < falls.size(); ++k) {
-        steps += fmt::format("{} {}\n", fall_time_s[falls[k]], k + 1);
-        points += fmt::format("{} {}\n", fall_time_s[falls[k]], k + 1);
+        const double time_s = fall_time_s[falls[k]], count = static_cast<double>(k + 1);
+        steps.x.insert(steps.x.end(), {time_s, time_s});
+        steps.y.insert(steps.y.end(), {count - 1, count});
+        points.x.push_back(time_s);
+        points.y.push_back(count);
     }
-    const auto count = static_cast<double>(falls.size());
-    std::string script = steps + fmt::format("{} {}\nEOD\n$each << EOD\n", last_s, falls.size()) + points + "EOD\n" +
-                         panel_frame(panel, page, t.time_s.front(), last_s);
-    script += fmt::format("set yrange [0:{}]\nset ytics out nomirror {}\n", 1.1 * count,
-                          std::max(1.0, round_step(count / 2.4)));
-    script += fmt::format("set label 'fallen' at screen 0.017, screen {} center rotate by 90\n",
-                          page.at(panel.top + panel_pixels / 2));
+    steps.x.push_back(last_s);
+    steps.y.push_back(static_cast<double>(falls.size()));
+    figure.series = {std::move(points), std::move(steps)};
+    draw_panel(sheet, figure, "fallen", top, false);
     // Left of the first fall there is room, unless it comes early: then below the curve on the right.
     const double first = fall_time_s[falls.front()];
-    const bool late = first - t.time_s.front() > 0.5 * (last_s - t.time_s.front());
-    script +=
-        fmt::format("set label {} at first {}, graph {} right font ',19' textcolor rgb '#c0271b' front offset -1,0\n",
-                    gnuplot_text(falls.size() > 1 && fall_time_s[falls[1]] == first
-                                     ? fmt::format("first: several together, {:.2f} s", first)
-                                     : fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first)),
-                    late ? first : last_s, late ? 0.72 : 0.2);
-    script += "plot $count with steps linecolor rgb '#c0271b' linewidth 1, $each with points pointtype 7 pointsize 1.0 "
-              "linecolor rgb '#c0271b'\n";
-    return script;
+    const bool late = first - first_s > 0.5 * (last_s - first_s);
+    const double at =
+        left_edge + ((late ? first : last_s) - first_s) / std::max(last_s - first_s, 1e-12) * (right_edge - left_edge);
+    sheet.text(falls.size() > 1 && fall_time_s[falls[1]] == first
+                   ? fmt::format("first: several together, {:.2f} s", first)
+                   : fmt::format("first: {}, {:.2f} s", t.name[falls.front()], first),
+               at - 12, top + panel_pixels * (late ? 0.28 : 0.8), 25, TextAt::right, fallen_colour);
 }
 
 std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls)
@@ -454,13 +429,13 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     const double last_s = trajectory.time_s[samples - 1];
     const std::vector<std::size_t> falls = falls_in_order(drawn, fall_time_s, last_s);
 
-    Page page;
-    const StripLayout layout =
-        make_layout(trajectory, drawn, chosen, (right_edge - left_edge) * static_cast<double>(page.size.width));
+    const StripLayout layout = make_layout(trajectory, drawn, chosen, right_edge - left_edge);
     const double first_panel = heading_pixels + layout.pixels + label_pixels + 30;
     const double panels = falls.empty() ? 2 : 3;
-    page.size.height = static_cast<int>(
-        std::lround(first_panel + panels * panel_pixels + (panels - 1) * panel_gap_pixels + footing_pixels));
+    DrawingSheet sheet({static_cast<int>(strip_width),
+                        static_cast<int>(std::lround(first_panel + panels * panel_pixels +
+                                                     (panels - 1) * panel_gap_pixels + footing_pixels))},
+                       picture_look.letters());
 
     std::vector<double> top_m(samples);
     for (std::size_t s = 0; s < samples; ++s)
@@ -468,20 +443,17 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     std::vector<double> base_m = trajectory["base_x_m"];
     base_m.resize(samples);
 
-    std::string script = "set multiplot\nunset key\n" +
-                         gnuplot_heading(title, subtitle(trajectory, drawn, samples, !falls.empty()), page.size) +
-                         strip_script(trajectory, drawn, fall_time_s, chosen, layout, page);
-    Panel panel{first_panel, false};
-    const double stride = panel_pixels + panel_gap_pixels;
+    sheet.heading(title, subtitle(trajectory, drawn, samples, !falls.empty()));
+    draw_strip(sheet, trajectory, drawn, fall_time_s, chosen, layout);
+    double top = first_panel;
     if (!falls.empty()) {
-        script += falls_script(panel, page, trajectory, falls, fall_time_s, last_s);
-        panel.top += stride;
+        draw_falls(sheet, top, trajectory, falls, fall_time_s, last_s);
+        top += panel_pixels + panel_gap_pixels;
     }
-    script += displacement_script("$top", "top", "#0072b2", panel, page, trajectory, chosen, top_m);
-    panel = {panel.top + stride, true};
-    script += displacement_script("$ground", "base", "#d55e00", panel, page, trajectory, chosen, base_m);
-    script += "unset multiplot\n";
-    run_gnuplot(script, page.size, png);
+    draw_displacement(sheet, "top", "#0072b2", top, false, trajectory, chosen, top_m);
+    top += panel_pixels + panel_gap_pixels;
+    draw_displacement(sheet, "base", "#d55e00", top, true, trajectory, chosen, base_m);
+    sheet.write(png);
 }
 
 } // namespace stylobate

@@ -25,7 +25,7 @@ namespace stylobate {
 /// A structure in space is drawn as `plot_strip_in_space` describes.
 ///
 /// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if the
-///         fall times are not as many as the blocks, if `snapshots` is out of range, if gnuplot is missing or fails, or
+///         fall times are not as many as the blocks, if `snapshots` is out of range, or
 ///         if the picture cannot be written
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
                 const std::filesystem::path& png, std::size_t snapshots = 8);

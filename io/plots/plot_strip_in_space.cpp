@@ -2,6 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/suggest.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/plots/solid_sheet.hpp"
 #include "io/plots/strip_parts.hpp"
 
@@ -225,7 +226,7 @@ private:
             draw_ground(sheet, ground_[0], ground_[1], ground_[2], ground_[3], view, place);
             draw_solids(sheet, solids(chosen_[n]), view, place);
             sheet.text(fmt::format("{:.{}f} s", t_.time_s[chosen_[n]], decimals), middle, bottom + 22,
-                       std::min(19.0, cell / 9));
+                       std::min(25.0, cell / 7));
             draw_plan_at(sheet, chosen_[n],
                          {middle - ground_middle(SolidView::above()) * per_metre_,
                           bottom + label_room + plan_.high * per_metre_, per_metre_});
@@ -242,7 +243,7 @@ private:
         std::vector<std::array<double, 2>> orbit;
         for (const std::size_t k : thinned(sample, 300))
             orbit.push_back(place.of(view.place(solid_of(t_, k, top_).middle)));
-        sheet.path(orbit, top_colour, 1.2);
+        sheet.path(orbit, top_colour, 2.4);
     }
 
     /// Displacement of the top from its place as built [m].
@@ -289,7 +290,7 @@ private:
             const std::string caption =
                 fmt::format("{}, {:.4g} s{}", name, t_.time_s[last_], plan ? ", with the orbit of the top" : "");
             const SheetPlace place = {middle - (box.left + box.right) / 2 * scale, origin, scale};
-            sheet.text(caption, middle, top, DrawingSheet::fitting(caption, view_cell - 30, 17));
+            sheet.text(caption, middle, top, DrawingSheet::fitting(caption, view_cell - 30, 22.6));
             if (plan) {
                 draw_plan_at(sheet, last_, place);
             } else {
@@ -314,7 +315,6 @@ private:
 
     void draw_panel(DrawingSheet& sheet, const std::string& along, double top, bool with_times) const
     {
-        constexpr double left = 190, right = strip_width - 40;
         const std::vector<double>& base = t_["base_" + along + "_m"];
         const std::size_t axis = along == "x" ? 0 : 2;
         double least = 0, most = 0;
@@ -323,46 +323,35 @@ private:
             most = std::max({most, base[k], moved(k, axis)});
         }
         const Unit unit = unit_for(std::max(-least, most));
-        const double room = most > least ? most - least : 1 / unit.per_metre;
-        least -= 0.06 * room;
-        most += 0.06 * room;
-        const double first_s = t_.time_s.front(), span_s = std::max(t_.time_s[last_] - first_s, 1e-9);
-        const auto x = [&](double time) { return left + (time - first_s) / span_s * (right - left); };
-        const auto y = [&](double metres) { return top + (most - metres) / (most - least) * panel_room; };
-        const double step = round_step(room * unit.per_metre / 2.4) / unit.per_metre;
-        for (double tic = std::ceil(least / step) * step; tic <= most; tic += step) {
-            sheet.line(left, y(tic), right, y(tic), "#dddddd", 0.5);
-            sheet.text(fmt::format("{:.4g}", std::fabs(tic) < step / 2 ? 0 : tic * unit.per_metre), left - 12, y(tic),
-                       17, TextAt::right);
-        }
-        const double step_s = round_step(span_s / 4);
-        for (double tic = std::ceil(first_s / step_s) * step_s; tic <= first_s + span_s * (1 + 1e-9); tic += step_s) {
-            sheet.line(x(tic), top + panel_room, x(tic), top + panel_room + 6, "#303030", 0.8);
-            if (with_times)
-                sheet.text(fmt::format("{:.4g}", tic), x(tic), top + panel_room + 26, 17);
-        }
-        sheet.line(left, top, left, top + panel_room, "#303030", 0.8);
-        sheet.line(left, top + panel_room, right, top + panel_room, "#303030", 0.8);
-        sheet.text(fmt::format("along {} [{}]", along, unit.name), 46, top + panel_room / 2, 17, TextAt::center,
-                   "#000000", true);
-        if (with_times)
-            sheet.text("time [s]", (left + right) / 2, top + panel_room + 62, 17);
-        for (const double fall : falls_)
-            if (fall >= first_s && fall <= first_s + span_s)
-                sheet.line(x(fall), top, x(fall), top + panel_room, fall_colour, 0.8);
-        for (const bool of_top : {false, true}) {
-            const auto place = [&](std::size_t k) {
-                return std::array<double, 2>{x(t_.time_s[k]), y(of_top ? moved(k, axis) : base[k])};
-            };
-            std::vector<std::array<double, 2>> curve;
-            for (const std::size_t k : thinned(last_, 1000))
-                curve.push_back(place(k));
-            sheet.path(curve, of_top ? top_colour : base_colour, 1);
-            for (const std::size_t k : chosen_) {
-                const auto [at_x, at_y] = place(k);
-                sheet.rectangle(at_x - 4, at_y - 4, at_x + 4, at_y + 4, of_top ? top_colour : base_colour);
+        const double room = 0.06 * (most > least ? most - least : 1 / unit.per_metre);
+        Figure figure;
+        figure.x_label = "time [s]";
+        figure.x_range = {t_.time_s.front(), std::max(t_.time_s[last_], t_.time_s.front() + 1e-9)};
+        figure.y_range = {(least - room) * unit.per_metre, (most + room) * unit.per_metre};
+        const auto add = [&](SeriesKind kind, const std::vector<std::size_t>& samples, bool of_top) {
+            FigureSeries series{"", kind, {}, {}, {}, {}};
+            series.colour = of_top ? top_colour : base_colour;
+            for (const std::size_t k : samples) {
+                series.x.push_back(t_.time_s[k]);
+                series.y.push_back((of_top ? moved(k, axis) : base[k]) * unit.per_metre);
             }
+            figure.series.push_back(std::move(series));
+        };
+        for (const bool of_top : {false, true}) {
+            add(SeriesKind::line, thinned(last_, 1000), of_top);
+            add(SeriesKind::points, chosen_, of_top);
         }
+        for (const double fall : falls_)
+            if (fall >= t_.time_s.front() && fall <= t_.time_s[last_]) {
+                figure.series.push_back(
+                    {"", SeriesKind::line, {fall, fall}, {(*figure.y_range)[0], (*figure.y_range)[1]}, {}, {}});
+                figure.series.back().colour = fall_colour;
+                figure.series.back().weight = 0.5;
+            }
+        FigurePanel panel(figure, picture_look);
+        panel.draw(sheet, {190, top, strip_width - 40, top + panel_room}, with_times);
+        sheet.text(fmt::format("along {} [{}]", along, unit.name), 46, top + panel_room / 2, 22.6, TextAt::center,
+                   "#000000", true);
     }
 
     std::string words() const

@@ -104,7 +104,7 @@ void draw_blocks(const Drawing& d, DrawingSheet& sheet)
             from = std::max(from, d.block(static_cast<std::size_t>(bed.lower)).left());
             to = std::min(to, d.block(static_cast<std::size_t>(bed.lower)).right());
         }
-        sheet.line(d.x(from), d.y(upper.bottom()), d.x(to), d.y(upper.bottom()), bed_colour, 2);
+        sheet.line(d.x(from), d.y(upper.bottom()), d.x(to), d.y(upper.bottom()), bed_colour, 4);
     }
 }
 
@@ -127,7 +127,7 @@ void draw_plan(const Drawing& d, DrawingSheet& sheet)
     for (std::size_t c = 0; c + 1 < d.columns.size(); ++c)
         sheet.across(d.x(axis(c)), d.x(axis(c + 1)), y, d.length(axis(c + 1) - axis(c)));
     for (std::size_t c = 0; c < d.columns.size(); ++c)
-        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c + 1), d.x(axis(c)), d.ground + slab / 2, 14,
+        sheet.text(fmt::format("{}{}", c == 0 ? "column " : "", c + 1), d.x(axis(c)), d.ground + slab / 2, 18.6,
                    TextAt::center, "#ffffff");
     y += row;
     sheet.across(d.x(d.left_m), d.x(d.right_m), y, d.length(d.right_m - d.left_m));
@@ -205,12 +205,12 @@ void draw_list(const Drawing& d, DrawingSheet& sheet)
         entries[k].at = std::min(entries[k].at, limit - lines(entries[k]) * gap + gap / 2);
         limit = entries[k].at - gap / 2;
     }
-    const double brace = d.x(d.right_m) + 24, column = brace + 70, font = std::min(17.0, gap / 1.5);
+    const double brace = d.x(d.right_m) + 24, column = brace + 70, font = std::min(22.6, gap / 1.15);
     for (const Entry& e : entries) {
         const double middle = (e.top + e.bottom) / 2;
-        sheet.line(brace, e.top + 2, brace, e.bottom - 2, "#909090", 0.8);
-        sheet.line(e.from + 4, middle, brace, middle, "#c8c8c8", 0.4);
-        sheet.line(brace, middle, column - 8, e.at, "#909090", 0.4);
+        sheet.line(brace, e.top + 2, brace, e.bottom - 2, "#909090", 1.6);
+        sheet.line(e.from + 4, middle, brace, middle, "#c8c8c8", 0.8);
+        sheet.line(brace, middle, column - 8, e.at, "#909090", 0.8);
         const double fits = DrawingSheet::fitting(e.words, picture_width - column - 10, font);
         sheet.text(e.words, column, e.at, fits, TextAt::left);
         if (e.bed)
@@ -242,7 +242,7 @@ std::vector<BlockText> block_texts(const Drawing& d, std::size_t i)
 /// What stands in the blocks: names and sizes as far as there is room.
 void draw_in_blocks(const Drawing& d, DrawingSheet& sheet)
 {
-    constexpr double most = 17, least = 7.5, line = 1.6; // fonts; pixels of a line for each
+    constexpr double most = 22.6, least = 10, line = 1.2; // fonts; pixels of a line for each
     for (std::size_t i = 0; i < d.layout.blocks.size(); ++i) {
         const PlacedBlock& b = d.block(i);
         if (d.alike && b.role == BlockRole::drum)

@@ -17,7 +17,7 @@ namespace stylobate {
 /// Beds that differ from [contact] are drawn red, with what differs. Lengths are in mm below 1 m, else in m.
 ///
 /// @param title of the picture
-/// @throws InputError as `lay_out`, if gnuplot is missing or fails, or if the picture cannot be written
+/// @throws InputError as `lay_out`, or if the picture cannot be written
 void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file);
 
 } // namespace stylobate

@@ -91,7 +91,7 @@ void draw_elevation(const SpaceDrawing& d, DrawingSheet& sheet, const SolidView&
         const double half = view.azimuth_rad > 0 ? solid.shape.bottom.z : solid.shape.bottom.x;
         const auto [x0, y0] = place.of({middle.x - half, middle.y});
         const auto [x1, y1] = place.of({middle.x + half, middle.y});
-        sheet.line(x0, y0, x1, y1, red, 2);
+        sheet.line(x0, y0, x1, y1, red, 4);
     }
 }
 
@@ -142,7 +142,7 @@ void draw_feet(const SpaceDrawing& d, DrawingSheet& sheet)
             while (gone < end) {
                 const double mark = std::floor(gone / dash + 1e-9), next = std::min(end, (mark + 1) * dash);
                 if (std::fmod(mark, 2) == 0)
-                    sheet.path({at(gone), at(next)}, "#4a3b24", 0.6);
+                    sheet.path({at(gone), at(next)}, "#4a3b24", 1.2);
                 gone = next;
             }
         }
@@ -164,8 +164,8 @@ void draw_plan_view(const SpaceDrawing& d, DrawingSheet& sheet)
     for (std::size_t c = 0; c < d.columns.size(); ++c) {
         const PlacedBlock& foot = d.block(d.columns[c].front());
         const auto [x, y] = d.plan.of(SolidView::above().place({foot.axis_m, 0, foot.axis_z_m}));
-        const double font = std::min(16.0, foot.width_m * d.plan.per_metre / 2);
-        if (font >= 7)
+        const double font = std::min(21.0, 1.33 * foot.width_m * d.plan.per_metre / 2);
+        if (font >= 9)
             sheet.text(fmt::format("{}", c + 1), x, y, font);
     }
 }
@@ -275,11 +275,11 @@ void plot_structure_in_space(const Study& study, const std::string& title, const
     const auto middle = [](const SheetPlace& place, double from, double to) {
         return place.x + (from + to) / 2 * place.per_metre;
     };
-    sheet.text("from the front", middle(d.front, d.x.from, d.x.to), caption, 16);
-    sheet.text("from the side", middle(d.side, -d.z.to, -d.z.from), caption, 16);
+    sheet.text("from the front", middle(d.front, d.x.from, d.x.to), caption, 21);
+    sheet.text("from the side", middle(d.side, -d.z.to, -d.z.from), caption, 21);
     double y = below;
     for (const std::string& words : list) {
-        sheet.text(words, 120, y, DrawingSheet::fitting(words, sheet_width - 240, 17), TextAt::left);
+        sheet.text(words, 120, y, DrawingSheet::fitting(words, sheet_width - 240, 22.6), TextAt::left);
         y += line;
     }
     sheet.write(title,

@@ -1,7 +1,8 @@
 #include "io/plots/plot_surface.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/colours.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ namespace stylobate {
 namespace {
 
 constexpr std::array<double, 3> contour_levels{0.05, 0.5, 0.95};
+constexpr char no_trial[] = "#b8b8b8";
+constexpr std::size_t most_slices = 6; ///< that can be told apart
 
 /// The nodes of the contour grid along one axis: the cells' centres, and the frame, to which the outer cells reach.
 std::vector<double> contour_nodes(const CellAxis& axis)
@@ -97,54 +100,36 @@ std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const CellA
     return all;
 }
 
-/// Lines of the unit square as a data block of gnuplot.
-std::string contour_block(const std::string& name, const std::vector<ContourLine>& lines, const CellAxis& f,
-                          const CellAxis& a)
+/// The contour line 0.5 of one end of a range.
+std::vector<ContourLine> range_contour(const SurfaceTable& surface, const std::vector<double>& probability,
+                                       const CellAxis& f, const CellAxis& a)
 {
-    std::string data = fmt::format("${} << EOD\n", name);
-    for (const ContourLine& line : lines) {
-        for (const ContourPoint& p : line)
-            data += fmt::format("{} {}\n", f.from_unit(p.x), a.from_unit(p.y));
-        data += '\n';
-    }
-    return data + "EOD\n";
-}
-
-struct ContourCommands {
-    std::string data;
-    std::string labels;
-};
-
-ContourCommands contour_commands(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a)
-{
-    ContourCommands commands;
-    const std::vector<SurfaceContour> all = contours_on(surface, f, a);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        commands.data += contour_block(fmt::format("contour{}", k), all[k].lines, f, a);
-        if (!all[k].lines.empty())
-            commands.labels +=
-                fmt::format("set label '{}' at {},{} center front boxed font ',21' textcolor rgb '#000000'\n",
-                            all[k].level, f.from_unit(all[k].label.x), a.from_unit(all[k].label.y));
-    }
-    return commands;
-}
-
-/// The contour lines 0.5 of the two surfaces of a range, as data blocks $low and $high where there are lines.
-std::string range_commands(const SurfaceTable& surface, const SurfaceRange& range, const CellAxis& f, const CellAxis& a)
-{
-    std::string data;
+    if (probability.size() != surface.probability.size())
+        throw InputError("the band over contact laws has other cells than the surface: one of the two is not of this "
+                         "study");
     SurfaceTable other = surface;
-    const auto add = [&](const char* name, const std::vector<double>& probability) {
-        if (probability.size() != surface.probability.size())
-            throw InputError("the band over contact laws has other cells than the surface: one of the two is not of "
-                             "this study");
-        other.probability = probability;
-        if (const std::vector<ContourLine> lines = contours(other, f, a, 0.5); !lines.empty())
-            data += contour_block(name, lines, f, a);
-    };
-    add("low", range.low);
-    add("high", range.high);
-    return data;
+    other.probability = probability;
+    return contours(other, f, a, 0.5);
+}
+
+/// The cells of a surface with their axes, as a figure.
+Figure surface_cells(const SurfaceTable& surface, const CellAxis& rows, const CellAxis& pga)
+{
+    Figure figure;
+    figure.x_label = surface.row_quantity().label;
+    figure.y_label = "peak ground acceleration [m/s²]";
+    figure.x_log = rows.log;
+    figure.y_log = pga.log;
+    figure.x_range = {rows.edges.front(), rows.edges.back()};
+    figure.y_range = {pga.edges.front(), pga.edges.back()};
+    const std::size_t np = pga.values.size();
+    for (std::size_t cell = 0; cell < surface.probability.size(); ++cell) {
+        const std::size_t i = cell / np, j = cell % np;
+        const double p = surface.probability[cell];
+        figure.cells.push_back({rows.edges[i], rows.edges[i + 1], pga.edges[j], pga.edges[j + 1],
+                                std::isfinite(p) ? viridis_colour(p) : no_trial});
+    }
+    return figure;
 }
 
 std::string subtitle(const SurfaceTable& surface)
@@ -172,90 +157,70 @@ void plot_surface(const SurfaceTable& surface, const std::string& limit, const s
     const std::string below_title = subtitle(surface);
     const CellAxis rows = make_cell_axis(surface.rows(), surface.row_quantity().key);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
-    const ContourCommands contour = contour_commands(surface, rows, pga);
-
-    // Each cell reaches a pixel under its right and upper neighbours, drawn after it: no seams shine through.
-    const double pixel = 1.0 / PictureSize{}.height;
-    std::string cells = "$cells << EOD\n";
-    std::size_t empty = 0;
-    const std::size_t np = pga.values.size();
-    for (std::size_t cell = 0; cell < surface.probability.size(); ++cell) {
-        const std::size_t i = cell / np;
-        const std::size_t j = cell % np;
-        if (!std::isfinite(surface.probability[cell])) {
-            ++empty;
-            continue;
-        }
-        cells += fmt::format("{} {} {} {} {} {} {}\n", rows.values[i], pga.values[j], rows.edges[i],
-                             rows.from_unit(rows.in_unit(rows.edges[i + 1]) + pixel), pga.edges[j],
-                             pga.from_unit(pga.in_unit(pga.edges[j + 1]) + pixel), surface.probability[cell]);
+    const Figure figure = surface_cells(surface, rows, pga);
+    const PictureSize size;
+    const FigureLook look = picture_look;
+    const double unit = look.unit;
+    DrawingSheet sheet(size, look.letters());
+    PlotFrame frame{0, sheet.heading(title, below_title), 0.86 * size.width, 0};
+    if (range) {
+        const std::string words = range->words + "; dashed: 0.5 of the lowest and the highest";
+        sheet.text(words, size.width / 2.0, frame.top + 4 * unit,
+                   DrawingSheet::fitting(words, 0.9 * size.width, 12 * unit), TextAt::center, "#a34e00");
+        frame.top += 12 * unit;
     }
-    cells += "EOD\n";
-
-    const std::string range_data = range ? range_commands(surface, *range, rows, pga) : "";
-    std::string script =
-        cells + contour.data + range_data + viridis_palette() + gnuplot_heading(title, below_title) + contour.labels;
-    script += "set lmargin at screen 0.095\nset rmargin at screen 0.855\n"
-              "set bmargin at screen 0.115\nset tmargin at screen 0.865\n"
-              "set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.8,0.6\n"
-              "set border 31 linewidth 0.8\nset tics out nomirror\nunset key\n"
-              "set xlabel " +
-              gnuplot_text(surface.row_quantity().label) +
-              " offset 0,-0.2\nset ylabel 'peak ground acceleration [m/s²]'\n"
-              "set cbrange [0:1]\nset cbtics 0.1 format '%.1f'\nset cblabel " +
-              gnuplot_text("probability of " + limit) +
-              " offset 0.8,0\n"
-              "set style fill solid 1.0 noborder\n" +
-              gnuplot_axis('x', rows) + gnuplot_axis('y', pga);
-    if (range)
-        script += fmt::format("set label {} at screen 0.5, screen 0.883 center font ',18' textcolor rgb '#a34e00'\n",
-                              gnuplot_text(range->words + "; dashed: 0.5 of the lowest and the highest"));
-    if (empty > 0)
-        script += fmt::format("set object rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#b8b8b8' "
-                              "fillstyle solid 1 noborder\n"
-                              "set label 'grey: no valid realization' at screen 0.985, screen 0.03 right font ',18' "
-                              "textcolor rgb '#505050'\n");
-    std::vector<std::string> layers;
-    if (empty < surface.probability.size())
-        layers.emplace_back("$cells using 1:2:3:4:5:6:7 with boxxyerror linecolor palette");
-    // A dark line under a white one is seen on every colour.
-    for (std::size_t k = 0; k < contour_levels.size(); ++k)
-        if (contour.data.find(fmt::format("$contour{} << EOD\nEOD", k)) == std::string::npos) {
-            layers.push_back(fmt::format("$contour{} with lines linewidth 3.4 linecolor rgb '#202020'", k));
-            layers.push_back(fmt::format("$contour{} with lines linewidth {} linecolor rgb '#ffffff'", k,
-                                         contour_levels[k] == 0.5 ? 2.0 : 1.4));
+    frame.top += 10 * unit;
+    FigurePanel panel(figure, look);
+    frame.left = 12 * unit + panel.room_left();
+    frame.bottom = size.height - 16 * unit - panel.room_below(frame.right - frame.left);
+    panel.draw(sheet, frame);
+    const auto on_sheet = [&](const ContourPoint& p) {
+        return std::array<double, 2>{frame.left + p.x * (frame.right - frame.left),
+                                     frame.bottom - p.y * (frame.bottom - frame.top)};
+    };
+    const auto draw = [&](const std::vector<ContourLine>& lines, const char* colour, double width,
+                          const char* dashes = "") {
+        for (const ContourLine& line : lines) {
+            std::vector<std::array<double, 2>> points;
+            for (const ContourPoint& p : line)
+                points.push_back(on_sheet(p));
+            sheet.path(points, colour, width, dashes);
         }
-    for (const char* end : {"low", "high"})
-        if (range_data.find(fmt::format("${} << EOD\n", end)) != std::string::npos)
-            layers.push_back(fmt::format("${} with lines linewidth 2.6 dashtype 2 linecolor rgb '#ff7f0e'", end));
-    if (layers.empty())
-        layers.emplace_back("1/0"); // the frame with nothing in it
-    script += "plot ";
-    for (std::size_t i = 0; i < layers.size(); ++i)
-        script += (i == 0 ? "" : ", ") + layers[i];
-    run_gnuplot(script, PictureSize{}, png);
+    };
+    const std::vector<SurfaceContour> all = contours_on(surface, rows, pga);
+    for (const SurfaceContour& contour : all) {
+        // A dark line under a white one is seen on every colour.
+        draw(contour.lines, "#202020", 6.8);
+        draw(contour.lines, "#ffffff", contour.level == 0.5 ? 4 : 2.8);
+    }
+    if (range)
+        for (const std::vector<double>* end : {&range->low, &range->high})
+            draw(range_contour(surface, *end, rows, pga), "#ff7f0e", 5.2, "14 10");
+    for (const SurfaceContour& contour : all)
+        if (!contour.lines.empty()) {
+            const auto [x, y] = on_sheet(contour.label);
+            sheet.boxed_text(fmt::format("{}", contour.level), x, y, look.letters());
+        }
+    const double strip = frame.right + 22 * unit;
+    PlotScale scale;
+    scale.from = 0;
+    scale.to = 1;
+    draw_colour_scale(sheet, look, {strip, frame.top, strip + 20 * unit, frame.bottom}, scale,
+                      "probability of " + limit, viridis_colour);
+    if (std::any_of(surface.probability.begin(), surface.probability.end(), [](double p) { return !std::isfinite(p); }))
+        sheet.text("grey: no valid realization", size.width - 12 * unit, size.height - 16 * unit, 12 * unit,
+                   TextAt::right, "#505050");
+    sheet.write(png);
 }
-
-namespace {
-
-/// Okabe and Ito's colours, told apart by the colour-blind, and a point type each.
-struct CurveStyle {
-    const char* colour;
-    int point;
-};
-constexpr std::array<CurveStyle, 6> styles{
-    {{"#0072b2", 7}, {"#d55e00", 5}, {"#009e73", 9}, {"#cc79a7", 11}, {"#e69f00", 13}, {"#56b4e9", 15}}};
-
-} // namespace
 
 std::vector<std::size_t> slice_rows(const SurfaceTable& surface, const std::vector<double>& wanted)
 {
     const RowQuantity& of = surface.row_quantity();
     const CellAxis axis = make_cell_axis(surface.rows(), of.key);
     const std::size_t count = axis.values.size();
-    if (wanted.size() > styles.size())
+    if (wanted.size() > most_slices)
         throw InputError(fmt::format("{} {} are too many for one picture of slices.\n  Name 1 to {} of them.",
-                                     wanted.size(), of.plural, styles.size()));
+                                     wanted.size(), of.plural, most_slices));
     std::set<std::size_t> rows;
     if (wanted.empty())
         for (std::size_t k = 1; k <= 3; ++k)
@@ -279,6 +244,12 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& wanted, 
     const std::vector<std::size_t> rows = slice_rows(surface, wanted);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
     const std::size_t np = pga.values.size();
+    Figure figure;
+    figure.x_label = "peak ground acceleration [m/s²]";
+    figure.y_label = "probability of " + limit;
+    figure.x_log = pga.log;
+    figure.x_range = {pga.edges.front(), pga.edges.back()};
+    figure.y_range = {-0.015, 1.015};
 
     // Curves that coincide must all be seen: each is thinner than those drawn before it, and its points with their bars
     // stand a little beside those of the others.
@@ -286,55 +257,29 @@ void plot_slice(const SurfaceTable& surface, const std::vector<double>& wanted, 
     for (std::size_t j = 1; j < np; ++j)
         apart = std::min(apart, pga.scaled(pga.values[j]) - pga.scaled(pga.values[j - 1]));
     const double step = std::min(0.1 * apart, 0.007 * (pga.scaled(pga.edges.back()) - pga.scaled(pga.edges.front())));
-    const auto beside = [&](double value, std::size_t k) {
-        const double place = static_cast<double>(k) - static_cast<double>(rows.size() - 1) / 2;
-        return pga.unscaled(pga.scaled(value) + place * step);
-    };
     const double thicker = std::min(1.6, 6.0 / std::max(1.0, static_cast<double>(rows.size() - 1)));
-    std::string data;
-    std::string bands;
-    std::string curves;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const double wider = static_cast<double>(rows.size() - 1 - k);
-        data += fmt::format("$slice{} << EOD\n", k);
-        std::size_t points = 0;
+        const std::string name = fmt::format("{:.3g}{}", surface.rows()[rows[k]], surface.row_quantity().symbol);
+        FigureSeries curve, points;
+        curve.group = points.group = name;
+        points.name = name;
+        points.kind = SeriesKind::points;
+        curve.weight = 1 + 0.7 * thicker * static_cast<double>(rows.size() - 1 - k);
+        const double place = static_cast<double>(k) - static_cast<double>(rows.size() - 1) / 2;
         for (std::size_t j = 0; j < np; ++j) {
             const std::size_t cell = rows[k] * np + j;
-            if (std::isfinite(surface.probability[cell])) {
-                data += fmt::format("{} {} {} {} {}\n", pga.values[j], surface.probability[cell], surface.lower[cell],
-                                    surface.upper[cell], beside(pga.values[j], k));
-                ++points;
-            } else {
-                data += '\n'; // a gap in the curve
+            curve.x.push_back(pga.values[j]);
+            points.x.push_back(pga.unscaled(pga.scaled(pga.values[j]) + place * step));
+            for (FigureSeries* s : {&curve, &points}) { // a cell without a trial is a gap
+                s->y.push_back(surface.probability[cell]);
+                s->low.push_back(surface.lower[cell]);
+                s->high.push_back(surface.upper[cell]);
             }
         }
-        data += "EOD\n";
-        if (points == 0)
-            continue;
-        const CurveStyle& style = styles[k];
-        bands += fmt::format("{}$slice{} using 1:3:4 with filledcurves fillcolor rgb '{}' fillstyle transparent solid "
-                             "0.2 noborder notitle",
-                             bands.empty() ? "" : ", ", k, style.colour);
-        curves +=
-            fmt::format(", $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth {4:.1f} notitle"
-                        ", $slice{0} using 5:2:3:4 with yerrorbars linecolor rgb '{1}' linewidth 0.9 pointtype {2} "
-                        "pointsize 1.3 title '{3:.3g}{5}'",
-                        k, style.colour, style.point, surface.rows()[rows[k]], 1.4 + thicker * wider,
-                        surface.row_quantity().symbol);
+        figure.series.push_back(std::move(curve));
+        figure.series.push_back(std::move(points));
     }
-    const std::string script =
-        data + gnuplot_heading(title, below_title) + gnuplot_axis('x', pga) +
-        "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.115\nset tmargin at screen "
-        "0.84\n"
-        "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
-        "set key horizontal center bottom at screen 0.535, screen 0.85 samplen 2\n"
-        "set xlabel 'peak ground acceleration [m/s²]' offset 0,-0.2\nset ylabel " +
-        gnuplot_text("probability of " + limit) +
-        "\n"
-        "set yrange [-0.015:1.015]\nset ytics 0,0.1,1 format '%.1f'\n"
-        "plot " +
-        (bands.empty() ? std::string("1/0 notitle") : bands + curves);
-    run_gnuplot(script, PictureSize{}, png);
+    write_figure(figure, title, below_title, png);
 }
 
 } // namespace stylobate

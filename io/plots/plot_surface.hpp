@@ -24,7 +24,7 @@ struct SurfaceRange {
 /// @param limit what the probability is one of: "collapse"
 /// @param png the file; its folder must exist
 /// @param range the contour lines 0.5 of its two surfaces are dashed
-/// @throws InputError if the table has no axes or its arrays do not fit them, if gnuplot is missing or fails, or if
+/// @throws InputError if the table has no axes or its arrays do not fit them, or if
 ///         the picture cannot be written
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
                   const std::filesystem::path& png, const std::optional<SurfaceRange>& range = {});

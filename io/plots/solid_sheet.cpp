@@ -46,7 +46,7 @@ void draw_solids(DrawingSheet& sheet, const std::vector<DrawnSolid>& solids, con
         std::vector<std::array<double, 2>> on_sheet;
         for (const ViewPoint& point : polygon.points)
             on_sheet.push_back(place.of(point));
-        sheet.polygon(on_sheet, polygon.fill, polygon.line, polygon.line_width);
+        sheet.polygon(on_sheet, polygon.fill, polygon.line, 2 * polygon.line_width);
     }
 }
 
@@ -56,19 +56,19 @@ void draw_ground(DrawingSheet& sheet, double left, double right, double back, do
     std::vector<std::array<double, 2>> corners;
     for (const auto& [x, z] : {std::pair(left, front), {right, front}, {right, back}, {left, back}})
         corners.push_back(place.of(view.place({x, 0, z})));
-    sheet.polygon(corners, "#d9dde1", "#9aa1a8", 0.5);
+    sheet.polygon(corners, "#d9dde1", "#9aa1a8", 1);
 }
 
 void draw_axes(DrawingSheet& sheet, const SolidView& view, double x, double y)
 {
-    constexpr double length = 34, letter = 14;
+    constexpr double length = 34, letter = 18;
     for (const auto& [name, axis] :
          {std::pair<const char*, SpacePoint>{"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}}) {
         const ViewPoint to = view.place(axis);
         const double seen = std::hypot(to.x, to.y);
         if (seen < 0.25)
             continue;
-        sheet.line(x, y, x + to.x * length, y - to.y * length, "#303030", 1);
+        sheet.line(x, y, x + to.x * length, y - to.y * length, "#303030", 2);
         const double far = length + letter / seen;
         sheet.text(name, x + to.x * far, y - to.y * far, letter);
     }

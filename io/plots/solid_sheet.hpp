@@ -1,7 +1,7 @@
 #pragma once
 /// Solids in space on a sheet.
 
-#include "io/plots/drawing_sheet.hpp"
+#include "io/plots/sheet.hpp"
 #include "io/plots/solid_view.hpp"
 
 #include <array>

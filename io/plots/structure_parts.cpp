@@ -97,13 +97,13 @@ void draw_heights(const DrawnStructure& drawn, DrawingSheet& sheet, double left,
                     run.size() == 1 ? drawn.length(low.height_m)
                                     : fmt::format("{} × {}", run.size(), drawn.length(low.height_m)));
         for (const std::size_t i : run)
-            sheet.line(at - 4, y(drawn.block(i).top()), at + 4, y(drawn.block(i).top()), "#27475c", 0.6);
+            sheet.line(at - 4, y(drawn.block(i).top()), at + 4, y(drawn.block(i).top()), "#27475c", 1.2);
     }
     if (pile.size() > 1 || !same(top, drawn.top_m)) {
         const double outer = at - 190;
         sheet.along(outer, y(0), y(drawn.top_m), drawn.length(drawn.top_m), true);
         for (const double level : {y(0), y(drawn.top_m)})
-            sheet.line(outer - 10, level, left - 12, level, "#b0b0b0", 0.4);
+            sheet.line(outer - 10, level, left - 12, level, "#b0b0b0", 0.8);
     }
 }
 

@@ -2,7 +2,7 @@
 /// What the drawings of a structure in the plane and in space have in common.
 
 #include "ensemble/model/study.hpp"
-#include "io/plots/drawing_sheet.hpp"
+#include "io/plots/sheet.hpp"
 
 #include <optional>
 #include <string>

@@ -36,7 +36,7 @@ class Stylobate(CMakePackage):
     depends_on("pugixml")
     depends_on("tbb")
     depends_on("zlib-api")
-    depends_on("gnuplot", type="run")
+    depends_on("librsvg", type=("build", "run"))
 
     depends_on("cuda@12:", when="+cuda")
     depends_on("mpi", when="+mpi")

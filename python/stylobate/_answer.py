@@ -65,7 +65,7 @@ class Answer(FiledFinding):
         return self.rows.to_pandas()
 
     def draw(self, path, limit_state=None):
-        """Draws the picture of the program: .png, .svg or .pdf, by gnuplot. A file that is there is replaced.
+        """Draws the picture of the program: .png, .svg or .pdf. A file that is there is replaced.
 
         limit_state: None: the principal one.
         """

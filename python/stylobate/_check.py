@@ -45,7 +45,7 @@ class Check(Finding):
     warnings = forwarded("warnings", "Implausible values of the study: texts.")
 
     def draw(self, path):
-        """Draws the structure to scale with its dimensions: .png, .svg or .pdf, by gnuplot. A file that is there is
+        """Draws the structure to scale with its dimensions: .png, .svg or .pdf. A file that is there is
         replaced."""
         self._core.draw(os.fspath(path))
 

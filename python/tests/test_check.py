@@ -71,7 +71,7 @@ def test_drawing(folder):
     try:
         check.draw(folder / "column.svg")
     except stylobate.InputError as error:
-        if "gnuplot" in str(error):
+        if "librsvg" in str(error):
             pytest.skip(str(error))
         raise
     program("check", INPUTS / "doric_column.toml", "--pilot", 0, "--trial-seconds", 0, "-o", "program.svg", "--quiet")

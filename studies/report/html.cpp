@@ -205,13 +205,13 @@ std::string base64(std::string_view bytes)
     return out;
 }
 
-Html png_image(const std::filesystem::path& png, std::string_view alternative)
+Html svg_image(const std::filesystem::path& svg, std::string_view alternative)
 {
-    std::ifstream in(png, std::ios::binary);
+    std::ifstream in(svg, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (!in || bytes.empty())
-        throw InputError(png.string(), 0, "cannot be read");
-    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/png;base64," + base64(bytes) +
+        throw InputError(svg.string(), 0, "cannot be read");
+    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/svg+xml;base64," + base64(bytes) +
                        "\">");
 }
 

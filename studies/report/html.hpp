@@ -76,7 +76,7 @@ private:
 
 /// A picture inside the page.
 /// @throws InputError if the file cannot be read
-Html png_image(const std::filesystem::path& png, std::string_view alternative);
+Html svg_image(const std::filesystem::path& svg, std::string_view alternative);
 
 /// JSON for the script of a page, in an element that is not shown. Its text cannot end the element.
 /// @param attributes of the element: "id=\"cells\""
@@ -96,8 +96,8 @@ std::string_view space_evidence();
 /// A page and its pictures.
 struct PageWriter {
     HtmlPage& page;
-    /// Puts a picture into the page, or a note why it could not be drawn. The function draws a PNG.
-    std::function<void(const std::string& caption, const std::function<void(const std::filesystem::path& png)>& draw)>
+    /// Puts a picture into the page, or a note why it could not be drawn. The function draws an SVG.
+    std::function<void(const std::string& caption, const std::function<void(const std::filesystem::path& svg)>& draw)>
         picture;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Figures of a page, drawn as SVG.
 
-#include "studies/report/figure.hpp"
+#include "io/plots/figure.hpp"
 #include "studies/report/html.hpp"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "studies/report/html_map.hpp"
 
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/colours.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "ensemble/planar/planar_poses.hpp"
 #include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/files/program.hpp"
 #include "io/plots/solid_view.hpp"
 #include "studies/report/animation.hpp"
 #include "studies/report/frame.hpp"

@@ -527,10 +527,10 @@ private:
 
     void picture(const std::string& caption, const std::function<void(const fs::path&)>& draw)
     {
-        const fs::path png = folder_ / "picture.png";
+        const fs::path png = folder_ / "picture.svg";
         try {
             draw(png);
-            page_.figure(png_image(png, caption), caption);
+            page_.figure(svg_image(png, caption), caption);
         } catch (const InputError& error) {
             missing(caption, error);
         }

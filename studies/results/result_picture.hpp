@@ -2,10 +2,10 @@
 /// One realization over time, for pictures, pages, films and other programs; and the pictures that the results of every
 /// kind have: that of a realization, and the order of falls.
 
+#include "io/plots/figure.hpp"
 #include "io/plots/plot_order.hpp"
 #include "kernels/isa.hpp"
 #include "studies/experiment/motions.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/results/results.hpp"
 
 #include <cstdint>

@@ -143,7 +143,7 @@ public:
                 entry(bold(note.name), plain(note.text));
         }
         section("See also");
-        out_ += fmt::format("{}, {}\n", "\\fBgnuplot\\fR(1)", "\\fBffmpeg\\fR(1)");
+        out_ += "\\fBffmpeg\\fR(1)\n";
     }
 
     std::string text() const { return out_; }

@@ -83,7 +83,7 @@ const std::vector<UsageSection>& usage_notes()
            "missed"},
           {"130", "interrupted by Ctrl-C; the same command continues a run, a comparison or a calibration"}}},
         {"Environment",
-         {{"STYLOBATE_GNUPLOT", "path of the gnuplot that draws png, svg and pdf (default: the first in PATH)"},
+         {{"STYLOBATE_LIBRSVG", "path of the librsvg that draws png and pdf (default: librsvg-2.so.2 of the system)"},
           {"STYLOBATE_FFMPEG", "path of the ffmpeg that writes gif, mp4 and webm (default: the first in PATH)"},
           {"TMPDIR", "folder for temporary files (default: /tmp)"}}},
         {"Files",

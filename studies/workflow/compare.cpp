@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/picture_file.hpp"
 #include "studies/decisions/compare/compare_studies.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/workflow/file_kind.hpp"
@@ -166,7 +166,7 @@ SearchEnd search_study_file(const SearchRequest& request, const Machine& machine
                                          *request.picture));
         check_output(request.study, *request.picture, request.force);
         AtomicFile::check(*request.picture);
-        find_gnuplot(); // refuses before anything is run
+        check_picture(*request.picture); // refuses before anything is run
     }
     const SearchFiles files{request.study, request.settings, ""};
     check_search(files);

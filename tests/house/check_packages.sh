@@ -69,7 +69,7 @@ timed "the first surface, 4096 realizations" as_user \
 head -n 1 "$work/log"
 timed "its page" as_user "stylobate report column.h5"
 printf '%6.1f s  from apt update to the page\n' "$(awk "BEGIN { print $EPOCHREALTIME - $first }")"
-timed "its picture, by gnuplot" as_user "stylobate export column.h5 --to png"
+timed "its picture, by librsvg" as_user "stylobate export column.h5 --to png"
 as_user "stylobate export column.h5 --to csv -o tables --quiet" >/dev/null
 "$program" run "$source/studies/inputs/$study.toml" -o "$work/column.h5" $reduced --quiet >/dev/null
 "$program" export "$work/column.h5" --to csv -o "$work/tables" --quiet >/dev/null

@@ -98,7 +98,7 @@ expect "no temporary folder" 2 "in '/no/such/folder': No such file" env TMPDIR=/
 expect "no temporary folder, run" 0 "" env TMPDIR=/no/such/folder "${run[@]}"
 empty=(env -i ${TSAN_OPTIONS:+"TSAN_OPTIONS=$TSAN_OPTIONS"}) # what TSan is told not to report
 expect "no environment" 0 "" "${empty[@]}" "${run[@]}"
-expect "no environment, picture" 2 "gnuplot was not found in PATH" "${empty[@]}" "${export_png[@]}"
+expect "no environment, picture" 0 "" "${empty[@]}" "${export_png[@]}"
 
 # decimal commas, where the locale can be made
 "${export_csv[@]}" > out 2> err && mv x good_csv

@@ -167,7 +167,7 @@ TEST(NoShell, IsStarted)
             if (text.find("posix_spawn(") != std::string::npos)
                 starters.insert(fs::relative(entry.path(), STYLOBATE_SOURCE_DIR));
         }
-    EXPECT_EQ(starters, (std::set<std::string>{"io/plots/gnuplot.cpp"}));
+    EXPECT_EQ(starters, (std::set<std::string>{"io/files/program.cpp"}));
 }
 
 } // namespace

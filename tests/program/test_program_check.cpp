@@ -168,8 +168,6 @@ TEST_F(Check, DrawsTheStructure)
         return all;
     };
     const Ended ended = run(and_also({"--to", "svg"}));
-    if (ended.err.find("gnuplot") != std::string::npos)
-        GTEST_SKIP() << ended.err;
     ASSERT_EQ(ended.status, 0) << testing::PrintToString(ended);
     EXPECT_NE(ended.out.find("picture: doric_column_structure.svg\n"), std::string::npos) << ended.out;
     EXPECT_NE(read_bytes(folder / "doric_column_structure.svg").find("capital"), std::string::npos);
@@ -199,8 +197,6 @@ TEST_F(Check, CanBeInterruptedInTheTrial)
     program.signal = SIGINT;
     program.when = when_there(folder / "small_scale_column_structure.svg"); // it is drawn before the trial
     const Ended ended = run(program);
-    if (ended.err.find("gnuplot") != std::string::npos)
-        GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.status, 130) << testing::PrintToString(ended);
     EXPECT_EQ(ended.out, "");
     EXPECT_NE(ended.err.find("Interrupted"), std::string::npos);

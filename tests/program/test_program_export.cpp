@@ -36,7 +36,6 @@ protected:
 
 TEST_F(Exports, TheEndingDecidesOrIsRefused)
 {
-    NEEDS_GNUPLOT();
     eight();
     EXPECT_EQ(written({"-o", "s.svg"}), "s.svg");
     EXPECT_TRUE(begins("s.svg", "<?xml"));
@@ -59,7 +58,6 @@ TEST_F(Exports, TheEndingDecidesOrIsRefused)
 
 TEST_F(Exports, NothingIsReplacedUnlessAsked)
 {
-    NEEDS_GNUPLOT();
     eight();
     const std::vector<Words> verbs = {
         {"export", "a.h5", "--to", "png"},      {"export", "a.h5", "--to", "png", "-o", "named.png"},
@@ -92,7 +90,6 @@ TEST_F(Exports, NothingIsReplacedUnlessAsked)
 
 TEST_F(Exports, NamesSayTheRealizationTheCellAndTheFrequencies)
 {
-    NEEDS_GNUPLOT();
     eight();
     EXPECT_EQ(written({"--to", "png", "--realization", "3"}), "a_strip_realization_3.png");
     EXPECT_EQ(written({"--to", "png", "--realization", "2"}), "a_strip_realization_2.png");
@@ -137,7 +134,6 @@ TEST_F(Exports, WhatIsNotUsedIsRefused)
 
 TEST_F(Exports, TheStudysTitleIsThePicturesAndChangesNoStudy)
 {
-    NEEDS_GNUPLOT();
     eight({"study.title=The column's \"south\" side"});
     const auto svg = [&](const Words& more) {
         const std::string name = written(more);
@@ -177,7 +173,6 @@ TEST_F(Exports, TheStudysTitleIsThePicturesAndChangesNoStudy)
 
 TEST_F(Exports, ACapitalIsCalledOne)
 {
-    NEEDS_GNUPLOT();
     const Words settings = {"study.realizations=1",
                             "contact.normal_stiffness_n_m2=1e8",
                             "contact.tangential_stiffness_n_m=1e8",

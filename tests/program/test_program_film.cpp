@@ -1,6 +1,6 @@
 /// `stylobate export --to html, gif, mp4, webm`: one realization in motion.
 
-#include "io/plots/gnuplot.hpp"
+#include "io/files/program.hpp"
 #include "tests/program/program.hpp"
 
 #include <fmt/format.h>

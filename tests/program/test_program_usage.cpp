@@ -152,7 +152,7 @@ TEST_F(Usage, ManualPageHasWhatTheHelpTextsHaveAndGroffFindsNothing)
         }
     }
     // what both end with
-    for (const char* text : {"130", "STYLOBATE_FFMPEG", "STYLOBATE_GNUPLOT", "TMPDIR", "/usr/share/stylobate/inputs"}) {
+    for (const char* text : {"130", "STYLOBATE_FFMPEG", "STYLOBATE_LIBRSVG", "TMPDIR", "/usr/share/stylobate/inputs"}) {
         EXPECT_NE(page.find(text), std::string::npos) << text;
         EXPECT_NE(help.find(text), std::string::npos) << text;
     }

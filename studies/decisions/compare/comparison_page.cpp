@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/plots/plot_estimates.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/plots/plot_maps.hpp"
 #include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
@@ -22,6 +22,32 @@
 namespace stylobate {
 
 namespace {
+
+/// The shares of a limit state of the base and of all variants, by stripe.
+Figure stripes_figure(const Comparison& c, const std::string& limit)
+{
+    Figure figure;
+    figure.title = "Shares of " + limit;
+    figure.x_label = describe_measure(c.measure);
+    figure.y_label = "probability of reaching the limit state";
+    figure.x_log = true;
+    const auto add = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
+        FigureSeries points{name, SeriesKind::points, c.intensity, {}, {}, {}, name, "shares"};
+        FigureSeries line{name, SeriesKind::line, c.intensity, {}, {}, {}, name, "lines"};
+        for (const PlaceComparison& place : of.cells) {
+            points.y.push_back((place.*side).probability);
+            points.low.push_back((place.*side).lower);
+            points.high.push_back((place.*side).upper);
+            line.y.push_back((place.*side).probability);
+        }
+        figure.series.push_back(std::move(line));
+        figure.series.push_back(std::move(points));
+    };
+    add(limit_of(c.variants.front(), limit), c.base_name, &PlaceComparison::base);
+    for (const VariantComparison& variant : c.variants)
+        add(limit_of(variant, limit), variant.name, &PlaceComparison::variant);
+    return figure;
+}
 
 namespace fs = std::filesystem;
 
@@ -112,9 +138,9 @@ private:
     {
         try {
             const TemporaryFolder folder;
-            const fs::path png = folder / "picture.png";
+            const fs::path png = folder / "picture.svg";
             draw(png);
-            page_.figure(png_image(png, caption), caption);
+            page_.figure(svg_image(png, caption), caption);
         } catch (const InputError& error) {
             warnings_.push_back(fmt::format("{} was not drawn: {}", what, error.what()));
             page_.note(fmt::format("{} was not drawn: {}", what, error.what()));
@@ -257,29 +283,11 @@ private:
 
     void stripes(const std::string& limit)
     {
-        Figure figure;
-        figure.title = "Shares of " + limit;
-        figure.x_label = describe_measure(c_.measure);
-        figure.y_label = "probability";
-        figure.x_log = true;
-        const auto add = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
-            FigureSeries points{name, SeriesKind::points, c_.intensity, {}, {}, {}, name, "shares"};
-            FigureSeries line{name, SeriesKind::line, c_.intensity, {}, {}, {}, name, "lines"};
-            for (const PlaceComparison& place : of.cells) {
-                points.y.push_back((place.*side).probability);
-                points.low.push_back((place.*side).lower);
-                points.high.push_back((place.*side).upper);
-                line.y.push_back((place.*side).probability);
-            }
-            figure.series.push_back(std::move(line));
-            figure.series.push_back(std::move(points));
-        };
-        add(limit_of(c_.variants.front(), limit), c_.base_name, &PlaceComparison::base);
-        for (const VariantComparison& variant : c_.variants)
-            add(limit_of(variant, limit), variant.name, &PlaceComparison::variant);
-        page_.figure(figure_svg(figure), fmt::format("Shares of {} by stripe, with intervals of each share by the "
-                                                     "motions. The intervals of differences are narrower.",
-                                                     limit));
+        page_.figure(
+            figure_svg(stripes_figure(c_, limit)),
+            fmt::format("Shares of {} by stripe, with intervals of each share by the motions. The intervals of "
+                        "differences are narrower.",
+                        limit));
     }
 
     void named()
@@ -412,25 +420,10 @@ void draw_maps(const Comparison& comparison, const std::string& limit, const std
 void draw_stripes(const Comparison& comparison, const std::string& limit, const std::string& title,
                   const std::filesystem::path& file)
 {
-    SharePicture picture;
-    picture.title = title;
-    picture.subtitle = fmt::format("{} motions · bars: {:g} % intervals of each share, clustered by motion",
-                                   comparison.motions, 100 * comparison.level);
-    picture.x_label = describe_measure(comparison.measure);
-    picture.y_label = "probability of reaching the limit state";
-    const auto series = [&](const LimitComparison& of, const std::string& name, Share PlaceComparison::*side) {
-        ShareSeries s{name, comparison.intensity, {}, {}, {}};
-        for (const PlaceComparison& place : of.cells) {
-            s.share.push_back((place.*side).probability);
-            s.lower.push_back((place.*side).lower);
-            s.upper.push_back((place.*side).upper);
-        }
-        picture.series.push_back(std::move(s));
-    };
-    series(limit_of(comparison.variants.front(), limit), comparison.base_name, &PlaceComparison::base);
-    for (const VariantComparison& variant : comparison.variants)
-        series(limit_of(variant, limit), variant.name, &PlaceComparison::variant);
-    plot_shares(picture, file);
+    write_figure(stripes_figure(comparison, limit), title,
+                 fmt::format("{} motions · bars: {:g} % intervals of each share, clustered by motion",
+                             comparison.motions, 100 * comparison.level),
+                 file);
 }
 
 } // namespace

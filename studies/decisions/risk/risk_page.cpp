@@ -1,7 +1,7 @@
 #include "studies/decisions/risk/risk_text.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/left_out.hpp"
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -102,7 +101,11 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
 /// The three parts of one limit state, over the same intensities.
 std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
 {
-    return {hazard_figure(risk, state), state_figure(state), parts_figure(risk, state)};
+    std::vector<Figure> figures{hazard_figure(risk, state), state_figure(state), parts_figure(risk, state)};
+    for (Figure& figure : figures) // one axis of the intensity for all three
+        figure.x_range = {state.estimate.parts.front().to * 0.97, state.estimate.parts.back().from * 1.03};
+    figures[1].y_range = {-0.02, 1.02};
+    return figures;
 }
 
 void add_result(const Risk& risk, HtmlPage& page)
@@ -217,18 +220,6 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optiona
 
 namespace {
 
-constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73"};
-
-/// The values of a series as a block of data: x, y, low, high.
-std::string block(const std::string& name, const FigureSeries& series)
-{
-    std::string data = fmt::format("${} << EOD\n", name);
-    for (std::size_t i = 0; i < series.x.size(); ++i)
-        data += fmt::format("{} {} {} {}\n", series.x[i], series.y[i], series.low.empty() ? series.y[i] : series.low[i],
-                            series.high.empty() ? series.y[i] : series.high[i]);
-    return data + "EOD\n";
-}
-
 const StateRisk& state_named(const Risk& risk, const std::optional<std::string>& name)
 {
     if (!name)
@@ -243,15 +234,6 @@ const StateRisk& state_named(const Risk& risk, const std::optional<std::string>&
         fmt::format("--limit {}: no limit state of this estimate; it has {}", *name, fmt::join(names, ", ")));
 }
 
-/// Commands of one of the three parts, from the top.
-std::string part(int number, const std::string& y_label, const std::string& commands)
-{
-    const double top = 0.87 - 0.262 * number;
-    return fmt::format("set tmargin at screen {}\nset bmargin at screen {}\nset ylabel {} offset 0.5,0\n", top,
-                       top - 0.225, gnuplot_text(y_label)) +
-           commands;
-}
-
 } // namespace
 
 void plot_risk(const Risk& risk, const std::optional<std::string>& name, const std::optional<std::string>& title,
@@ -261,63 +243,19 @@ void plot_risk(const Risk& risk, const std::optional<std::string>& name, const s
     if (!s.determined)
         throw InputError(fmt::format("{}: the frequency of '{}' is not determined, so its parts are not drawn.\n  {}",
                                      picture.string(), s.state, s.note));
-    const std::vector<Figure> figures = risk_figures(risk, s);
-    const FigureSeries &hazard = figures[0].series[0], &curve = figures[1].series[0], &points = figures[1].series[1];
-    std::string data = block("hazard", hazard) + block("curve", curve) + block("points", points) + "$parts << EOD\n";
-    double most = 0;
-    for (const FrequencyPart& p : s.estimate.parts)
-        if (p.from > 0 && std::isfinite(p.to)) {
-            const RiskNumber& f = p.frequency;
-            if (!(f.value > 0)) // no run reached the state there
-                continue;
-            data += fmt::format("{} {} {} {} {} {}\n", std::sqrt(p.from * p.to), f.value, f.total.lower,
-                                std::isfinite(f.total.upper) ? f.total.upper : f.value, p.from, p.to);
-            most = std::max(most, std::isfinite(f.total.upper) ? f.total.upper : f.value);
-        }
-    data += "EOD\n";
-    if (!(most > 0))
+    if (std::ranges::none_of(s.estimate.parts, [](const FrequencyPart& p) {
+            return p.from > 0 && std::isfinite(p.to) && p.frequency.value > 0;
+        }))
         throw InputError(fmt::format("{}: no run of the study reached '{}' within its intensities, so there is nothing "
                                      "to draw.",
                                      picture.string(), s.state));
-    const std::string said =
-        fmt::format("{}: {} a year; bands and bars: {:g} % (fragility: {:g} %)", s.state,
-                    frequency_text(s.estimate.frequency), 100 * risk.level, 100 * risk.fragility_level);
-    std::string script = data + gnuplot_heading(title.value_or("Risk: " + risk.title), said) +
-                         fmt::format("set logscale x\nset xrange [{}:{}]\n", s.estimate.parts.front().to * 0.97,
-                                     s.estimate.parts.back().from * 1.03) +
-                         "set xtics (.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100)\n"
-                         "set lmargin at screen 0.14\nset rmargin at screen 0.97\nset border 3 linewidth 0.8\n"
-                         "set tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
-                         "set format x ''\nunset key\nset multiplot\n";
-    script += part(0, "hazard [1/year]",
-                   fmt::format("set logscale y\nset format y '%.0e'\nplot $hazard using 1:3:4 with filledcurves "
-                               "fillcolor rgb '{0}' fillstyle transparent solid 0.2 noborder, $hazard using 1:2 with "
-                               "lines linecolor rgb '{0}' linewidth 2\n",
-                               colours[0]));
-    script += "unset logscale y\nunset title\nunset label\n";
-    script += part(1, "fragility",
-                   fmt::format("set yrange [-0.02:1.02]\nset ytics 0,0.25,1\nset format y '%.2f'\nplot $curve using "
-                               "1:3:4 with filledcurves fillcolor rgb '{0}' fillstyle transparent solid 0.2 noborder, "
-                               "$curve using 1:2 with lines linecolor rgb '{0}' linewidth 2",
-                               colours[1]));
-    script += points.x.empty() ? "\n"
-                               : fmt::format(", $points using 1:2:3:4 with yerrorbars linecolor rgb '{}' linewidth 0.9 "
-                                             "pointtype 7 pointsize 1\n",
-                                             colours[1]);
-    // boxes from 0: x, y, x from, x to, y from, y to
-    script += part(2, "parts [1/year]",
-                   fmt::format("set yrange [0:{}]\nset ytics auto\nset format y '%g'\nset format x '%g'\nset xlabel {} "
-                               "offset 0,-0.2\nplot $parts using 1:2:5:6:(0):2 with boxxyerror fillcolor rgb '{}' "
-                               "fillstyle solid 0.5 noborder, $parts using 1:2:3:4 with yerrorbars linecolor rgb "
-                               "'#333333' linewidth 0.9 pointtype 7 pointsize 0.6\n",
-                               1.05 * most, gnuplot_text(describe_measure(risk.hazard.measure)), colours[2]));
-    script += "unset multiplot\n";
-    run_gnuplot(script, PictureSize{}, picture);
+    write_figures(risk_figures(risk, s), 1, title.value_or("Risk: " + risk.title),
+                  fmt::format("{}: {} a year; bands and bars: {:g} % (fragility: {:g} %)", s.state,
+                              frequency_text(s.estimate.frequency), 100 * risk.level, 100 * risk.fragility_level),
+                  picture);
 }
 
 namespace {
-
-constexpr std::array variant_colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666"};
 
 const StateChange& state_named(const RiskChange& change, const VariantChange& variant,
                                const std::optional<std::string>& name)
@@ -333,60 +271,49 @@ const StateChange& state_named(const RiskChange& change, const VariantChange& va
     throw InputError(fmt::format("--limit {}: no limit state of {}; it has {}", *name, change.comparison_file, known));
 }
 
-std::string shares_block(const std::string& name, const std::vector<double>& intensity,
-                         const std::vector<double>& share)
-{
-    std::string data = fmt::format("${} << EOD\n", name);
-    for (std::size_t j = 0; j < share.size(); ++j)
-        data += fmt::format("{} {}\n", intensity[j], share[j]);
-    return data + "EOD\n";
-}
-
 } // namespace
 
 void plot_risk(const RiskChange& change, const std::optional<std::string>& state,
                const std::optional<std::string>& title, const std::filesystem::path& picture)
 {
     const StateChange& first = state_named(change, change.variants.front(), state);
-    std::string data = shares_block("base", change.intensity, first.base_share), changes = "$changes << EOD\n", tics;
-    const auto line = [](const std::string& block, std::size_t colour, const std::string& name) {
-        return fmt::format("${} using 1:2 with linespoints linecolor rgb '{}' linewidth 2 pointtype 7 pointsize 0.8 "
-                           "title {}",
-                           block, variant_colours[colour % variant_colours.size()], gnuplot_text(name));
+    Figure shares, changes;
+    shares.title = "Shares that reached the limit state";
+    shares.x_label = describe_measure(change.hazard.measure);
+    shares.y_label = "share";
+    shares.x_log = true;
+    shares.y_range = {-0.02, 1.02};
+    changes.title = fmt::format("Change of the probability in {:g} years", change.years.back());
+    changes.y_label = "change [%-points]";
+    const auto add = [&](const std::string& name, const std::vector<double>& share) {
+        for (const SeriesKind kind : {SeriesKind::line, SeriesKind::points})
+            shares.series.push_back({name, kind, change.intensity, share, {}, {}, name});
     };
-    std::string curves = line("base", 0, change.base_name);
+    add(change.base_name, first.base_share);
+    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}};
     for (std::size_t v = 0; v < change.variants.size(); ++v) {
         const VariantChange& variant = change.variants[v];
         const StateChange& s = state_named(change, variant, first.state);
-        data += shares_block(fmt::format("variant{}", v), change.intensity, s.variant_share);
-        curves += ", " + line(fmt::format("variant{}", v), v + 1, variant.name);
-        tics += fmt::format("{}{} {}", v > 0 ? ", " : "", gnuplot_text(variant.name), v);
-        if (const ChangeNumber& p = s.change.probability.back(); s.determined)
-            changes += fmt::format("{} {} {} {}\n", v, 100 * p.value, 100 * p.total.lower, 100 * p.total.upper);
+        add(variant.name, s.variant_share);
+        changes.x_ticks.push_back(variant.name);
+        if (!s.determined)
+            continue;
+        const ChangeNumber& p = s.change.probability.back();
+        points.x.push_back(static_cast<double>(v));
+        points.y.push_back(100 * p.value);
+        points.low.push_back(100 * p.total.lower);
+        points.high.push_back(100 * p.total.upper);
     }
-    if (changes.ends_with("EOD\n"))
+    if (points.x.empty())
         throw InputError(fmt::format("{}: no change of '{}' is determined, so none is drawn.\n  {}", picture.string(),
                                      first.state, first.note));
-    const std::string said =
-        fmt::format("{} · {} motions · below: change of the probability in {:g} years, bars: {:g} %", first.meaning,
-                    change.motions, change.years.back(), 100 * change.level);
-    const std::string script =
-        data + changes + "EOD\n" + gnuplot_heading(title.value_or("Change of risk: " + change.title), said) +
-        "set lmargin at screen 0.14\nset rmargin at screen 0.97\nset border 3 linewidth 0.8\nset tics out nomirror\n"
-        "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\nset multiplot\n"
-        "set tmargin at screen 0.87\nset bmargin at screen 0.53\nset logscale x\n" +
-        fmt::format("set xrange [{}:{}]\n", change.intensity.front() * 0.97, change.intensity.back() * 1.03) +
-        "set xtics (.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100)\nset yrange [-0.02:1.02]\n"
-        "set ytics 0,0.25,1\nset key top left\nset ylabel 'share' offset 0.5,0\nset xlabel " +
-        gnuplot_text(describe_measure(change.hazard.measure)) + " offset 0,0.3\nplot " + curves +
-        "\nunset title\nunset label\nunset key\nunset logscale x\nset tmargin at screen 0.42\n"
-        "set bmargin at screen 0.12\nset autoscale y\nset ytics auto\nunset xlabel\n" +
-        fmt::format("set xrange [-0.6:{}]\nset xtics ({})\nset ylabel {} offset 0.5,0\nset xzeroaxis linewidth 1 "
-                    "linecolor rgb '#333333' linetype 1\n",
-                    static_cast<double>(change.variants.size()) - 0.4, tics, gnuplot_text("change [%-points]")) +
-        "plot $changes using 1:2:3:4 with yerrorbars linecolor rgb '#333333' linewidth 1.5 pointtype 7 pointsize 1.2\n"
-        "unset multiplot\n";
-    run_gnuplot(script, PictureSize{}, picture);
+    const double last = static_cast<double>(change.variants.size()) - 0.4;
+    changes.series = {{"", SeriesKind::line, {-0.6, last}, {0, 0}, {}, {}}, std::move(points)};
+    changes.series[0].colour = "#5a6672"; // no change
+    write_figures({shares, changes}, 1, title.value_or("Change of risk: " + change.title),
+                  fmt::format("{} · {} motions · below: change of the probability in {:g} years, bars: {:g} %",
+                              first.meaning, change.motions, change.years.back(), 100 * change.level),
+                  picture);
 }
 
 } // namespace stylobate

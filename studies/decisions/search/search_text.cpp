@@ -1,5 +1,6 @@
+#include "io/plots/colours.hpp"
 #include "io/plots/contour.hpp"
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/search/search.hpp"
 #include "studies/report/left_out.hpp"
@@ -145,118 +146,119 @@ Json search_json(const SearchResult& r)
 
 namespace {
 
-constexpr const char* line_colour = "#0072b2";
 constexpr const char* set_colour = "#009e73";
-constexpr const char* point_colour = "#d55e00";
 
 std::string objective_name(const SearchResult& r)
 {
     return r.asked.minimise + (r.is_frequency() ? " [1/year]" : ", probability");
 }
 
-/// Scale, range and label of an axis that is a key.
-std::string axis(const SearchedKey& key, const char* name)
-{
-    return fmt::format("{} logscale {}\nset {}range [{}:{}]\nset {}label {}\n",
-                       key.spacing == Spacing::log ? "set" : "unset", name, name, key.from, key.to, name,
-                       gnuplot_text(key.key));
-}
-
 /// The points of a search of one key, with the intervals of their own.
-std::string points_block(const SearchResult& r)
+FigureSeries own_points(const SearchResult& r)
 {
-    std::string data = "$points << EOD\n";
-    for (const SearchedPoint& p : r.points)
-        data += r.is_frequency()
-                    ? fmt::format("{} {} {} {}\n", p.value[0], p.frequency.value, p.frequency.fragility.lower,
-                                  p.frequency.fragility.upper)
-                    : fmt::format("{} {} {} {}\n", p.value[0], p.share.probability, p.share.lower, p.share.upper);
-    return data + "EOD\n";
-}
-
-/// Commands of the panel of one key.
-std::string panel(const SearchResult& r, std::size_t k, double most)
-{
-    const SearchSlice& slice = r.slices[k];
-    const SearchedKey& key = r.asked.keys[k];
-    const double width = 0.86 / static_cast<double>(r.slices.size()), left = 0.11 + width * static_cast<double>(k);
-    std::string script = fmt::format("$slice{} << EOD\n", k);
-    for (std::size_t i = 0; i < slice.x.size(); ++i)
-        script += fmt::format("{} {} {} {}\n", slice.x[i], slice.value[i], slice.lower[i], slice.upper[i]);
-    script += fmt::format("EOD\nset lmargin at screen {}\nset rmargin at screen {}\n", left, left + width - 0.03);
-    script += axis(key, "x") + fmt::format("set yrange [0:{}]\n", most);
-    script += k == 0 ? fmt::format("set format y '%g'\nset ylabel {}\n", gnuplot_text(objective_name(r)))
-                     : std::string("set format y ''\nunset ylabel\n");
-    script += fmt::format("set object 1 rectangle from {},graph 0 to {},graph 1 behind fillcolor rgb '{}' fillstyle "
-                          "transparent solid 0.15 noborder\nset arrow 1 from {},graph 0 to {},graph 1 nohead linecolor "
-                          "rgb '{}' linewidth 1 dashtype 2\n",
-                          r.flat_from[k], r.flat_to[k], set_colour, r.best[k], r.best[k], set_colour);
-    script +=
-        fmt::format("plot $slice{0} using 1:3:4 with filledcurves fillcolor rgb '{1}' fillstyle transparent solid "
-                    "0.2 noborder, $slice{0} using 1:2 with lines linecolor rgb '{1}' linewidth 2",
-                    k, line_colour);
-    if (r.slices.size() == 1)
-        script += fmt::format(", $points using 1:2:3:4 with yerrorbars linecolor rgb '{}' linewidth 0.9 pointtype 7 "
-                              "pointsize 0.8",
-                              point_colour);
-    return script + "\n";
-}
-
-/// Cells about the candidates of two keys, the border of the set, and the points.
-std::string map_blocks(const SearchResult& r)
-{
-    const std::vector<double>& at = r.map.place;
-    const SearchedKey &first = r.asked.keys[0], &second = r.asked.keys[1];
-    const double half = 0.55 / static_cast<double>(at.size() - 1); // they overlap, so that no seam shows
-    std::string script = "$cells << EOD\n";
-    std::vector<double> inside;
-    for (std::size_t i = 0; i < at.size(); ++i)
-        for (std::size_t j = 0; j < at.size(); ++j) {
-            script += fmt::format("{} {} {} {} {} {} {}\n", first.value(at[i]), second.value(at[j]),
-                                  first.value(at[i] - half), first.value(at[i] + half), second.value(at[j] - half),
-                                  second.value(at[j] + half), r.map.value[i][j]);
-            inside.push_back(r.map.flat[i][j]);
-        }
-    script += "EOD\n$set << EOD\n";
-    for (const ContourLine& line : contour_lines(at, at, inside, 0.5)) {
-        for (const ContourPoint& p : line)
-            script += fmt::format("{} {}\n", first.value(p.x), second.value(p.y));
-        script += "\n";
+    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}};
+    for (const SearchedPoint& p : r.points) {
+        points.x.push_back(p.value[0]);
+        points.y.push_back(r.is_frequency() ? p.frequency.value : p.share.probability);
+        points.low.push_back(r.is_frequency() ? p.frequency.fragility.lower : p.share.lower);
+        points.high.push_back(r.is_frequency() ? p.frequency.fragility.upper : p.share.upper);
     }
-    script += "EOD\n$points << EOD\n";
-    for (const SearchedPoint& p : r.points)
-        script += fmt::format("{} {}\n", p.value[0], p.value[1]);
-    return script + fmt::format("EOD\n$best << EOD\n{} {}\nEOD\n", r.best[0], r.best[1]);
+    return points;
 }
 
-std::string map_script(const SearchResult& r)
-{
-    return map_blocks(r) + viridis_palette() + "set border 15 linewidth 0.8\nset tics out nomirror\n" +
-           axis(r.asked.keys[0], "x") + axis(r.asked.keys[1], "y") +
-           fmt::format("set cblabel {}\nset format cb '%g'\n", gnuplot_text(objective_name(r))) +
-           fmt::format("plot $cells using 1:2:3:4:5:6:7 with boxxyerror fillcolor palette fillstyle solid noborder, "
-                       "$set using 1:2 with lines linecolor rgb 'white' linewidth 4, "
-                       "$set using 1:2 with lines linecolor rgb 'black' linewidth 1.5, "
-                       "$points using 1:2 with points linecolor rgb 'white' pointtype 7 pointsize 1.6, "
-                       "$points using 1:2 with points linecolor rgb '{}' pointtype 7 pointsize 1.1, "
-                       "$best using 1:2 with points linecolor rgb 'white' linewidth 5 pointtype 1 pointsize 2.6, "
-                       "$best using 1:2 with points linecolor rgb 'black' linewidth 2 pointtype 1 pointsize 2.4\n",
-                       point_colour);
-}
-
-/// Panels of the slices, side by side.
-std::string slices_script(const SearchResult& r)
+/// The surface along each key, through its lowest place.
+std::vector<Figure> slice_figures(const SearchResult& r)
 {
     double most = 0;
     for (const SearchSlice& slice : r.slices)
         most = std::max(most, *std::max_element(slice.upper.begin(), slice.upper.end()));
-    std::string script =
-        points_block(r) +
-        "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth "
-        "0.5\nset bmargin at screen 0.16\nset multiplot\n";
-    for (std::size_t k = 0; k < r.slices.size(); ++k)
-        script += panel(r, k, 1.05 * most) + "unset title\nunset label\n";
-    return script + "unset multiplot\n";
+    std::vector<Figure> figures;
+    for (std::size_t k = 0; k < r.slices.size(); ++k) {
+        const SearchSlice& slice = r.slices[k];
+        const SearchedKey& key = r.asked.keys[k];
+        Figure& figure = figures.emplace_back();
+        figure.x_label = key.key;
+        figure.y_label = k == 0 ? objective_name(r) : "";
+        figure.x_log = key.spacing == Spacing::log;
+        figure.x_range = {key.from, key.to};
+        figure.y_range = {0, 1.05 * most};
+        figure.series = {{"", SeriesKind::line, slice.x, slice.value, slice.lower, slice.upper},
+                         {"", SeriesKind::spans, {r.flat_from[k]}, {r.flat_to[k]}, {}, {}},
+                         {"", SeriesKind::line, {r.best[k], r.best[k]}, {0, 1.05 * most}, {}, {}}};
+        figure.series[1].colour = figure.series[2].colour = set_colour;
+        figure.series[2].dashed = true;
+        if (r.slices.size() == 1)
+            figure.series.insert(figure.series.begin() + 1, own_points(r));
+    }
+    return figures;
+}
+
+/// Cells about the candidates of two keys, the border of the set, the points and the lowest place.
+void write_search_map(const SearchResult& r, const std::string& title, const std::string& words,
+                      const std::filesystem::path& file)
+{
+    const std::vector<double>& at = r.map.place;
+    const SearchedKey &first = r.asked.keys[0], &second = r.asked.keys[1];
+    const double half = 0.5 / static_cast<double>(at.size() - 1);
+    Figure figure;
+    figure.x_label = first.key;
+    figure.y_label = second.key;
+    figure.x_log = first.spacing == Spacing::log;
+    figure.y_log = second.spacing == Spacing::log;
+    figure.x_range = {first.from, first.to};
+    figure.y_range = {second.from, second.to};
+    PlotScale colours;
+    for (const std::vector<double>& row : r.map.value)
+        for (const double value : row)
+            colours.include(value);
+    if (!(colours.from < colours.to))
+        colours.pad(0);
+    std::vector<double> inside;
+    for (std::size_t i = 0; i < at.size(); ++i)
+        for (std::size_t j = 0; j < at.size(); ++j) {
+            const auto edge = [](const SearchedKey& key, double place) {
+                return key.value(std::clamp(place, 0.0, 1.0));
+            };
+            figure.cells.push_back({edge(first, at[i] - half), edge(first, at[i] + half), edge(second, at[j] - half),
+                                    edge(second, at[j] + half),
+                                    viridis_colour((r.map.value[i][j] - colours.from) / (colours.to - colours.from))});
+            inside.push_back(r.map.flat[i][j]);
+        }
+    // white below black or colour: seen on every colour
+    const auto add = [&](FigureSeries series, const char* colour, double wide, double narrow) {
+        series.colour = "#ffffff";
+        series.weight = wide;
+        figure.series.push_back(series);
+        series.colour = colour;
+        series.weight = narrow;
+        figure.series.push_back(std::move(series));
+    };
+    for (const ContourLine& line : contour_lines(at, at, inside, 0.5)) {
+        FigureSeries border;
+        for (const ContourPoint& p : line) {
+            border.x.push_back(first.value(p.x));
+            border.y.push_back(second.value(p.y));
+        }
+        add(std::move(border), "#000000", 2.8, 1.1);
+    }
+    FigureSeries points{"", SeriesKind::points, {}, {}, {}, {}};
+    for (const SearchedPoint& p : r.points) {
+        points.x.push_back(p.value[0]);
+        points.y.push_back(p.value[1]);
+    }
+    add(std::move(points), "#d55e00", 1.3, 0.9);
+    add({"", SeriesKind::points, {r.best[0]}, {r.best[1]}, {}, {}}, "#000000", 2.9, 2.2);
+
+    const PictureSize size;
+    DrawingSheet sheet(size, picture_look.letters());
+    FigurePanel panel(figure, picture_look);
+    PlotFrame frame{24 + panel.room_left(), sheet.heading(title, words) + 20, 0.84 * size.width, 0};
+    frame.bottom = size.height - 24 - panel.room_below(frame.right - frame.left);
+    panel.draw(sheet, frame);
+    draw_colour_scale(
+        sheet, picture_look, {frame.right + 44, frame.top, frame.right + 84, frame.bottom}, colours, objective_name(r),
+        [&](double value) { return viridis_colour((value - colours.from) / (colours.to - colours.from)); });
+    sheet.write(file);
 }
 
 const char* description(std::size_t keys)
@@ -265,7 +267,7 @@ const char* description(std::size_t keys)
     case 1:
         return "surface and its {:g} % interval, points with their own; shaded: not shown to be worse";
     case 2:
-        return "surface, its lowest place (+) and the points; inside the line: not shown to be worse at {:g} %";
+        return "surface, its lowest place (large) and the points; inside the line: not shown to be worse at {:g} %";
     default:
         return "surface through the best place and its {:g} % interval; shaded: not shown to be worse";
     }
@@ -278,9 +280,11 @@ void plot_search(const SearchResult& r, const std::filesystem::path& picture)
     const std::size_t keys = r.asked.keys.size();
     const std::string title = fmt::format("{} of {}, {} points", r.is_frequency() ? "Annual frequency" : "Probability",
                                           r.asked.minimise, r.points.size());
-    run_gnuplot(gnuplot_heading(title, fmt::format(fmt::runtime(description(keys)), 100 * r.level)) +
-                    "unset key\nset tmargin at screen 0.85\n" + (keys == 2 ? map_script(r) : slices_script(r)),
-                PictureSize{}, picture);
+    const std::string words = fmt::format(fmt::runtime(description(keys)), 100 * r.level);
+    if (keys == 2)
+        write_search_map(r, title, words, picture);
+    else
+        write_figures(slice_figures(r), keys, title, words, picture);
 }
 
 } // namespace stylobate

@@ -1,6 +1,6 @@
 #pragma once
-/// The page: every claim with its criterion, verdict, numbers and reason, as Markdown; and its figures, drawn by
-/// gnuplot: curves with intervals.
+/// The page: every claim with its criterion, verdict, numbers and reason, as Markdown; and its figures:
+/// curves with intervals.
 ///
 /// The words of a claim file may hold fields in braces that are filled with what was computed:
 ///   {cases}                   their number
@@ -32,7 +32,7 @@ struct Curve {
 /// where the window holds several.
 std::vector<Curve> curves_of(const ClaimFile& file, const Figure& figure, const std::vector<Sample>& samples);
 
-/// @throws InputError as `run_gnuplot`
+/// @throws InputError as `write_picture`
 void draw_figure(const ClaimFile& file, const Figure& figure, const std::vector<Curve>& curves,
                  const std::filesystem::path& png);
 

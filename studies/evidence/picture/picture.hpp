@@ -1,15 +1,14 @@
 #pragma once
-/// Small pictures of the pages, as scripts for `io/plots/gnuplot.hpp`.
+/// Small pictures of the pages: curves, marks and maps, as figures (`io/plots/figure_panel.hpp`).
 
-#include "io/plots/gnuplot.hpp"
+#include "io/plots/figure_panel.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stylobate::verification {
-
-inline constexpr PictureSize picture_size{900, 600};
 
 struct PictureAxis {
     std::string label;
@@ -23,19 +22,19 @@ struct Series {
     bool line = false;                       ///< joined, without marks; else marks alone
     std::vector<double> low = {}, high = {}; ///< ends of error bars, or empty
     int colour = -1;                         ///< a number of the palette; -1: that of its place in the list
-    bool right = false;                      ///< on the axis at the right
+    double size = 1;                         ///< of its marks
 };
 
 /// Curves and marks over one another.
-/// @param right axis of the series that use it; nullopt: none does
-/// @param key gnuplot's place of the legend
-std::string curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series,
-                   const std::string& key = "top right", const std::optional<PictureAxis>& right = std::nullopt);
+Figure curves(const PictureAxis& x, const PictureAxis& y, const std::vector<Series>& series);
 
-/// Cells of a grid in the colours of their kinds, with curves over them.
+/// Cells of a grid in the colours of their kinds, which the legend names, with curves over them.
 /// @param kind (y.size() x x.size()) index into `kinds`, row by row
-std::string map(const PictureAxis& x, const PictureAxis& y, const std::vector<double>& at_x,
-                const std::vector<double>& at_y, const std::vector<int>& kind, const std::vector<std::string>& kinds,
-                const std::vector<Series>& lines);
+Figure map(const PictureAxis& x, const PictureAxis& y, const std::vector<double>& at_x, const std::vector<double>& at_y,
+           const std::vector<int>& kind, const std::vector<std::string>& kinds, const std::vector<Series>& lines);
+
+/// A picture without a heading, as wide as a page's text; several figures stand side by side.
+/// @throws InputError as `write_picture`
+void write_small(const std::vector<Figure>& figures, const std::filesystem::path& file);
 
 } // namespace stylobate::verification

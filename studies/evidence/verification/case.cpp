@@ -18,7 +18,7 @@ namespace {
 
 /// |value - exact| over the parameter, both logarithmic, with the fitted slopes.
 /// @pre the same parameter, and two to each
-std::string error_curves(const std::vector<Convergence>& convergences)
+Figure error_curves(const std::vector<Convergence>& convergences)
 {
     std::vector<Series> lines, marks;
     for (const Convergence& c : convergences) {
@@ -43,8 +43,7 @@ std::string error_curves(const std::vector<Convergence>& convergences)
         lines[k].colour = static_cast<int>(k);
         all.push_back(lines[k]);
     }
-    return curves({convergences.front().parameter, true, 0, 0}, {"error", true, 0, 0}, all,
-                  "tmargin left Left reverse maxcols 1");
+    return curves({convergences.front().parameter, true, 0, 0}, {"error", true, 0, 0}, all);
 }
 
 /// As many digits as a number and its tolerance deserve.
@@ -302,10 +301,10 @@ void draw(const std::vector<RunCase>& runs, const std::filesystem::path& folder)
 {
     for (const RunCase& run : runs) {
         if (!run.finding.convergences.empty())
-            run_gnuplot(error_curves(run.finding.convergences), picture_size,
+            write_small({error_curves(run.finding.convergences)},
                         folder / (convergence_picture(run.the_case) + ".png"));
         for (const Picture& p : run.finding.pictures)
-            run_gnuplot(p.script, picture_size, folder / (p.name + ".png"));
+            write_small(p.figures, folder / (p.name + ".png"));
     }
 }
 

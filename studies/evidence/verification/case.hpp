@@ -4,6 +4,8 @@
 /// The page and the tests (`tests/studies/evidence/test_verification.cpp`) run the same cases. The page has every case
 /// with its oracle, its numbers and its pictures.
 
+#include "io/plots/figure.hpp"
+
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -48,11 +50,11 @@ double aitken(const std::vector<double>& values);
 /// @pre one value more than exponents
 double richardson(std::vector<double> values, double factor, const std::vector<double>& exponents);
 
-/// A picture to be drawn with `io/plots/gnuplot.hpp`.
+/// A picture of a case.
 struct Picture {
     std::string name; ///< of the file, without folder and extension
     std::string caption;
-    std::string script; ///< of gnuplot
+    std::vector<Figure> figures; ///< side by side
 };
 
 /// What a case found.
@@ -112,7 +114,7 @@ std::vector<RunCase> run_cases(const Cases& cases);
 std::string page(const std::vector<RunCase>& runs, const std::string& images, const std::string& made_by);
 
 /// Draws the pictures of all cases, those of the convergences included.
-/// @throws InputError as `run_gnuplot`
+/// @throws InputError as `write_picture`
 void draw(const std::vector<RunCase>& runs, const std::filesystem::path& folder);
 
 } // namespace stylobate::verification

@@ -1,8 +1,8 @@
 #pragma once
 /// A fragility study in words, as JSON, as a section of a page, and as a picture.
 
+#include "io/plots/figure.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 

@@ -1,7 +1,7 @@
 #include "studies/kinds/rare/rare_kind.hpp"
 
 #include "ensemble/estimators/designs/subset_simulation.hpp"
-#include "io/plots/plot_estimates.hpp"
+#include "studies/kinds/rare/rare_figures.hpp"
 #include "studies/report/html_figure.hpp"
 
 #include <fmt/format.h>
@@ -219,48 +219,6 @@ Picture RareKind::picture(const ResultReader& reader, const std::string& results
             [this](const std::string& title, const std::filesystem::path& file) { plot_rare(table_, title, file); }};
 }
 
-namespace {
-
-Figure levels_figure(const RareTable& table)
-{
-    Figure figure;
-    figure.title = "Probability to exceed a displacement of the top";
-    figure.x_label = "displacement of the top [m]";
-    figure.y_label = "probability";
-    figure.y_log = true;
-    for (std::size_t repeat = 0; repeat < table.repeats.size(); ++repeat) {
-        RareChain chain = rare_chain(table, repeat);
-        figure.series.push_back({fmt::format("repeat {}", repeat),
-                                 SeriesKind::line,
-                                 std::move(chain.threshold_m),
-                                 std::move(chain.probability),
-                                 {},
-                                 {}});
-    }
-    return figure;
-}
-
-Figure repeats_figure(const RareTable& table)
-{
-    Figure figure;
-    figure.title = "Probability of collapse, repeat by repeat";
-    figure.y_label = "probability of collapse";
-    figure.y_log = true;
-    FigureSeries repeats{"repeats", SeriesKind::points, {}, {}, {}, {}};
-    for (const double p : table.repeats) {
-        repeats.x.push_back(static_cast<double>(repeats.x.size()));
-        repeats.y.push_back(p);
-        figure.x_ticks.push_back(fmt::format("{}", figure.x_ticks.size()));
-    }
-    FigureSeries mean{"mean",        SeriesKind::points, {static_cast<double>(repeats.x.size())}, {table.probability},
-                      {table.lower}, {table.upper}};
-    figure.x_ticks.emplace_back("mean");
-    figure.series = {std::move(repeats), std::move(mean)};
-    return figure;
-}
-
-} // namespace
-
 bool RareKind::summary(PageWriter& writer) const
 {
     const RareTable& table = table_;
@@ -281,10 +239,11 @@ bool RareKind::summary(PageWriter& writer) const
     for (const double p : table.repeats)
         repeats += (repeats.empty() ? "" : ", ") + text_of(p);
     page.note("The repeats: " + repeats + ".");
-    page.figure(figure_svg(levels_figure(table)),
+    const std::vector<Figure> figures = rare_figures(table);
+    page.figure(figure_svg(figures[0]),
                 "The probability that the top moves by more than a displacement, level by level for each repeat.");
     page.figure(
-        figure_svg(repeats_figure(table), 220),
+        figure_svg(figures[1], 220),
         "The probability of collapse that each repeat found; and their mean with its interval. A repeat without "
         "a collapse counts as 0 and has no point.");
     return true;

@@ -12,13 +12,14 @@
 /// structure are left out of this outcome, and the table states how many.
 
 #include "ensemble/model/study.hpp"
+#include "io/plots/figure.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/kind_tables.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ std::string sensitivity_text(const SensitivityTable& table);
 Json sensitivity_json(const SensitivityTable& table);
 /// Bars of all indices of one outcome, factor by factor, with their intervals; Sobol's cut at -0.5 and 1.6.
 Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome);
+/// For each outcome, bars of the factors' indices with their intervals. What is not determined has no bar.
+/// @throws InputError if the table is empty, and as `write_picture` does
+void plot_sensitivity(const SensitivityTable& table, const std::string& title, const std::filesystem::path& file);
 /// A figure and a table for each outcome, with its remarks.
 void add_sensitivity(HtmlPage& page, const SensitivityTable& table);
 

@@ -1,6 +1,7 @@
 #include "studies/kinds/sensitivity/sensitivity_kind.hpp"
 
-#include "io/plots/plot_estimates.hpp"
+#include "ensemble/model/input_error.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/store/surface_axis.hpp"
 #include "io/tables/table.hpp"
 #include "studies/report/html_figure.hpp"
@@ -254,6 +255,21 @@ Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome)
         figure.series.push_back(std::move(bars));
     }
     return figure;
+}
+
+void plot_sensitivity(const SensitivityTable& table, const std::string& title, const std::filesystem::path& file)
+{
+    if (table.empty())
+        throw InputError("there are no sensitivities to draw");
+    std::vector<Figure> figures;
+    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
+        figures.push_back(sensitivity_figure(table, o));
+        figures.back().title = spoken(table.outcomes[o]);
+        if (table.method == "sobol")
+            figures.back().y_range = {-0.03, 1.03};
+    }
+    write_figures(figures, 2, title, fmt::format("{} rows · bars: {}", table.rows, describe_interval(table.interval)),
+                  file);
 }
 
 void add_sensitivity(HtmlPage& page, const SensitivityTable& table)

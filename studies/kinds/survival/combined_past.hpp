@@ -7,8 +7,8 @@
 /// ground moved in the same way under all of them is an assumption: soil, topography and the direction of the shaking
 /// may differ.
 
+#include "io/plots/figure.hpp"
 #include "studies/kinds/survival/survival.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/report/json.hpp"
 
 #include <string>

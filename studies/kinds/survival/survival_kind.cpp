@@ -1,5 +1,7 @@
 #include "studies/kinds/survival/survival_kind.hpp"
 
+#include "io/plots/figure_panel.hpp"
+
 #include "ensemble/model/input_error.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 
@@ -60,7 +62,7 @@ Picture SurvivalKind::picture(const ResultReader& reader, const std::string& res
             throw InputError(fmt::format("--picture exclusion: {}: {}", results, not_judged_words(survival_)));
         return {"exclusion", "Excluded shaking", "",
                 [this](const std::string& title, const std::filesystem::path& file) {
-                    plot_curves(exclusion_figure(survival_), title, file);
+                    write_figure(exclusion_figure(survival_), title, "bands: 95 % intervals of the counts", file);
                 }};
     }
     if (!survival_.rates)
@@ -69,7 +71,7 @@ Picture SurvivalKind::picture(const ResultReader& reader, const std::string& res
                                      results));
     return {"rates", "Factor on the rates of the hazard curve", "",
             [this](const std::string& title, const std::filesystem::path& file) {
-                plot_curves(rates_figure(survival_), title, file);
+                write_figure(rates_figure(survival_), title, "bands: 95 % intervals of the counts", file);
             }};
 }
 

@@ -1,21 +1,13 @@
 #include "studies/kinds/survival/survival_text.hpp"
 
-#include "io/plots/gnuplot.hpp"
 #include "io/plots/plot_maps.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace stylobate {
-
-namespace {
-
-constexpr std::array<const char*, 6> line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#666666"};
-
-} // namespace
 
 void plot_likelihood(const Survival& s, const std::string& title, const std::filesystem::path& png)
 {
@@ -127,42 +119,6 @@ Figure rates_figure(const Survival& s)
     }
     figure.series = {std::move(prior), std::move(posterior)};
     return figure;
-}
-
-void plot_curves(const Figure& figure, const std::string& title, const std::filesystem::path& png)
-{
-    std::string data, bands, lines;
-    double from = figure.series.front().x.front(), to = from, high = 0;
-    for (std::size_t k = 0; k < figure.series.size(); ++k) {
-        const FigureSeries& series = figure.series[k];
-        const char* colour = line_colours[k % line_colours.size()];
-        data += fmt::format("$series{} << EOD\n", k);
-        for (std::size_t i = 0; i < series.x.size(); ++i) {
-            data += fmt::format("{} {}", series.x[i], series.y[i]);
-            data += series.low.empty() ? "\n" : fmt::format(" {} {}\n", series.low[i], series.high[i]);
-            from = std::min(from, series.x[i]);
-            to = std::max(to, series.x[i]);
-            high = std::max(high, series.high.empty() ? series.y[i] : series.high[i]);
-        }
-        data += "EOD\n";
-        if (!series.low.empty())
-            bands += fmt::format("$series{} using 1:3:4 with filledcurves fillcolor rgb '{}' fillstyle transparent "
-                                 "solid 0.2 noborder notitle, ",
-                                 k, colour);
-        lines += fmt::format("{}$series{} using 1:2 with lines linecolor rgb '{}' linewidth 2 title {}",
-                             lines.empty() ? "" : ", ", k, colour, gnuplot_text(series.name));
-    }
-    const std::string script =
-        data + gnuplot_heading(title, "bands: 95 % intervals of the counts") +
-        (figure.x_log ? "set logscale x\n" : "") +
-        fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", from, to, 1.05 * high) +
-        "set xtics (0.001,0.002,0.005,.01,.02,.05,.1,.2,.3,.5,.7,1,1.5,2,3,5,7,10,15,20,30,50,100,200,500,1000)\n"
-        "set lmargin at screen 0.1\nset rmargin at screen 0.97\nset bmargin at screen 0.2\nset tmargin at screen 0.88\n"
-        "set border 3 linewidth 0.8\nset tics out nomirror\nset grid linecolor rgb '#dddddd' linetype 1 linewidth 0.5\n"
-        "set key horizontal center bottom at screen 0.535, screen 0.02 samplen 2\nset xlabel " +
-        gnuplot_text(figure.x_label) + " offset 0,-0.2\nset ylabel " + gnuplot_text(figure.y_label) + "\nplot " +
-        bands + lines;
-    run_gnuplot(script, PictureSize{}, png);
 }
 
 } // namespace stylobate

@@ -1,9 +1,9 @@
 #pragma once
 /// A survival study as lines for a terminal, as JSON, as tables, as pictures and as sections of a page.
 
+#include "io/plots/figure.hpp"
 #include "io/tables/table.hpp"
 #include "studies/kinds/survival/survival.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
@@ -57,7 +57,5 @@ FigureSeries threshold_series(const std::vector<double>& intensity, const Exclus
 Figure exclusion_figure(const Survival& survival);
 /// Density of the factor on all rates over its logarithm, before and after. @pre there are rates
 Figure rates_figure(const Survival& survival);
-/// Lines and bands of a figure, by gnuplot.
-void plot_curves(const Figure& figure, const std::string& title, const std::filesystem::path& png);
 
 } // namespace stylobate

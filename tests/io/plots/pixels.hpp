@@ -1,7 +1,6 @@
 #pragma once
 /// A picture decoded: its pixels, and where its colours are.
 
-#include "io/plots/gnuplot.hpp"
 #include "tests/io/store/export_cases.hpp"
 
 #include <array>
@@ -124,14 +123,5 @@ inline Extent extent(const Pixels& pixels, std::uint32_t colour)
     }
     return e;
 }
-
-/// Skips the pictures' tests where there is no gnuplot.
-#define NEEDS_GNUPLOT()                                                                                                \
-    try {                                                                                                              \
-        find_gnuplot();                                                                                                \
-    } catch (const InputError& missing) {                                                                              \
-        GTEST_SKIP() << missing.what();                                                                                \
-    }                                                                                                                  \
-    static_assert(true)
 
 } // namespace stylobate

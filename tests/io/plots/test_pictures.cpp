@@ -1,7 +1,6 @@
-/// Pictures decoded and their colours counted; what gnuplot is told; what is said when there is no picture.
+/// Pictures decoded and their colours counted; what a drawing has; what is said when there is no picture.
 
-#include "io/plots/gnuplot.hpp"
-#include "io/plots/plot_estimates.hpp"
+#include "io/plots/picture_file.hpp"
 #include "io/plots/plot_maps.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "io/plots/plot_surface.hpp"
@@ -9,8 +8,13 @@
 #include "tests/io/plots/pixels.hpp"
 #include "tests/io/store/export_cases.hpp"
 
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <vector>
 
 namespace stylobate {
@@ -44,6 +48,35 @@ private:
     std::string old_;
 };
 
+/// The points of the first path that has a look, in pixels.
+std::vector<std::array<double, 2>> points_of(const std::string& svg, const std::string& look)
+{
+    for (std::size_t at = svg.find("<path d=\""); at != std::string::npos; at = svg.find("<path d=\"", at + 1)) {
+        const std::string element = svg.substr(at, svg.find("/>", at) - at);
+        if (element.find(look) == std::string::npos)
+            continue;
+        std::string data = element.substr(9, element.find('"', 9) - 9);
+        std::replace_if(
+            data.begin(), data.end(), [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+        std::istringstream in(data);
+        std::vector<std::array<double, 2>> points;
+        for (std::array<double, 2> p{}; in >> p[0] >> p[1];)
+            points.push_back(p);
+        return points;
+    }
+    return {};
+}
+
+/// The numbers that stand at the left of a panel: the height of their middle [px] and what they say.
+std::vector<std::pair<double, std::string>> numbers_at_axis(const std::string& svg)
+{
+    std::vector<std::pair<double, std::string>> numbers;
+    const std::regex text("<text x=\"[0-9.]+\" y=\"([0-9.]+)\" text-anchor=\"end\"[^>]*>(-?[0-9.e+-]+)</text>");
+    for (auto it = std::sregex_iterator(svg.begin(), svg.end(), text); it != std::sregex_iterator(); ++it)
+        numbers.emplace_back(std::stod((*it)[1]) - 0.35 * 26, (*it)[2]); // the baseline of type of 26 px
+    return numbers;
+}
+
 TEST(CellAxis, ScaleAndCells)
 {
     const CellAxis log = make_cell_axis({1, 10, 100}, "frequency_hz");
@@ -74,9 +107,6 @@ TEST(Texts, Words)
     EXPECT_EQ(describe_realizations(surface), "1536 realizations, 256 in each of 3 × 2 cells");
     surface.trials[1] = 250;
     EXPECT_EQ(describe_realizations(surface), "1530 realizations, 250 to 256 in each of 3 × 2 cells");
-    EXPECT_EQ(gnuplot_text("it's \"5 %\" a_b"), "'it''s \"5 %\" a_b'");
-    EXPECT_EQ(gnuplot_text("a\nb\\n`date`"), "'a b\\n`date`'");
-    EXPECT_EQ(gnuplot_text("m/s² \xff \xc3"), "'m/s² ? ?'");
 }
 
 TEST(Slice, NearestRowsOnTheAxisScale)
@@ -128,7 +158,6 @@ TEST(Strip, SnapshotsAreAscendingAndCatchTheMotion)
 
 TEST_F(Pictures, SurfaceShowsItsProbabilities)
 {
-    NEEDS_GNUPLOT();
     const fs::path file = folder / "a surface's \"picture\" 100%.png";
     plot_surface(some_surface(), "collapse", "it's \"q\" _x_ 50 % {a^2} `date` @b & <c> \\n", file);
     const Pixels pixels = decode(file);
@@ -165,7 +194,6 @@ TEST_F(Pictures, SurfaceShowsItsProbabilities)
 
 TEST_F(Pictures, SmallAndOddSurfaces)
 {
-    NEEDS_GNUPLOT();
     SurfaceTable one = some_surface(2, 2);
     one.frequency_hz.resize(1);
     one.pga_m_s2.resize(1);
@@ -186,7 +214,6 @@ TEST_F(Pictures, SmallAndOddSurfaces)
 
 TEST_F(Pictures, SliceShowsEachCurve)
 {
-    NEEDS_GNUPLOT();
     plot_slice(some_surface(), {1, 2, 5}, "collapse", "100 % \"slices\"", folder / "s.png");
     const Pixels pixels = decode(folder / "s.png");
     EXPECT_GE(pixels.width, 1600U);
@@ -207,7 +234,6 @@ TEST_F(Pictures, SliceShowsEachCurve)
 
 TEST_F(Pictures, SliceShowsCurvesThatCoincide)
 {
-    NEEDS_GNUPLOT();
     SurfaceTable surface = some_surface(3, 12);
     for (std::size_t i = 12; i < 36; ++i) { // all rows as the first one
         surface.probability[i] = surface.probability[i - 12];
@@ -230,7 +256,6 @@ TEST_F(Pictures, SliceShowsCurvesThatCoincide)
 
 TEST_F(Pictures, AsTheEndingSays)
 {
-    NEEDS_GNUPLOT();
     plot_surface(some_surface(), "collapse", "A title", folder / "a.svg");
     EXPECT_TRUE(read_file(folder / "a.svg").starts_with("<?xml"));
     EXPECT_NE(read_file(folder / "a.svg").find("A title"), std::string::npos);
@@ -242,7 +267,6 @@ TEST_F(Pictures, AsTheEndingSays)
 
 TEST_F(Pictures, TheEndOfAScaleThatMoreLiesBeyondIsMarked)
 {
-    NEEDS_GNUPLOT();
     MapPicture picture;
     picture.frequency_hz = {1, 2, 3};
     picture.pga_m_s2 = {1, 2, 3};
@@ -263,7 +287,6 @@ TEST_F(Pictures, TheEndOfAScaleThatMoreLiesBeyondIsMarked)
 
 TEST_F(Pictures, StripDrawsDrumsToScale)
 {
-    NEEDS_GNUPLOT();
     // At rest the drums' area on the picture follows from the scale: 8 snapshots, each B x 7 H, one of 7 drums fixed.
     for (const double size : {1.0, 40.0}) {
         Trajectory t = some_trajectory(7, 0.048 * size, 0.029 * size);
@@ -287,59 +310,6 @@ TEST_F(Pictures, StripDrawsDrumsToScale)
     }
 }
 
-/// Two repeats of three and two levels; the second came to no collapse.
-RareTable some_rare_event()
-{
-    RareTable table;
-    table.probability = 1e-3;
-    table.lower = 4e-4;
-    table.upper = 2e-3;
-    table.realizations = 560;
-    table.repeats = {0.002, 0};
-    table.levels = 3;
-    table.threshold_m = {no_number, 0.011, 0.015, no_number, 0.012, no_number};
-    table.share = {0.1, 0.1, 0.2, 0.1, 0, no_number};
-    table.acceptance = table.stuck = {no_number, 0.4, 0.4, no_number, 0.4, no_number};
-    return table;
-}
-
-TEST_F(Pictures, RareEventDrawsTheProductOfTheShares)
-{
-    const fs::path fake = folder / "gnuplot";
-    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
-    fs::permissions(fake, fs::perms::owner_all);
-    const Environment named("STYLOBATE_GNUPLOT", fake.string());
-    EXPECT_THROW(plot_rare(some_rare_event(), "", folder / "rare.png"), InputError);
-    std::ifstream in(folder / "told.gp");
-    const std::string told{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    // by hand: above 11 mm is a tenth, above 15 mm a tenth of it; of the second repeat a tenth is above 12 mm
-    EXPECT_NE(told.find("$chain0 << EOD\n11 0.1\n15 0.010000000000000002\nEOD"), std::string::npos) << told;
-    EXPECT_NE(told.find("$chain1 << EOD\n12 0.1\nEOD"), std::string::npos) << told;
-    EXPECT_NE(told.find("0.3 0.001 0.0004 0.002"), std::string::npos) << told;
-    EXPECT_NE(told.find("set yrange [0.0001:1]"), std::string::npos) << told;
-    EXPECT_NE(told.find("1 of 2 repeats without a collapse, counted as 0"), std::string::npos) << told;
-}
-
-TEST_F(Pictures, RareEvent)
-{
-    NEEDS_GNUPLOT();
-    plot_rare(some_rare_event(), "it's rare", folder / "rare.png");
-    const Pixels pixels = decode(folder / "rare.png");
-    EXPECT_GE(pixels.width, 1600U);
-    EXPECT_GT(share(pixels, 0x56b4e9, 2), 0.00005) << "the repeats";
-    EXPECT_GT(share(pixels, 0xd55e00, 2), 0.0002) << "their mean";
-    RareTable open = some_rare_event(); // too few repeats for an interval
-    open.lower = open.upper = no_number;
-    plot_rare(open, "", folder / "open.png");
-    EXPECT_GT(share(decode(folder / "open.png"), 0xd55e00, 2), 0.00002) << "their mean";
-    RareTable none = some_rare_event(); // no repeat reached a collapse
-    none.probability = none.lower = none.upper = no_number;
-    none.repeats = {0, 0};
-    plot_rare(none, "", folder / "none.png");
-    EXPECT_LT(share(decode(folder / "none.png"), 0xd55e00, 2), 1e-5);
-    EXPECT_THROW(plot_rare(RareTable{}, "", folder / "empty.png"), InputError);
-}
-
 TEST_F(Pictures, StripCountsTheTopFromUpright)
 {
     // A block that starts leaned by 0.1 rad about its corner: drawn is where its centre is against upright,
@@ -352,25 +322,26 @@ TEST_F(Pictures, StripCountsTheTopFromUpright)
         t["x_m"][s] = (theta[s] > 0 ? -1 : 1) * (std::sin(lean) + 0.25 * (1 - std::cos(lean)));
         t["y_m"][s] = std::cos(lean) + 0.25 * std::sin(lean);
     }
-    const fs::path fake = folder / "gnuplot";
-    std::ofstream(fake) << "#!/bin/sh\ncp plot.gp '" << (folder / "told.gp").string() << "'\nexit 1\n";
-    fs::permissions(fake, fs::perms::owner_all);
-    const Environment named("STYLOBATE_GNUPLOT", fake.string());
-    EXPECT_THROW(plot_strip(t, {}, "", folder / "strip.png"), InputError);
-    std::ifstream told(folder / "told.gp");
-    std::string line;
-    while (std::getline(told, line) && line != "$top << EOD") {
-    }
+    plot_strip(t, {}, "", folder / "strip.svg");
+    const std::string svg = read_file(folder / "strip.svg");
+    const std::vector<std::array<double, 2>> drawn = points_of(svg, "stroke:#0072b2");
+    ASSERT_EQ(drawn.size(), 2U);
+    // the numbers beside the panel give its scale: those at heights between the two points, or near them
+    std::map<double, double> value_at; // pixels to mm
+    for (const auto& [y, text] : numbers_at_axis(svg))
+        if (y > std::min(drawn[0][1], drawn[1][1]) - 25 && y < std::max(drawn[0][1], drawn[1][1]) + 25)
+            value_at[y] = std::stod(text);
+    ASSERT_GE(value_at.size(), 2U);
+    const auto [y0, v0] = *value_at.begin();
+    const auto [y1, v1] = *value_at.rbegin();
     for (std::size_t s = 0; s < 2; ++s) {
-        double time = 0, drawn_mm = 0;
-        told >> time >> drawn_mm;
-        EXPECT_NEAR(drawn_mm, 1000 * t["x_m"][s], 1e-3) << s;
+        const double drawn_mm = v0 + (drawn[s][1] - y0) / (y1 - y0) * (v1 - v0);
+        EXPECT_NEAR(drawn_mm, 1000 * t["x_m"][s], 1) << s;
     }
 }
 
 TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
 {
-    NEEDS_GNUPLOT();
     // Two samples, two snapshots of one drum in the air.
     const double width = 2;
     const double height = 1;
@@ -392,7 +363,6 @@ TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
 
 TEST_F(Pictures, StripOfAnyColumn)
 {
-    NEEDS_GNUPLOT();
     for (const std::size_t blocks : {1U, 2U, 48U}) {
         plot_strip(some_trajectory(blocks, 1.2, 0.8), {}, "column", folder / "c.png", 5);
         EXPECT_GT(decode(folder / "c.png").colours, 50U);
@@ -442,7 +412,6 @@ FallingColonnade before_and_after()
 
 TEST_F(Pictures, StripOfAFallenColonnadeHoldsEveryBlock)
 {
-    NEEDS_GNUPLOT();
     const FallingColonnade c = before_and_after();
     plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
     const Pixels pixels = decode(folder / "c.png");
@@ -484,7 +453,6 @@ TEST_F(Pictures, StripOfAFallenColonnadeHoldsEveryBlock)
 
 TEST_F(Pictures, StripOfWhatIsWideTakesSeveralRows)
 {
-    NEEDS_GNUPLOT();
     const FallingColonnade c = falling_colonnade();
     plot_strip(c.trajectory, c.fall_time_s, "colonnade", folder / "c.png");
     const Pixels pixels = decode(folder / "c.png");
@@ -522,7 +490,6 @@ TEST_F(Pictures, BadInputLeavesNoFile)
     flat["half_height_m"][1] = 0;
     message_of([&] { plot_strip(flat, {}, "", folder / "a.png"); });
     EXPECT_EQ(entries(), 0U);
-    NEEDS_GNUPLOT();
     EXPECT_NE(
         message_of([&] { plot_surface(some_surface(), "collapse", "", folder / "missing" / "a.png"); }).find("missing"),
         std::string::npos);
@@ -530,43 +497,27 @@ TEST_F(Pictures, BadInputLeavesNoFile)
     EXPECT_EQ(entries(), 0U);
 }
 
-TEST_F(Pictures, GnuplotMissingOrFailing)
+TEST_F(Pictures, WithoutLibrsvgOnlySvg)
 {
-    const fs::path picture = folder / "a.png";
-    const auto draw = [&] { return message_of([&] { plot_surface(some_surface(), "collapse", "", picture); }); };
-    {
-        const Environment path("PATH", folder.string());
-        const Environment unnamed("STYLOBATE_GNUPLOT", "");
-        EXPECT_NE(draw().find("apt install gnuplot-nox"), std::string::npos);
-        EXPECT_EQ(entries(), 0U);
-    }
-    {
-        const Environment named("STYLOBATE_GNUPLOT", (folder / "nowhere").string());
-        EXPECT_NE(draw().find("nowhere"), std::string::npos);
-        EXPECT_EQ(entries(), 0U);
-    }
-    const fs::path fake = folder / "fake gnuplot";
-    const auto write_fake = [&](const std::string& script) {
-        std::ofstream(fake) << script;
-        fs::permissions(fake, fs::perms::owner_all);
-    };
-    const Environment named("STYLOBATE_GNUPLOT", fake.string());
-    write_fake("#!/bin/sh\necho 'no such option' >&2\nexit 3\n");
-    std::string said = draw();
-    EXPECT_NE(said.find("no such option"), std::string::npos) << said;
-    EXPECT_NE(said.find("exit status 3"), std::string::npos) << said;
-    write_fake("#!/bin/sh\nexit 0\n"); // claims success, draws nothing
-    EXPECT_NE(draw().find("no message"), std::string::npos);
-    write_fake("#!/bin/sh\nkill -9 $$\n");
-    EXPECT_NE(draw().find("exit status 137"), std::string::npos);
-    write_fake("#!/nowhere/interpreter\n");
-    EXPECT_NE(draw().find("cannot start"), std::string::npos);
-    EXPECT_EQ(entries(), 1U) << "something is left in the folder";
+    // What has been loaded once stays loaded, so a process of its own tries it.
+    ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+    EXPECT_EXIT(
+        {
+            ::setenv("STYLOBATE_LIBRSVG", "/none/such.so", 1);
+            plot_surface(some_surface(), "collapse", "", folder / "a.svg");
+            try {
+                plot_surface(some_surface(), "collapse", "", folder / "a.png");
+            } catch (const InputError& missing) {
+                std::fputs(missing.what(), stderr);
+                std::exit(fs::exists(folder / "a.svg") && !fs::exists(folder / "a.png") ? 0 : 1);
+            }
+            std::exit(2);
+        },
+        ::testing::ExitedWithCode(0), "apt install librsvg2-2");
 }
 
 TEST_F(Pictures, NoFontsIsAnError)
 {
-    NEEDS_GNUPLOT();
     if (std::system("command -v fc-list > /dev/null") != 0)
         GTEST_SKIP() << "fc-list is not installed: fonts cannot be looked for";
     std::ofstream(folder / "fonts.conf") << "<?xml version=\"1.0\"?><fontconfig><dir>" << (folder / "none").string()

@@ -128,7 +128,6 @@ std::vector<std::pair<double, double>> runs(const Pixels& pixels, std::size_t ro
 
 TEST_F(PicturesInSpace, ADrawingHasPlanAndElevationsToOneScale)
 {
-    NEEDS_GNUPLOT();
     Study study = two_prisms();
     plot_structure(study, "prisms", folder / "prisms.png");
     const Pixels pixels = decode(folder / "prisms.png");
@@ -167,7 +166,6 @@ TEST_F(PicturesInSpace, ADrawingHasPlanAndElevationsToOneScale)
 
 TEST_F(PicturesInSpace, ADrawingOfADrumWithAnAbacus)
 {
-    NEEDS_GNUPLOT();
     Study study = two_prisms();
     auto& drums = study.structure.columns[0].drums;
     drums[0] = {.width_m = 1.2, .height_m = 3, .mass_kg = 8000, .depth_m = 1.2, .top_width_m = 1};
@@ -235,7 +233,6 @@ TEST(StripInSpace, SnapshotsCatchTheMotion)
 
 TEST_F(PicturesInSpace, AStripDrawsFallsAndNothingThatIsNotKnown)
 {
-    NEEDS_GNUPLOT();
     const Trajectory t = moving_block(101, 3);
     plot_strip(t, {}, "block", folder / "a.png");
     const Pixels unknown = decode(folder / "a.png");

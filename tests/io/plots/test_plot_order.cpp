@@ -19,7 +19,6 @@ Pixels curves_of(Pixels pixels)
 
 TEST_F(Order, OrderShowsWhoFellWhenAndHowOften)
 {
-    NEEDS_GNUPLOT();
     // 40 realizations: block 2 falls in all of them at 2 s, block 0 in half of them at 8 s, block 1 never.
     FallOrder order;
     order.trials = 40;
@@ -63,7 +62,6 @@ TEST_F(Order, OrderShowsWhoFellWhenAndHowOften)
 
 TEST_F(Order, OrderOfManyBlocksAndAtOnce)
 {
-    NEEDS_GNUPLOT();
     FallOrder order;
     order.trials = 3000;
     order.interval = "jeffreys 0.95";
@@ -86,7 +84,6 @@ TEST_F(Order, OrderOfManyBlocksAndAtOnce)
 
 TEST_F(Order, OfManyBlocksIsADrawingInTheirPlaces)
 {
-    NEEDS_GNUPLOT();
     // two columns of ten drums of 1 m by 1 m, 3 m apart; block i falls at 1 + i / 10 s, the last one never
     FallOrder order;
     order.trials = 10;

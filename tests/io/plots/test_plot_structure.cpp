@@ -42,7 +42,6 @@ Study column()
 
 TEST_F(Structure, AColumnIsDrawnToScale)
 {
-    NEEDS_GNUPLOT();
     plot_structure(column(), "it's a column", (folder / "column.png"));
     const Pixels pixels = decode((folder / "column.png"));
     EXPECT_EQ(pixels.width, 1800U);
@@ -56,7 +55,6 @@ TEST_F(Structure, AColumnIsDrawnToScale)
 
 TEST_F(Structure, AColonnadeHasItsEpistyleAndTheBedThatDiffers)
 {
-    NEEDS_GNUPLOT();
     Study study = column();
     study.structure.kind = StructureKind::colonnade;
     ColumnSpec one;
@@ -86,7 +84,6 @@ TEST_F(Structure, AColonnadeHasItsEpistyleAndTheBedThatDiffers)
 /// Fifty blocks of a centimetre, and one of ten metres: whatever it is, it fits.
 TEST_F(Structure, LargeAndSmallOnesFit)
 {
-    NEEDS_GNUPLOT();
     Study many = column(), one = column();
     many.structure = equal_column(50, 0, 0.05, 0.01, 0.05, 0.05);
     for (std::size_t i = 0; i < 50; ++i) // all in the list
@@ -104,7 +101,6 @@ TEST_F(Structure, LargeAndSmallOnesFit)
 
 TEST_F(Structure, OtherFormats)
 {
-    NEEDS_GNUPLOT();
     plot_structure(column(), "column", (folder / "column.svg"));
     plot_structure(column(), "column", (folder / "column.pdf"));
     EXPECT_TRUE(read_file((folder / "column.svg")).starts_with("<?xml"));

@@ -397,8 +397,8 @@ std::string boulder_page(const BoulderResults& r, const std::string&)
 
 void draw_boulders(const BoulderResults& r, const PagePlace& place)
 {
-    const auto picture = [&](const std::string& name, const std::string& script) {
-        run_gnuplot(script, verification::picture_size, place.images() / ("rock_shake_table_" + name + ".png"));
+    const auto picture = [&](const std::string& name, const Figure& figure) {
+        verification::write_small({figure}, place.images() / ("rock_shake_table_" + name + ".png"));
     };
     // boulder 1 by the baseline
     Series right_fall{"fell, predicted", {}, {}}, right_stand{"stood, predicted", {}, {}},
@@ -432,9 +432,8 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
         by_ratio.back().x.push_back(d.restitution);
         by_ratio.back().y.push_back(d.best.log_likelihood);
     }
-    picture("restitution",
-            verification::curves({"restitution e of the fitted block in free rocking", false, 0, 0},
-                                 {"log-likelihood of the fitting half", false, 0, 0}, by_ratio, "bottom left"));
+    picture("restitution", verification::curves({"restitution e of the fitted block in free rocking", false, 0, 0},
+                                                {"log-likelihood of the fitting half", false, 0, 0}, by_ratio));
 
     Series start{"at the start of rocking", {}, {}, true}, whole{"by the rise to balance", {}, {}, true};
     std::vector<Series> stance{start, whole};
@@ -451,7 +450,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
                           {r.extended.model[s].slenderness, r.extended.model[s].slenderness},
                           true});
     picture("stance", verification::curves({"direction of leaning in the mesh's own axes [degrees]", false, 0, 360},
-                                           {"slenderness (tan alpha)", false, 0, 1.8}, stance, "top left"));
+                                           {"slenderness (tan alpha)", false, 0, 1.8}, stance));
 
     std::vector<Series> bars;
     double at = 1;
@@ -471,7 +470,7 @@ void draw_boulders(const BoulderResults& r, const PagePlace& place)
         at += 1;
     }
     picture("scores", verification::curves({"predictor, in the order of the legend", false, 0.5, 5.5},
-                                           {"share right, held out", false, 0.75, 1}, bars, "outside below"));
+                                           {"share right, held out", false, 0.75, 1}, bars));
 }
 
 } // namespace stylobate::measured

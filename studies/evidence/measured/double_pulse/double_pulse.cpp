@@ -466,9 +466,9 @@ void draw(const PulseResults& r, const PagePlace& place)
     for (const Series& s : {stood, fell_, wrong_before, wrong_after})
         if (!s.x.empty())
             shown.push_back(s);
-    run_gnuplot(verification::curves({"distance to the stopper BD [m]", false, 0, 0.045},
-                                     {"velocity of the base [m/s]", false, 0, 0.75}, shown, "outside below"),
-                verification::picture_size, place.images() / "ceh2016_boundary.png");
+    verification::write_small({verification::curves({"distance to the stopper BD [m]", false, 0, 0.045},
+                                                    {"velocity of the base [m/s]", false, 0, 0.75}, shown)},
+                              place.images() / "ceh2016_boundary.png");
 }
 
 std::string study_file(const SizedBlock& sized, const std::string& what)

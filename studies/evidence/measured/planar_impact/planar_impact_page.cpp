@@ -378,7 +378,7 @@ std::string robustness_and_limits(const ImpactStudy& s)
 }
 
 using verification::curves;
-using verification::picture_size;
+using verification::write_small;
 using verification::Series;
 
 /// Part of the errors below each of them.
@@ -449,12 +449,12 @@ std::string page_text(const ImpactStudy& s, const std::string& made_by)
            floor_section(s) + robustness_and_limits(s);
 }
 
-/// planar_impact_{errors,place,sliding}.png. @throws InputError as `run_gnuplot`
+/// planar_impact_{errors,place,sliding}.png. @throws InputError as `write_picture`
 void draw(const ImpactStudy& s, const std::filesystem::path& folder)
 {
     const auto& laws = s.laws;
-    const auto put = [&](const char* name, const std::string& script) {
-        run_gnuplot(script, picture_size, folder / (std::string("planar_impact_") + name + ".png"));
+    const auto put = [&](const char* name, const Figure& figure) {
+        write_small({figure}, folder / (std::string("planar_impact_") + name + ".png"));
     };
     put("errors", curves({"error of the velocity after the impact, % (kinetic energy norm)", false, 0, 60},
                          {"part of the other half's impacts", false, 0, 1},
@@ -462,8 +462,7 @@ void draw(const ImpactStudy& s, const std::filesystem::path& folder)
                           cumulative("the engine's law, constant", laws[ImpactStudy::constant].error, 1),
                           cumulative("rate damping as a function of the place", laws[ImpactStudy::place_rate].error, 2),
                           cumulative("extended law", laws[ImpactStudy::extended].error, 0),
-                          cumulative("best impulse in the contact point", s.point_floor, 3)},
-                         "bottom right"));
+                          cumulative("best impulse in the contact point", s.point_floor, 3)}));
     const auto of = [&](std::size_t which) {
         return [&s, which](std::size_t k) { return restitution(s, k, s.laws[which].after[k]); };
     };
@@ -473,10 +472,9 @@ void draw(const ImpactStudy& s, const std::filesystem::path& folder)
                              s, "measured, median and quartiles",
                              [&s](std::size_t k) { return restitution(s, k, s.impacts[k].after); }, true, 5),
                          along_surface(s, "the engine's law, constant", of(ImpactStudy::constant), false, 1),
-                         along_surface(s, "extended law", of(ImpactStudy::extended), false, 0)},
-                        "top right"));
+                         along_surface(s, "extended law", of(ImpactStudy::extended), false, 0)}));
     const auto sliding = [&](std::size_t which, const std::string& title, int colour) {
-        Series series{title, {}, {}, false, {}, {}, colour};
+        Series series{title, {}, {}, false, {}, {}, colour, 0.5};
         for (const std::size_t k : s.other) {
             const Arms arms = lowest_point(s.body, s.impacts[k].theta + s.orientation);
             series.x.push_back(at_contact(s.impacts[k].after, arms).t);
@@ -484,13 +482,11 @@ void draw(const ImpactStudy& s, const std::filesystem::path& folder)
         }
         return series;
     };
-    put("sliding", "set pointsize 0.5\n" +
-                       curves({"measured sliding speed of the contact point after the impact, m/s", false, -2, 1.5},
-                              {"predicted, m/s", false, -2, 1.5},
-                              {sliding(ImpactStudy::newton, "constant mu, e (Newton, Coulomb)", 1),
-                               sliding(ImpactStudy::extended, "extended law", 0),
-                               {std::nullopt, {-2, 1.5}, {-2, 1.5}, true, {}, {}, 5}},
-                              "top left"));
+    put("sliding", curves({"measured sliding speed of the contact point after the impact, m/s", false, -2, 1.5},
+                          {"predicted, m/s", false, -2, 1.5},
+                          {sliding(ImpactStudy::newton, "constant mu, e (Newton, Coulomb)", 1),
+                           sliding(ImpactStudy::extended, "extended law", 0),
+                           {std::nullopt, {-2, 1.5}, {-2, 1.5}, true, {}, {}, 5}}));
 }
 
 } // namespace

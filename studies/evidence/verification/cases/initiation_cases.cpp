@@ -113,8 +113,8 @@ Finding regimes()
              fmt::format(
                  "Initial motion of a block of {} mm: the engine on a grid (colours), Shenton's formulas (lines)",
                  name),
-             map({"a / g", false, 0, 0}, {"friction", false, 0, 0}, as, mus, kind,
-                 {"rest", "slide", "rock", "slide and rock"}, {slide, rock, edge, low})});
+             {map({"a / g", false, 0, 0}, {"friction", false, 0, 0}, as, mus, kind,
+                  {"rest", "slide", "rock", "slide and rock"}, {slide, rock, edge, low})}});
     }
     return f;
 }
@@ -197,13 +197,13 @@ Finding two_blocks()
                  0.01 * std::max(want.upper, 10.0));
     }
     f.pictures.push_back(
-        {"two_blocks", "Angular accelerations at the start of two blocks, 1 x 1 m below 0.5 x 2 m",
-         curves({"base acceleration [m/s2]", false, 0, 0}, {"angular acceleration [rad/s2]", false, 0, 0},
-                {{"lower, rigid", a_line, lower_line, true, {}, {}},
-                 {"lower, engine", a_u, lower, false, {}, {}},
-                 {"upper, rigid", a_line, upper_line, true, {}, {}},
-                 {"upper, engine", a_u, upper, false, {}, {}}},
-                "top left")});
+        {"two_blocks",
+         "Angular accelerations at the start of two blocks, 1 x 1 m below 0.5 x 2 m",
+         {curves({"base acceleration [m/s2]", false, 0, 0}, {"angular acceleration [rad/s2]", false, 0, 0},
+                 {{"lower, rigid", a_line, lower_line, true, {}, {}},
+                  {"lower, engine", a_u, lower, false, {}, {}},
+                  {"upper, rigid", a_line, upper_line, true, {}, {}},
+                  {"upper, engine", a_u, upper, false, {}, {}}})}});
     return f;
 }
 

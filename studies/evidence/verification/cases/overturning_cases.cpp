@@ -128,12 +128,12 @@ Finding half_sine()
                 convergence("K_N [N/m2]", "eta of a half sine, w = 4 p", stiffness, values, rigid[i]));
         }
     }
-    f.pictures.push_back({"half_sine", "Smallest amplitude of a half sine that overturns MONO",
-                          curves({"w / p", false, 0, 11}, {"eta = a / (g tan alpha)", false, 0, 0},
-                                 {{"rigid block", rates, rigid, true, {}, {}},
-                                  {"engine, limit of K_N", rates, limit, false, {}, {}},
-                                  {"engine, K_N = 1e8 N/m2", rates, soft, false, {}, {}}},
-                                 "top left")});
+    f.pictures.push_back({"half_sine",
+                          "Smallest amplitude of a half sine that overturns MONO",
+                          {curves({"w / p", false, 0, 11}, {"eta = a / (g tan alpha)", false, 0, 0},
+                                  {{"rigid block", rates, rigid, true, {}, {}},
+                                   {"engine, limit of K_N", rates, limit, false, {}, {}},
+                                   {"engine, K_N = 1e8 N/m2", rates, soft, false, {}, {}}})}});
     return f;
 }
 
@@ -274,13 +274,13 @@ Finding full_sine_impact()
         "at an impact and is **not expected** to agree with Housner. The comparison is with the rigid block with e = "
         "{:.4f}, the restitution of the engine in free rocking from 0.5 alpha with the same contact.",
         housner, e));
-    f.pictures.push_back({"full_sine", "Overturning of MONO by a full sine",
-                          curves({"w / p", false, 0, 7}, {"eta = a / (g tan alpha)", false, 0, 10},
-                                 {{"rigid, after an impact, Housner's e", at, with_housner, true, {}, {}},
-                                  {fmt::format("rigid, after an impact, e = {:.3f}", e), at, with_ours, true, {}, {}},
-                                  {"engine, after an impact, K_N = 1e11 N/m2", at, engine, false, {}, {}},
-                                  {"rigid, without impact", at, direct, true, {}, {}}},
-                                 "top left")});
+    f.pictures.push_back({"full_sine",
+                          "Overturning of MONO by a full sine",
+                          {curves({"w / p", false, 0, 7}, {"eta = a / (g tan alpha)", false, 0, 10},
+                                  {{"rigid, after an impact, Housner's e", at, with_housner, true, {}, {}},
+                                   {fmt::format("rigid, after an impact, e = {:.3f}", e), at, with_ours, true, {}, {}},
+                                   {"engine, after an impact, K_N = 1e11 N/m2", at, engine, false, {}, {}},
+                                   {"rigid, without impact", at, direct, true, {}, {}}})}});
     return f;
 }
 

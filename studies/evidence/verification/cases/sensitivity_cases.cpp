@@ -113,10 +113,10 @@ Finding contact_stiffness()
                           fmt::format("Collapse probability of SPEC at {} m/s2 and {} Hz over the "
                                       "contact stiffness, with its first frequency",
                                       pga, frequency_hz),
-                          curves({"K_N [N/m2]", true, 0, 0}, {"collapse probability", false, 0, 1.05},
-                                 {{"collapse probability", at, probability, false, low, high},
-                                  {"f1", at, first, true, {}, {}, -1, true}},
-                                 "top center", PictureAxis{"f1 [Hz]", true, 0, 0})});
+                          {curves({"K_N [N/m2]", true, 0, 0}, {"collapse probability", false, 0, 1.05},
+                                  {{std::nullopt, at, probability, false, low, high}}),
+                           curves({"K_N [N/m2]", true, 0, 0}, {"first frequency [Hz]", true, 0, 0},
+                                  {{std::nullopt, at, first, true}})}});
     return f;
 }
 

@@ -117,10 +117,10 @@ Finding steady()
         x.push_back(eta);
         y.push_back(steady_slip_ratio(eta));
     }
-    f.pictures.push_back(
-        {"steady_sliding", "Steady sliding under a harmonic base motion",
-         curves({"eta = a / (mu g)", false, 1, 10.5}, {"slip path / base path", false, 0, 1.05},
-                {{"rigid block", x, y, true, {}, {}}, {"engine", etas, measured, false, {}, {}}}, "bottom right")});
+    f.pictures.push_back({"steady_sliding",
+                          "Steady sliding under a harmonic base motion",
+                          {curves({"eta = a / (mu g)", false, 1, 10.5}, {"slip path / base path", false, 0, 1.05},
+                                  {{"rigid block", x, y, true, {}, {}}, {"engine", etas, measured, false, {}, {}}})}});
     return f;
 }
 

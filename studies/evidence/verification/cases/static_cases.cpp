@@ -107,12 +107,12 @@ Finding capacity()
     f.convergences.push_back(
         convergence("K_N [N/m2]", "a_max of MONO [m/s2], to that of a rigid block", at, values, rigid));
     f.equals("order in K_N", -1.0 / 3, f.convergences.back().order, 0.02);
-    f.pictures.push_back({"static_capacity", "Static capacity of MONO over the contact stiffness",
-                          curves({"K_N [N/m2]", true, 0, 0}, {"a_max [m/s2]", false, 0, 0},
-                                 {{"g (b/h - 3 t*)", at, closed, true, {}, {}},
-                                  {"engine", at, values, false, {}, {}},
-                                  {"rigid", at, std::vector<double>(at.size(), rigid), true, {}, {}}},
-                                 "bottom right")});
+    f.pictures.push_back({"static_capacity",
+                          "Static capacity of MONO over the contact stiffness",
+                          {curves({"K_N [N/m2]", true, 0, 0}, {"a_max [m/s2]", false, 0, 0},
+                                  {{"g (b/h - 3 t*)", at, closed, true, {}, {}},
+                                   {"engine", at, values, false, {}, {}},
+                                   {"rigid", at, std::vector<double>(at.size(), rigid), true, {}, {}}})}});
     return f;
 }
 

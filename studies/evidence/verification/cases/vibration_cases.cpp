@@ -108,12 +108,11 @@ Finding first_mode()
     f.pictures.push_back({"first_frequency",
                           "First lateral frequency over the contact stiffness: eigenvalues (lines) and "
                           "free vibration in the engine (marks)",
-                          curves({"K_N [N/m2]", true, 0, 0}, {"f1 [Hz]", true, 0, 0},
-                                 {{"SPEC, eigenvalue", at, oracle, true, {}, {}},
-                                  {"SPEC, engine", at, spec_hz, false, {}, {}},
-                                  {"MONO, eigenvalue", at, mono_oracle, true, {}, {}},
-                                  {"MONO, engine", at, mono_hz, false, {}, {}}},
-                                 "top left")});
+                          {curves({"K_N [N/m2]", true, 0, 0}, {"f1 [Hz]", true, 0, 0},
+                                  {{"SPEC, eigenvalue", at, oracle, true, {}, {}},
+                                   {"SPEC, engine", at, spec_hz, false, {}, {}},
+                                   {"MONO, eigenvalue", at, mono_oracle, true, {}, {}},
+                                   {"MONO, engine", at, mono_hz, false, {}, {}}})}});
     return f;
 }
 

@@ -4,8 +4,8 @@
 /// What is not known or could not be estimated is `std::nullopt`, never a number that stands for it. Texts are plain
 /// UTF-8 sentences without markup. Blocks and joints are counted from 0, as in the measured file; block -1 is the base.
 
+#include "io/plots/figure.hpp"
 #include "studies/measured/windows/window_motion.hpp"
-#include "studies/report/figure.hpp"
 
 #include <cstdint>
 #include <filesystem>

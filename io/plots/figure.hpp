@@ -1,6 +1,8 @@
 #pragma once
-/// A figure as plain data: `html_figure.hpp` draws it.
+/// A figure as plain data. Pages, pictures and programs that show it draw it by `figure_panel.hpp`.
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +25,18 @@ struct FigureSeries {
     std::vector<double> y;    ///< as many as x; of a band: empty
     std::vector<double> low;  ///< as many as x, or empty
     std::vector<double> high; ///< as many as x, or empty
-    // The file of a diagnosis does not keep these two.
-    std::optional<std::string> group = {}; ///< has one colour and one entry of the legend; nullopt: the name
-    std::optional<std::string> layer = {}; ///< what of its group it is ("fitted curve"); layers can be switched off
+    // The file of a diagnosis does not keep these.
+    std::optional<std::string> group = {};  ///< has one colour and one entry of the legend; nullopt: the name
+    std::optional<std::string> layer = {};  ///< what of its group it is ("fitted curve"); layers can be switched off
+    std::optional<std::string> colour = {}; ///< "#rrggbb"; nullopt: that of its place in the list
+    bool dashed = false;
+    double weight = 1; ///< width of its line, size of its points; in ordinary ones
+};
+
+/// A rectangle of one colour: a cell of a map.
+struct FigureCell {
+    double left = 0, right = 0, low = 0, high = 0;
+    std::string colour; ///< "#rrggbb"
 };
 
 /// A figure as data; who shows it draws it.
@@ -38,6 +49,10 @@ struct Figure {
     bool y_log = false;
     std::vector<std::string> x_ticks; ///< names instead of numbers, at x = 0, 1, 2, ...; none: numbers
     std::vector<FigureSeries> series;
+    // The file of a diagnosis does not keep these.
+    std::optional<std::array<double, 2>> x_range = {}; ///< nullopt: as the data need it
+    std::optional<std::array<double, 2>> y_range = {};
+    std::vector<FigureCell> cells = {}; ///< below the series
 };
 
 } // namespace stylobate
