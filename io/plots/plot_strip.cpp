@@ -94,7 +94,7 @@ double departure(const Trajectory& t, std::size_t sample, std::size_t from)
 }
 
 /// Edges of the plots, and heights of their parts, in pixels.
-constexpr double strip_width = 1800;
+constexpr double picture_pixels = 1800;
 constexpr double left_edge = 180;
 constexpr double right_edge = 1773;
 constexpr double axis_title = 31; ///< middle of the titles of vertical axes
@@ -432,7 +432,7 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     const StripLayout layout = make_layout(trajectory, drawn, chosen, right_edge - left_edge);
     const double first_panel = heading_pixels + layout.pixels + label_pixels + 30;
     const double panels = falls.empty() ? 2 : 3;
-    DrawingSheet sheet({static_cast<int>(strip_width),
+    DrawingSheet sheet({static_cast<int>(picture_pixels),
                         static_cast<int>(std::lround(first_panel + panels * panel_pixels +
                                                      (panels - 1) * panel_gap_pixels + footing_pixels))},
                        picture_look.letters());

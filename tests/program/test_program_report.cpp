@@ -47,7 +47,7 @@ TEST_F(Report, OfASurface)
                {"below 0.6 of its height at rest above the base, or when it has rotated beyond its own slenderness"});
     // the surface and its slice are drawn here, the order of falls by io/plots
     EXPECT_EQ(count_of(html, "data-cell=\""), 4U);
-    EXPECT_EQ(count_of(html, "src=\"data:image/png;base64,iVBORw0KGgo"), 1U);
+    EXPECT_EQ(count_of(html, "src=\"data:image/svg+xml;base64,"), 1U);
     EXPECT_EQ(count_of(html, "<img"), 1U);
     EXPECT_EQ(count_of(html, "http"), count_of(html, "http://www.w3.org/2000/svg") + count_of(html, "http-equiv"));
 }
