@@ -30,7 +30,11 @@ struct CommonOptions : Machine {
     std::vector<std::string> set; ///< KEY=VALUE, any key of the study file
     bool quiet = false;
     bool json = false;
-    bool force = false; ///< replace files that are there
+    bool force = false;            ///< replace files that are there
+    std::string progress = "auto"; ///< of `progress_styles`
+
+    /// What a verb shows on standard error; of several ranks the first one alone shows something.
+    Console console(const char* verb) const;
 };
 
 /// The study that a calibration or a diagnosis begins from; none: that of the measured data.
