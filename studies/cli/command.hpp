@@ -148,6 +148,8 @@ int report_command(const CommonOptions& options, PageRequest request, const std:
 /// @param wanted the file; nullopt: the campaign's name with _diagnosis.h5
 int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::optional<std::string>& study,
                      const std::optional<std::string>& wanted);
+/// @param seconds for all of it   @param markdown only the rows of the table of speeds
+int bench_command(const CommonOptions& options, double seconds, bool markdown);
 /// @param file measured data, outcomes or results; nullopt: about the program
 /// @param mpi of this program (`mpi_library`)
 int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,
