@@ -32,10 +32,11 @@ import os
 import sys
 
 found = importlib.util.find_spec("stylobate")
-program = found and os.path.join(os.path.dirname(found.origin), "_bundled", "stylobate")
-if not program or not os.path.exists(program):
-    sys.exit(f"stylobate: the package that this command belongs to is not found by {sys.executable}.\\n"
-             "  Install the wheel again there, or add the folder of the package to PYTHONPATH.")
+program = os.path.join(os.path.dirname(found and found.origin or ""), "_bundled", "stylobate")
+if not os.path.exists(program):
+    print(f"stylobate: {sys.executable} does not find the package that this command belongs to.\\n"
+          "  Install the wheel again there, or add the folder of the package to PYTHONPATH.", file=sys.stderr)
+    sys.exit(2)
 os.execv(program, [program, *sys.argv[1:]])
 """
 
