@@ -1,5 +1,5 @@
-// Debian's static HDF5 is compiled for programs: it reads `stdout` and `stderr` where a program has them, which a module
-// of Python cannot link. The linker replaces both names by these of the module (-Wl,--wrap).
+// Debian's static HDF5 is compiled for programs: it reads `stdout` and `stderr` where a program has them, which a
+// module of Python cannot link. The linker replaces both names by these of the module (-Wl,--wrap).
 #include <stdio.h>
 
 extern FILE* __real_stdout;
