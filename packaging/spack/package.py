@@ -43,7 +43,7 @@ class Stylobate(CMakePackage):
     extends("python", when="+python")
     depends_on("python@3.9:", type=("build", "run"), when="+python")
     depends_on("py-pybind11@2.10:", type="build", when="+python")
-    depends_on("py-numpy", type="run", when="+python")
+    depends_on("py-numpy@:1", type="run", when="+python")
 
     generator("ninja")
 
