@@ -89,6 +89,11 @@ Html figure_svg(const Figure& figure, double height)
     return html;
 }
 
+std::string figure_drawing(const Figure& figure, double height)
+{
+    return Drawing(figure, height).svg();
+}
+
 Html bar_svg(double value, std::optional<double> mark, double most)
 {
     constexpr double length = 96;
