@@ -43,7 +43,7 @@ class Page(unittest.TestCase):
 
     def open(self, name):
         self.browser.open(self.at(name))
-        self.page = self.at(name)
+        self.page = self.at(name.split("#")[0])
 
     def tearDown(self):
         self.assertEqual(self.browser.errors, [])
