@@ -12,6 +12,7 @@
 #include "studies/report/json.hpp"
 #include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
+#include "studies/results/cells_data.hpp"
 #include "studies/results/fall_rose.hpp"
 #include "studies/results/result_picture.hpp"
 #include "studies/results/study_facts.hpp"
@@ -48,101 +49,6 @@ std::string interval_text(const Share& share)
 std::string number(double value)
 {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
-}
-
-struct OfCell {
-    std::array<std::uint64_t, 5> states{}; ///< in the order of `State`
-    std::map<std::int32_t, std::uint64_t> first;
-    std::vector<double> fall_time_s;
-    FallRose rose;
-};
-
-std::string name_of(std::int32_t block, const std::vector<std::string>& names)
-{
-    return block == several_blocks ? "several together" : names.at(static_cast<std::size_t>(block));
-}
-
-void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vector<std::string>& names)
-{
-    Json outcomes = Json::object();
-    for (const State state : {State::stood, State::rocked, State::slid, State::invalid}) {
-        std::vector<std::uint64_t> counts;
-        for (const OfCell& cell : cells)
-            counts.push_back(cell.states[static_cast<std::size_t>(state)]);
-        if (state != State::invalid || std::ranges::any_of(counts, [](std::uint64_t n) { return n > 0; }))
-            outcomes.member(to_string(state), Json::brief(counts));
-    }
-    json.member("outcomes", outcomes);
-    Json first = Json::object(), times = Json::object(), roses = Json::object();
-    bool any_rose = false;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        std::vector<double> sorted = cells[i].fall_time_s;
-        if (sorted.empty())
-            continue;
-        std::sort(sorted.begin(), sorted.end());
-        Json of_cell = Json::list();
-        for (const auto& [block, count] : cells[i].first)
-            of_cell.item(Json::list().item(name_of(block, names)).item_as_is(fmt::format("{}", count)));
-        first.member(fmt::format("{}", i), of_cell);
-        times.member(fmt::format("{}", i),
-                     Json::brief(std::vector<double>{
-                         sorted.front(), sorted_quantile(sorted, 0.5, QuantileDefinition::linear), sorted.back()}));
-        if (cells[i].rose.falls() == 0)
-            continue;
-        roses.member(fmt::format("{}", i), Json::brief(cells[i].rose.counts()));
-        any_rose = true;
-    }
-    json.member("first", first).member("times", times);
-    if (any_rose)
-        json.member("rose", roses);
-}
-
-/// JSON for the map of the page (studies/report/page/cells.js): axes, counts, probabilities with their intervals; where
-/// there are rows, also how often each state was reached, which block fell first, and when.
-/// @param table of the study   @param trials rows that are trials; none: nothing is known of single realizations
-/// @param header of the results, for the names of blocks and the model
-/// @param file of the results, for the command that runs one again
-std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& trials, const ResultHeader& header,
-                       const std::string& file)
-{
-    Json json = Json::object();
-    const RowQuantity& of = table.row_quantity();
-    json.member("rows", Json::brief(table.rows()))
-        .member("row_name", of.name)
-        .member("row_symbol", of.symbol)
-        .member("row_option", of.option)
-        .member("pga_m_s2", Json::brief(table.pga_m_s2))
-        .member("interval", describe_interval(table.interval))
-        .member("trials", Json::brief(table.trials))
-        .member("collapses", Json::brief(table.collapses))
-        .member("probability", Json::brief(table.probability))
-        .member("lower", Json::brief(table.lower))
-        .member("upper", Json::brief(table.upper))
-        .member("file", file);
-    if (!table.method.empty()) {
-        Json methods = Json::list();
-        for (const IntervalMethod method : table.method)
-            methods.item(
-                std::string_view(method == IntervalMethod::surface ? "neighbouring cells too" : "this cell alone"));
-        json.member("method", methods);
-    }
-    if (trials.empty())
-        return json.text();
-    std::vector<OfCell> cells(table.trials.size());
-    for (const ResultRow& row : trials) {
-        if (row.cell >= cells.size())
-            continue;
-        OfCell& cell = cells[row.cell];
-        ++cell.states[static_cast<std::size_t>(row.outcome.state)];
-        if (row.outcome.state != State::collapsed)
-            continue;
-        cell.fall_time_s.push_back(row.outcome.collapse_time_s);
-        ++cell.first[row.outcome.first_collapse_block];
-        if (header.dimensions == 3)
-            cell.rose.add(row.outcome);
-    }
-    add_outcomes(json, cells, header.block_names);
-    return json.text();
 }
 
 /// A realization's value, and what it is.
@@ -202,21 +108,29 @@ public:
 
     HtmlPage page()
     {
+        if (surface_) {
+            page_.answer(answer());
+            depends();
+            kind_.map(writer_);
+            answers();
+            page_.contents();
+        }
         page_.section("Summary");
         if (!kind_.summary(writer_))
             summary();
         page_.paragraph("Conventions: " + conventions_text(study_) + ".");
-        std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
-        laws.front() = static_cast<char>(std::toupper(laws.front()));
-        page_.paragraph(laws);
-        add_left_out(page_, study_.structure.dimensions);
+        if (!surface_)
+            depends();
         studied();
         if (kind_.draws_plainly()) {
             outcomes();
             kind_.sections(writer_);
             if (laws_)
                 law_band_section(writer_, *laws_);
-            answers();
+            if (!surface_)
+                answers();
+            else if (animations_.words)
+                page_.note(*animations_.words);
             pictures();
             order();
             motions();
@@ -249,21 +163,41 @@ private:
         }
     }
 
+    /// How many collapsed, with the interval.
+    Html answer() const
+    {
+        if (rows_.size() == 1)
+            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        const Share collapsed = counts_.share(LimitState::collapse);
+        const std::optional<std::string> of = counted_words(study_);
+        Html text = fmt::format("{} of {} valid realizations{}{} collapsed: ", collapsed.count, collapsed.trials,
+                                of ? " " + *of : "",
+                                surface_ ? fmt::format(" over {} × {} cells of {} and PGA", header_.rows().size(),
+                                                       header_.pga_m_s2.size(), header_.row_quantity().name)
+                                         : "");
+        text += unbroken(percent_text(collapsed.probability));
+        text += " (" + describe_interval(counts_.interval());
+        if (!std::isnan(collapsed.lower)) {
+            text += " ";
+            text += unbroken(interval_text(collapsed));
+        }
+        text += ").";
+        return text;
+    }
+
+    /// On what the answer depends: the contact law, and what the model leaves out.
+    void depends()
+    {
+        std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
+        laws.front() = static_cast<char>(std::toupper(laws.front()));
+        page_.paragraph(laws);
+        add_left_out(page_, study_.structure.dimensions);
+    }
+
     void summary()
     {
         const Share collapsed = counts_.share(LimitState::collapse);
-        const std::optional<std::string> of = counted_words(study_);
-        std::string text;
-        if (rows_.size() == 1)
-            text = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
-        else
-            text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
-                               collapsed.trials, of ? " " + *of : "",
-                               surface_ ? fmt::format(" over {} × {} cells of {} and PGA", header_.rows().size(),
-                                                      header_.pga_m_s2.size(), header_.row_quantity().name)
-                                        : "",
-                               percent_text(collapsed.probability), describe_interval(counts_.interval()),
-                               std::isnan(collapsed.lower) ? "" : " " + interval_text(collapsed));
+        Html text = answer();
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
                     "probability of each cell is given below.";
@@ -292,7 +226,9 @@ private:
         page_.section("The study");
         const bool replayed = header_.kind == "replay" && rows_.size() == 1;
         const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
-        page_.facts({facts.begin(), facts.end()});
+        page_.details("Settings: structure, contact, excitation, and what is drawn at random", [&] {
+            page_.facts({facts.begin(), facts.end()});
+        });
         for (const std::string& warning : header_.warnings)
             page_.box("warn", "Doubtful", warning);
         page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
@@ -303,32 +239,24 @@ private:
         if (rows_.size() == 1)
             return;
         page_.section("Outcomes");
-        const bool to_rest = study_.outcome.follow == Follow::rest;
         HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(counts_.interval())}, {}, ""};
-        for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
-            const auto limit = static_cast<LimitState>(i);
-            if ((limit == LimitState::total && !to_rest) ||
-                (limit == LimitState::unseated && study_.structure.epistyles.empty()))
-                continue;
+        for (const LimitState limit : counted_limits(study_)) {
             const Share share = counts_.share(limit);
             table.rows.push_back({describe(limit), fmt::format("{} of {}", share.count, share.trials),
                                   percent_text(share.probability), interval_text(share)});
         }
         page_.table(table);
-        if (to_rest && counts_.share(LimitState::total).count > 0)
+        if (study_.outcome.follow == Follow::rest && counts_.share(LimitState::total).count > 0)
             page_.note(
                 fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
         page_.note("Rocking or sliding without collapse: classified by the larger of the two motions.");
     }
 
-    /// What the script of the page needs beside the figures: the cells of a surface, and realizations in motion.
+    /// What the script of the page needs: the cells of a surface, and realizations in motion.
     void answers()
     {
-        if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
-            page_.data("cells", cells_json(*table, rows_, header_, fs::path(results_.file()).filename().string()));
-            if (animations_.words)
-                page_.note(*animations_.words);
-        }
+        if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_)
+            page_.data("cells", cells_json(*table, results_));
         if (!animations_.list.empty())
             page_.data("animations", animations_json(animations_, study_));
     }

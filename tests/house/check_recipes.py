@@ -162,7 +162,8 @@ NAMES = {  # Debian: Spack, conda-forge
     "libboost1.74-dev": ("boost", "libboost-headers"), "librandom123-dev": ("random123", None),  # conda: a second source
     "libhdf5-dev": ("hdf5", "hdf5"), "zlib1g-dev": ("zlib-api", "zlib"),
     "libtomlplusplus-dev": ("tomlplusplus", "tomlplusplus"), "libcli11-dev": ("cli11", "cli11"),
-    "libfmt-dev": ("fmt", "fmt"), "libpugixml-dev": ("pugixml", "pugixml"), "gnuplot-nox": ("gnuplot", "gnuplot"),
+    "libfmt-dev": ("fmt", "fmt"), "libpugixml-dev": ("pugixml", "pugixml"), "librsvg2-dev": ("librsvg", "librsvg"),
+    "pkgconf": ("pkgconfig", "pkg-config"),
     "pybind11-dev": ("py-pybind11", "pybind11"), "python3-dev": ("python", "python"),
     "python3-numpy": ("py-numpy", "numpy"), "libopenmpi-dev": ("mpi", None),  # conda: -DSTYLOBATE_MPI=OFF
 }

@@ -27,7 +27,7 @@ for file in "$work"/content/stylobate/_core*.so "$work"/content/stylobate/_bundl
 done
 
 bare_debian python3 python3-venv python3-numpy
-in_root "! command -v cc && ! command -v gnuplot && ! ls /usr/lib/*/libhdf5* /usr/lib/*/libtbb* 2>/dev/null" ||
+in_root "! command -v cc && ! ls /usr/lib/*/libhdf5* /usr/lib/*/libtbb* /usr/lib/*/librsvg* 2>/dev/null" ||
     fail "this Debian is not bare"
 cp "$wheel" "$root/var/tmp"
 python=env/bin/python
