@@ -333,7 +333,7 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg"}).status, 0);
     EXPECT_NE(read_bytes(folder / "col_comparison_collapse.svg").find("<text>worse</text>"), std::string::npos);
     EXPECT_EQ(run(Words{"report", "col_comparison.h5"}).status, 0);
-    const std::string page = read_bytes(folder / "col_comparison.html");
+    const std::string page = read_page(folder / "col_comparison.html");
     for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/svg+xml"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
     EXPECT_EQ(count_of(page, left_out_text(2)), 1U);

@@ -10,4 +10,17 @@ for (const script of document.querySelectorAll("script.figure-data"))
     if (store && store.list.length)
       place.append(playerOf(store, store.list).element);
 }
+// what is folded on the screen is printed
+addEventListener("beforeprint", () => {
+  for (const folded of document.querySelectorAll("details:not([open])")) {
+    folded.open = true;
+    folded.dataset.folded = "";
+  }
+});
+addEventListener("afterprint", () => {
+  for (const folded of document.querySelectorAll("details[data-folded]")) {
+    folded.open = false;
+    delete folded.dataset.folded;
+  }
+});
 document.documentElement.dataset.alive = "yes";
