@@ -30,6 +30,7 @@ struct FigureSeries {
     std::optional<std::string> layer = {};  ///< what of its group it is ("fitted curve"); layers can be switched off
     std::optional<std::string> colour = {}; ///< "#rrggbb"; nullopt: that of its place in the list
     bool dashed = false;
+    bool shown = true; ///< at first, where a page runs its script; the legend switches the group on
     double weight = 1; ///< width of its line, size of its points; in ordinary ones
 };
 

@@ -23,6 +23,7 @@ class Stylobate(CMakePackage):
     depends_on("c", type="build")
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
+    depends_on("pkgconfig", type="build")
     depends_on("git", type="build")  # gives the version its commit
 
     depends_on("xsimd@8.1", type="build")

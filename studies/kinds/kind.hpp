@@ -67,6 +67,12 @@ std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, cons
 /// @throws InputError if the run is not complete
 void check_complete(const ResultReader& reader, const std::string& results);
 
+/// What a page opens with.
+struct Answer {
+    std::string sentence; ///< with its interval: "At PGV 1.2 to 1.9 m/s half of the structures fall (95 % interval)."
+    std::string more;     ///< best estimate, and what it is of
+};
+
 class Kind {
 public:
     /// @param study, header must outlive it
@@ -174,6 +180,8 @@ public:
     virtual void sections(PageWriter&) const {}
     /// Whether the page shows the first realizations over time.
     virtual bool shows_motion() const { return true; }
+    /// What the page opens with; nullopt: the share of the realizations that fell.
+    virtual std::optional<Answer> answer() const { return std::nullopt; }
 
 protected:
     /// Takes a row that is a trial or a copy of one.

@@ -40,6 +40,7 @@ struct Animation {
     std::uint64_t index = 0, cell = 0;
     State state = State::stood;
     double frequency_hz = 0, pga_m_s2 = 0;
+    std::string motion; ///< of a study of motions: "motion pulse_3 at PGV 0.8 m/s"; else ""
     std::uint64_t samples = 0;
     std::vector<double> fall_time_s;                               ///< (blocks) -1: never
     double azimuth_rad = std::numeric_limits<double>::quiet_NaN(); ///< of the fall, in space; NaN: there is none

@@ -24,6 +24,36 @@ std::string cells(const HtmlTable& table, const std::vector<Html>& row, const ch
     return out + "</tr>\n";
 }
 
+bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/// "1.2 to 3.4 %" with blanks at which no line breaks, anywhere in a text.
+std::string unbroken_intervals(std::string_view text)
+{
+    constexpr std::string_view to = " to ", blank = "&nbsp;", endless = "∞";
+    std::string out;
+    for (std::size_t at = text.find(to); at != std::string_view::npos; at = text.find(to)) {
+        const std::string_view before = text.substr(0, at), after = text.substr(at + to.size());
+        const std::size_t sign = after.starts_with('-') || after.starts_with('+') ? 1 : 0;
+        const bool number = (sign < after.size() && is_digit(after[sign])) || after.substr(sign).starts_with(endless);
+        if (number && at > 0 && (is_digit(before.back()) || before.ends_with(endless))) {
+            out += fmt::format("{0}{1}to{1}", before, blank);
+            const std::size_t end = std::min(after.find_first_not_of("0123456789.e+-∞"), after.size());
+            text = after;
+            if (text.substr(end).starts_with(" %")) {
+                out += fmt::format("{}{}%", text.substr(0, end), blank);
+                text.remove_prefix(end + 2);
+            }
+        } else {
+            out += fmt::format("{}{}", before, to);
+            text = after;
+        }
+    }
+    return out + std::string(text);
+}
+
 } // namespace
 
 std::string html_escaped(std::string_view text)
@@ -60,7 +90,7 @@ Html tag(std::string_view tone, std::string_view text)
     return Html::ready(fmt::format("<span class=\"tag {}\">{}</span>", tone, html_escaped(text)));
 }
 
-Html::Html(std::string_view text) : markup(html_escaped(text)) {}
+Html::Html(std::string_view text) : markup(unbroken_intervals(html_escaped(text))) {}
 
 Html Html::ready(std::string markup)
 {
@@ -235,8 +265,8 @@ Html svg_image(const std::filesystem::path& svg, std::string_view alternative)
     const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (!in || bytes.empty())
         throw InputError(svg.string(), 0, "cannot be read");
-    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/svg+xml;base64," + base64(bytes) +
-                       "\">");
+    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/svg+xml;base64," +
+                       base64(bytes) + "\">");
 }
 
 } // namespace stylobate

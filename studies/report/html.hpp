@@ -12,7 +12,7 @@
 namespace stylobate {
 
 /// Ready markup. A text that is given where `Html` is wanted is escaped, so that no name of a file or a specimen can
-/// be taken for markup.
+/// be taken for markup; and no line breaks inside "1.2 to 3.4 %".
 struct Html {
     Html() = default;
     Html(std::string_view text);

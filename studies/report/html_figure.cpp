@@ -47,6 +47,7 @@ std::string figure_json(const Figure& figure, const FigurePanel& panel)
                                      : s.kind == SeriesKind::bars ? "bars"
                                                                   : "values")
                      .member("colour", panel.colour_number(i))
+                     .member("shown", s.shown)
                      .member("x", values(s.x))
                      .member("y", values(s.kind == SeriesKind::band ? std::vector<double>{} : s.y))
                      .member("low", values(s.low))

@@ -18,6 +18,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -70,6 +72,16 @@ Choice choose_by_cells(const std::vector<ResultRow>& trials, std::size_t cells, 
     return choice;
 }
 
+/// A motion at an intensity under which some structures fell and some did not; nullopt: there is none.
+std::optional<std::uint64_t> first_mixed_cell(const std::vector<ResultRow>& trials)
+{
+    std::map<std::uint64_t, Fates> cells;
+    for (const ResultRow& row : trials)
+        cells[row.cell].add(row, 1);
+    const auto found = std::ranges::find_if(cells, [](const auto& cell) { return cell.second.mixed(); });
+    return found == cells.end() ? std::nullopt : std::optional(found->first);
+}
+
 Choice choose(const Results& results, std::uint64_t each)
 {
     const ResultHeader& header = results.header();
@@ -88,9 +100,11 @@ Choice choose(const Results& results, std::uint64_t each)
                 choice.indices.push_back(index);
         return choice;
     }
+    const std::optional<std::uint64_t> cell = header.motions.names.empty() ? std::nullopt : first_mixed_cell(trials);
     Fates all;
     for (const ResultRow& row : trials)
-        all.add(row, each);
+        if (!cell || row.cell == *cell)
+            all.add(row, each);
     choice.indices = all.fell;
     choice.indices.insert(choice.indices.end(), all.stood.begin(), all.stood.end());
     return choice;
@@ -141,6 +155,7 @@ private:
         animation.state = row.outcome.state;
         animation.frequency_hz = row.frequency_hz;
         animation.pga_m_s2 = row.pga_m_s2;
+        animation.motion = motion_words(results_, row).value_or("");
         animation.fall_time_s = row.outcome.fall_time_s;
         if (results_.study().structure.spatial())
             animation.azimuth_rad = row.outcome.fall_azimuth_rad;
@@ -307,6 +322,8 @@ std::string animations_json(const KeptAnimations& kept, const Study& study)
             .member_as_is("pga_m_s2", fmt::format("{:.6g}", animation.pga_m_s2))
             .member("samples", animation.samples)
             .member("falls", falls);
+        if (!animation.motion.empty())
+            one.member("motion", animation.motion);
         if (std::isfinite(animation.azimuth_rad))
             one.member_as_is("azimuth_rad", fmt::format("{:.6g}", animation.azimuth_rad));
         list.item(one.member("data", animation.data));

@@ -283,8 +283,10 @@ std::string motion_page(const TracedMotion& motion, const Results& results, std:
     animation.pga_m_s2 = motion.pga_m_s2;
     animation.fall_time_s = motion.fall_time_s;
     animation.azimuth_rad = motion.azimuth_rad;
+    if (results.reader().has(index))
+        animation.motion = motion_words(results, results.reader().row(index)).value_or("");
     kept.list.push_back(std::move(animation));
-    HtmlPage page(title.value_or(fmt::format("{}, realization {}", results.title(), index)),
+    HtmlPage page(title.value_or(realization_title(results, index)),
                   fmt::format("Computed by stylobate {}.", results.header().code_version));
     page.data("animations", animations_json(kept, results.study()));
     page.player();

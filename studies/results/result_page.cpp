@@ -14,7 +14,9 @@
 #include "studies/report/words.hpp"
 #include "studies/results/cells_data.hpp"
 #include "studies/results/fall_rose.hpp"
+#include "studies/results/quantile_table.hpp"
 #include "studies/results/result_picture.hpp"
+#include "studies/results/structure_sketch.hpp"
 #include "studies/results/study_facts.hpp"
 
 #include <fmt/format.h>
@@ -31,53 +33,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of sorted values, linear between them; NaN of none.
-double quantile(const std::vector<double>& sorted, double share)
-{
-    if (sorted.empty())
-        return std::numeric_limits<double>::quiet_NaN();
-    return sorted_quantile(sorted, share, QuantileDefinition::linear);
-}
-
 std::string interval_text(const Share& share)
 {
     if (std::isnan(share.lower))
         return "–";
     return fmt::format("{:.1f} to {:.1f} %", 100 * share.lower, 100 * share.upper);
-}
-
-std::string number(double value)
-{
-    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
-}
-
-/// A realization's value, and what it is.
-struct Measure {
-    const char* name;
-    const char* unit;
-    double Outcome::*value;
-};
-
-/// 5 %, median, 95 % and the greatest of each measure.
-HtmlTable quantiles(const std::vector<const ResultRow*>& rows, const std::vector<Measure>& measures)
-{
-    HtmlTable table{"lrrrr", {"", "5 %", "median", "95 %", "greatest"}, {}, ""};
-    if (rows.size() == 1)
-        table = {"lr", {"", "value"}, {}, ""};
-    for (const Measure& measure : measures) {
-        std::vector<double> values;
-        for (const ResultRow* row : rows)
-            values.push_back(row->outcome.*measure.value);
-        std::sort(values.begin(), values.end());
-        std::vector<Html> line = {fmt::format("{} [{}]", measure.name, measure.unit)};
-        if (rows.size() == 1)
-            line.emplace_back(number(values[0]));
-        else
-            for (const double share : {0.05, 0.5, 0.95, 1.0})
-                line.emplace_back(number(quantile(values, share)));
-        table.rows.push_back(std::move(line));
-    }
-    return table;
 }
 
 class ResultPage {
@@ -109,16 +69,18 @@ public:
     HtmlPage page()
     {
         if (surface_) {
-            page_.answer(answer());
+            page_.answer(overall());
             depends();
             kind_.map(writer_);
             answers();
             page_.contents();
         }
         page_.section("Summary");
+        const std::optional<Answer> answer = kind_.answer();
+        if (answer)
+            page_.box("answer", answer->sentence, answer->more);
         if (!kind_.summary(writer_))
-            summary();
-        page_.paragraph("Conventions: " + conventions_text(study_) + ".");
+            summary(answer.has_value() || surface_);
         if (!surface_)
             depends();
         studied();
@@ -164,10 +126,8 @@ private:
     }
 
     /// How many collapsed, with the interval.
-    Html answer() const
+    Html overall() const
     {
-        if (rows_.size() == 1)
-            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         const Share collapsed = counts_.share(LimitState::collapse);
         const std::optional<std::string> of = counted_words(study_);
         Html text = fmt::format("{} of {} valid realizations{}{} collapsed: ", collapsed.count, collapsed.trials,
@@ -176,12 +136,10 @@ private:
                                                        header_.pga_m_s2.size(), header_.row_quantity().name)
                                          : "");
         text += unbroken(percent_text(collapsed.probability));
-        text += " (" + describe_interval(counts_.interval());
-        if (!std::isnan(collapsed.lower)) {
-            text += " ";
-            text += unbroken(interval_text(collapsed));
-        }
-        text += ").";
+        text += " (";
+        if (!std::isnan(collapsed.lower))
+            text += unbroken(interval_text(collapsed) + "; ");
+        text += describe_interval(counts_.interval()) + ").";
         return text;
     }
 
@@ -194,23 +152,39 @@ private:
         add_left_out(page_, study_.structure.dimensions);
     }
 
-    void summary()
+    /// The share that fell. @param answered whether the page has opened with an answer
+    void summary(bool answered)
     {
         const Share collapsed = counts_.share(LimitState::collapse);
-        Html text = answer();
+        const bool one = rows_.size() == 1, known = !std::isnan(collapsed.lower);
+        std::string sentence;
+        Html text;
+        if (one) {
+            sentence = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        } else {
+            sentence = fmt::format("{} of the realizations collapsed ({}).",
+                                   known ? interval_text(collapsed) : percent_text(collapsed.probability),
+                                   known ? "95 % interval" : describe_interval(counts_.interval()));
+            text = overall();
+        }
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
                     "probability of each cell is given below.";
+        else if (!header_.motions.names.empty())
+            text += " This share is of all intensities together and depends on their choice.";
         if (header_.selected)
             text += " It also depends on the number of realizations in each cell, which is larger where the "
                     "probability is near 1/2.";
         if (collapsed.count > 0)
-            text += fmt::format(" Median time of the first fall: {:.3g} s.", counts_.median_collapse_time_s());
+            text += fmt::format("{} {:.3g} s.", one ? " Its first block fell at" : " Median time of the first fall:",
+                                counts_.median_collapse_time_s());
         if (const std::optional<std::string> moving = counts_.moving_text())
-            text += " " + (rows_.size() == 1 ? std::string("It still moved at the end: its residual displacements are "
-                                                           "not known.")
-                                             : *moving);
-        page_.paragraph(text);
+            text += " " + (one ? std::string("It still moved at the end: its residual displacements are not known.")
+                               : *moving);
+        if (answered)
+            page_.paragraph(text);
+        else
+            page_.box("answer", sentence, text);
         if (!invalid_.empty()) {
             std::string list;
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
@@ -226,12 +200,13 @@ private:
         page_.section("The study");
         const bool replayed = header_.kind == "replay" && rows_.size() == 1;
         const auto facts = study_facts(study_, replayed ? &rows_.front() : nullptr, header_.input_names);
-        page_.details("Settings: structure, contact, excitation, and what is drawn at random", [&] {
-            page_.facts({facts.begin(), facts.end()});
-        });
         for (const std::string& warning : header_.warnings)
             page_.box("warn", "Doubtful", warning);
-        page_.figure(structure_svg(study_), "The structure at rest, to scale; fixed blocks are darker.");
+        page_.figure(structure_sketch(study_), sketch_caption(study_));
+        page_.details("Settings of the study", [&] {
+            page_.facts({facts.begin(), facts.end()});
+            page_.paragraph("Conventions: " + conventions_text(study_) + ".");
+        });
     }
 
     void outcomes()
@@ -279,13 +254,28 @@ private:
             page_.player();
         if (animations_.words)
             page_.note(*animations_.words);
-        const std::size_t shown = std::min<std::size_t>(first_shown, rows_.size());
-        for (std::size_t i = 0; i < shown; ++i)
-            motion(rows_[i]);
-        if (shown < rows_.size())
-            page_.note(fmt::format("The first {} of {} realizations. Any other: stylobate export {} --to png --picture "
-                                   "strip --realization I.",
-                                   shown, rows_.size(), results_.file()));
+        const std::vector<const ResultRow*> shown = shown_realizations();
+        for (const ResultRow* row : shown)
+            motion(*row);
+        if (shown.size() < rows_.size())
+            page_.note(fmt::format("{} of {} realizations. Any other: stylobate export {} --to png --picture strip "
+                                   "--realization I.",
+                                   shown.size(), rows_.size(), results_.file()));
+    }
+
+    /// Of motions those that the player has, since the first ones are those of the weakest shaking; else the first
+    /// ones.
+    std::vector<const ResultRow*> shown_realizations() const
+    {
+        std::vector<const ResultRow*> shown;
+        for (const ResultRow& row : rows_) {
+            const bool kept =
+                header_.motions.names.empty() || animations_.list.empty() ||
+                std::ranges::find(animations_.list, row.index, &Animation::index) != animations_.list.end();
+            if (kept && shown.size() < first_shown)
+                shown.push_back(&row);
+        }
+        return shown;
     }
 
     void order()
@@ -311,7 +301,8 @@ private:
             share.upper = block.upper;
             table.rows.push_back({block.name, fmt::format("{} of {}", share.count, share.trials),
                                   percent_text(share.probability), interval_text(share),
-                                  number(quantile(block.fall_time_s, 0.5)), fmt::format("{}", block.first)});
+                                  number_or_dash(quantile_or_nan(block.fall_time_s, 0.5)),
+                                  fmt::format("{}", block.first)});
         }
         page_.table(table);
         together();
@@ -368,17 +359,18 @@ private:
         std::ranges::copy_if(upright, std::back_inserter(resting),
                              [](const ResultRow* row) { return row->outcome.at_rest != 0; });
         page_.section("Displacements");
-        page_.table(quantiles(upright, {{"largest displacement of the centre of the top block, from upright", "m",
-                                         &Outcome::peak_top_displacement_m},
-                                        {"sliding of all joints", "m", &Outcome::total_sliding_m},
-                                        {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
-                                        {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
+        page_.table(
+            quantile_table(upright, {{"largest displacement of the centre of the top block, from upright", "m",
+                                      &Outcome::peak_top_displacement_m},
+                                     {"sliding of all joints", "m", &Outcome::total_sliding_m},
+                                     {"rocking of all joints", "rad", &Outcome::total_rocking_rad},
+                                     {"largest rotation of a joint", "rad", &Outcome::max_relative_rotation_rad}}));
         if (!resting.empty())
-            page_.table(quantiles(resting, {{"residual displacement of the centre of the top block, with its sign", "m",
-                                             &Outcome::residual_top_displacement_m},
-                                            {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
-                                            {"largest residual dislocation of a joint, over its width", "",
-                                             &Outcome::residual_dislocation}}));
+            page_.table(quantile_table(resting, {{"residual displacement of the centre of the top block, with its sign",
+                                                  "m", &Outcome::residual_top_displacement_m},
+                                                 {"residual sliding of all joints", "m", &Outcome::residual_sliding_m},
+                                                 {"largest residual dislocation of a joint, over its width", "",
+                                                  &Outcome::residual_dislocation}}));
         if (rows_.size() == 1)
             return;
         page_.note(fmt::format("Over the {} without a fall{}; residuals over the {} of them that "
@@ -396,12 +388,12 @@ private:
         if (valid_.empty())
             return;
         page_.section("Energy audit");
-        page_.table(quantiles(valid_, {{"work of the base", "J", &Outcome::energy_base_work_j},
-                                       {"kinetic, at the end", "J", &Outcome::energy_kinetic_j},
-                                       {"potential, relative to the start", "J", &Outcome::energy_potential_j},
-                                       {"contact springs, relative to the start", "J", &Outcome::energy_spring_j},
-                                       {"dissipated by friction", "J", &Outcome::energy_friction_j},
-                                       {"dissipated by damping", "J", &Outcome::energy_damping_j}}));
+        page_.table(quantile_table(valid_, {{"work of the base", "J", &Outcome::energy_base_work_j},
+                                            {"kinetic, at the end", "J", &Outcome::energy_kinetic_j},
+                                            {"potential, relative to the start", "J", &Outcome::energy_potential_j},
+                                            {"contact springs, relative to the start", "J", &Outcome::energy_spring_j},
+                                            {"dissipated by friction", "J", &Outcome::energy_friction_j},
+                                            {"dissipated by damping", "J", &Outcome::energy_damping_j}}));
         const auto worst = std::max_element(valid_.begin(), valid_.end(), [](const ResultRow* a, const ResultRow* b) {
             return std::abs(a->outcome.energy_residual) < std::abs(b->outcome.energy_residual);
         });
@@ -433,8 +425,7 @@ private:
                                    "realization, bitwise identical\n",
                                    name);
         page_.block(commands);
-        page_.heading("The study with all defaults");
-        page_.block(header_.study_toml);
+        page_.details("The study with all defaults", [&] { page_.block(header_.study_toml); });
     }
 
     /// Without its record a realization cannot be run again: the page states this and has all other parts.
@@ -442,12 +433,14 @@ private:
     {
         try {
             const TracedMotion f = traced_motion(results_, isa_, row.index);
-            picture(fmt::format("Realization {}: {}.", row.index, to_string(row.outcome.state)),
+            const std::string shaking = shaking_words(results_, row);
+            const std::string which =
+                fmt::format("Realization {}{}{}", row.index, shaking.empty() ? "" : ", ", shaking);
+            picture(fmt::format("{}: {}.", which, to_string(row.outcome.state)),
                     [&](const fs::path& png) { strip_picture(results_, f, std::nullopt, png); });
             for (const Figure& figure : history_figures(results_, f))
                 page_.figure(figure_svg(figure, 220),
-                             fmt::format("Realization {}: displacement of the base, and of blocks against the base.",
-                                         row.index));
+                             which + ": displacement of the base, and of blocks against the base.");
         } catch (const InputError& error) {
             missing(fmt::format("Realization {}.", row.index), error);
         }

@@ -1,10 +1,12 @@
 #include "studies/results/result_picture.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/model/motion_set.hpp"
 #include "ensemble/model/structure.hpp"
 #include "io/plots/plot_strip.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/trajectory.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
 
@@ -16,19 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string strip_title(const Results& results, std::uint64_t index)
+std::string strip_title(const Results& results, const TracedMotion& motion)
 {
-    std::string title = fmt::format("{}, realization {}", results.title(), index);
-    if (results.reader().has(index)) {
-        const ResultRow row = results.reader().row(index);
-        if (row.frequency_hz > 0)
-            title += fmt::format(": {:.3g} Hz, {:.3g} m/s²", row.frequency_hz, row.pga_m_s2);
-        const ResultHeader& header = results.header();
-        if (!header.direction_deg.empty())
-            title += fmt::format(", {:.3g}°", header.direction_deg[row.cell / header.pga_m_s2.size()]);
-        title += fmt::format(", {}", to_string(row.outcome.state));
-    }
-    return title;
+    const std::uint64_t index = motion.trajectory.index;
+    std::string title = realization_title(results, index);
+    return title + (results.reader().has(index) ? fmt::format(", {}", to_string(motion.state)) : "");
 }
 
 /// The blocks whose histories are drawn: all that can move, or the tops where these are too many.
@@ -49,6 +43,46 @@ std::vector<std::size_t> told_blocks(const std::vector<PlacedBlock>& blocks)
 }
 
 } // namespace
+
+std::optional<std::string> motion_words(const Results& results, const ResultRow& row)
+{
+    const StudyDesign design = results.study().design();
+    const std::vector<std::string>& names = results.header().motions.names;
+    const std::uint64_t motion = row.cell / design.columns;
+    if (!design.motions || motion >= names.size())
+        return std::nullopt;
+    const MotionSetSpec& set = *design.motions;
+    if (set.method == FragilityMethod::cloud)
+        return fmt::format("motion {} at PGA {:.3g} m/s²", names[motion], row.pga_m_s2);
+    const std::string measure = measure_name(set.measure, set.period_s);
+    const std::string unit = measure_unit(measure);
+    return fmt::format("motion {} at {} {:.3g} {}", names[motion], short_measure(measure),
+                       set.intensity.value(static_cast<int>(row.cell % design.columns)),
+                       unit == "m/s2" ? "m/s²" : unit);
+}
+
+std::string shaking_words(const Results& results, const ResultRow& row)
+{
+    if (const std::optional<std::string> motion = motion_words(results, row))
+        return *motion;
+    const ResultHeader& header = results.header();
+    std::string words;
+    if (row.frequency_hz > 0)
+        words = fmt::format("{:.3g} Hz, {:.3g} m/s²", row.frequency_hz, row.pga_m_s2);
+    if (!header.direction_deg.empty())
+        words += fmt::format("{}{:.3g}°", words.empty() ? "" : ", ",
+                             header.direction_deg[row.cell / header.pga_m_s2.size()]);
+    return words;
+}
+
+std::string realization_title(const Results& results, std::uint64_t index)
+{
+    std::string title = fmt::format("{}, realization {}", results.title(), index);
+    if (!results.reader().has(index))
+        return title;
+    const std::string shaking = shaking_words(results, results.reader().row(index));
+    return shaking.empty() ? title : title + ": " + shaking;
+}
 
 bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block)
 {
@@ -112,7 +146,7 @@ void strip_picture(const Results& results, const TracedMotion& motion, const std
                    const fs::path& file)
 {
     const Trajectory& t = motion.trajectory;
-    plot_strip(t, motion.fall_time_s, title.value_or(strip_title(results, t.index)), file);
+    plot_strip(t, motion.fall_time_s, title.value_or(strip_title(results, motion)), file);
 }
 
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,

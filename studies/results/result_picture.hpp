@@ -31,6 +31,14 @@ struct TracedMotion {
 /// @throws InputError if there is no such realization, or if none can be run again
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index);
 
+/// Of a study of motions, under which one a realization was: "motion pulse_3 at PGV 0.8 m/s"; of others nothing.
+std::optional<std::string> motion_words(const Results& results, const ResultRow& row);
+/// The shaking of a realization: `motion_words`, or "2.5 Hz, 4 m/s²", with the direction where there are several; ""
+/// where there is no frequency.
+std::string shaking_words(const Results& results, const ResultRow& row);
+/// "column, realization 7: motion pulse_3 at PGV 0.8 m/s".
+std::string realization_title(const Results& results, std::uint64_t index);
+
 /// Whether no block of its column is above a block; an epistyle is one.
 bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block);
 

@@ -6,6 +6,7 @@
 #include "ensemble/model/structure.hpp"
 #include "io/files/suggest.hpp"
 #include "io/keys/words.hpp"
+#include "studies/kinds/fragility/fragility.hpp"
 
 #include <fmt/format.h>
 
@@ -113,6 +114,12 @@ const char* excitation_name(ExcitationKind kind)
     return "";
 }
 
+/// "peak ground velocity [m/s]"
+std::string measure_words(const MotionSetSpec& motions)
+{
+    return describe_measure(measure_name(motions.measure, motions.period_s));
+}
+
 /// @param one of all realizations; null: all of them
 std::string excitation_text(const Study& study, const ResultRow* one)
 {
@@ -123,7 +130,7 @@ std::string excitation_text(const Study& study, const ResultRow* one)
         const std::uint64_t stripes = design.columns;
         text += fmt::format(": motion {} (counted from 0) of {}", one->cell / stripes, f->motions);
         if (f->method == FragilityMethod::stripes)
-            text += fmt::format(", {} {:.4g}", measure_name(f->measure, f->period_s),
+            text += fmt::format(", {} {:.4g}", measure_words(*f),
                                 f->intensity.value(static_cast<int>(one->cell % stripes)));
         return text;
     } else if (f) {
@@ -132,7 +139,7 @@ std::string excitation_text(const Study& study, const ResultRow* one)
             text += fmt::format(" about {:.4g} Hz", e.frequency_hz);
         return text + (f->method == FragilityMethod::cloud
                            ? fmt::format(", each scaled by {:.4g}", f->scale)
-                           : "; " + measure_name(f->measure, f->period_s) + ": " + axis_text(f->intensity, ""));
+                           : "; " + measure_words(*f) + ": " + axis_text(f->intensity, ""));
     }
     if (e.kind == ExcitationKind::record || e.kind == ExcitationKind::table)
         text += " " + e.file + (e.component ? ", component " + *e.component : "");
@@ -195,34 +202,6 @@ std::vector<std::pair<std::string, std::string>> study_facts(const Study& study,
     if (!chosen.empty())
         facts.emplace_back("Chosen by run.accuracy", chosen);
     return facts;
-}
-
-Html structure_svg(const Study& study)
-{
-    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
-    double left = std::numeric_limits<double>::infinity(), right = -left, top = 0;
-    for (const PlacedBlock& block : blocks) {
-        left = std::min(left, block.left());
-        right = std::max(right, block.right());
-        top = std::max(top, block.top());
-    }
-    constexpr double most_width = 420, most_height = 220, margin = 24, floor = 12;
-    const double scale = std::min(most_width / (right - left), most_height / top);
-    const double width = (right - left) * scale + 2 * margin, height = top * scale + floor + 4;
-    std::string svg =
-        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-                    "width=\"{0:.0f}\" role=\"img\" aria-label=\"the structure at rest\">\n"
-                    "<rect x=\"0\" y=\"{2:.1f}\" width=\"{0:.0f}\" height=\"{3:.1f}\" fill=\"#b5bfc9\"/>\n",
-                    width, height, height - floor, floor);
-    for (const PlacedBlock& block : blocks)
-        svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" "
-                           "stroke=\"#5a6672\"/>\n",
-                           margin + (block.left() - left) * scale, height - floor - block.top() * scale,
-                           block.width_m * scale, block.height_m * scale,
-                           block.fixed                         ? "#a9a08c"
-                           : block.role == BlockRole::epistyle ? "#c3d3e0"
-                                                               : "#e9e2d0");
-    return Html::ready(svg + "</svg>");
 }
 
 } // namespace stylobate

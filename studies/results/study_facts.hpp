@@ -3,7 +3,6 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/store/result_store.hpp"
-#include "studies/report/html.hpp"
 
 #include <string>
 #include <utility>
@@ -17,8 +16,5 @@ namespace stylobate {
 /// @param inputs names of the row's inputs
 std::vector<std::pair<std::string, std::string>> study_facts(const Study& study, const ResultRow* one = nullptr,
                                                              const std::vector<std::string>& inputs = {});
-
-/// The structure at rest, to scale (SVG); fixed blocks are darker.
-Html structure_svg(const Study& study);
 
 } // namespace stylobate

@@ -91,12 +91,160 @@ class Fragility(Page):
                 p = float(re.search(r"p = ([-\d.e]+)", entry).group(1))
                 self.assertAlmostEqual(p, state["lack_of_fit_p"], delta=0.06 * state["lack_of_fit_p"])
                 self.assertEqual("does not fit" in entry, state["lack_of_fit_p"] < 0.05)
+        # one limit state at first, the collapse; the legend switches the others on
+        pressed = """[...document.querySelectorAll("svg .key")].filter((key) => key.getAttribute("aria-pressed") === "true")
+            .map((key) => key.textContent.trim())"""
+        collapse = next(s for s in self.states if s["name"] == "collapse")["limit_state"]
+        self.assertEqual([text.startswith(collapse) for text in self.browser.js(pressed)], [True])
         shown = """[...document.querySelectorAll("[data-series]")].filter((g) => g.style.display !== "none").length"""
+        one = self.browser.js(shown)
+        self.browser.click("svg .key:nth-of-type(2)")
+        self.assertEqual(len(self.browser.js(pressed)), 2)
+        self.assertGreater(self.browser.js(shown), one)
         all_of = self.browser.js(shown)
         self.browser.click(".controls button")  # the fitted curves
         self.assertLess(self.browser.js(shown), all_of)
         self.browser.click(".controls button")
         self.assertEqual(self.browser.js(shown), all_of)
+
+
+class EveryKind(Page):
+    """What holds on the page of every kind of result."""
+
+    @classmethod
+    def make(cls):
+        fragility = settings(fragility__motions=9, study__realizations=2,
+                             fragility__intensity='{measure="pgv",from=0.4,to=4,count=4,spacing="log"}')
+        cells = settings(study__realizations=3, excitation__cycles=3, surface__frequency_hz="{from=1,to=3,count=2}",
+                         surface__pga_m_s2="{from=4,to=12,count=2}")
+        studies = Given.studies
+        stylobate("run", f"{studies}/free_rocking.toml", "-o", cls.at("single.h5"))
+        stylobate("run", f"{studies}/doric_column.toml", "-o", cls.at("surface.h5"), *cells)
+        stylobate("run", f"{studies}/doric_column.toml", "-o", cls.at("one_cell.h5"), *cells,
+                  *settings(surface__frequency_hz="{from=1,to=1,count=1}", surface__pga_m_s2="{from=9,to=9,count=1}"))
+        stylobate("run", f"{studies}/doric_column.toml", "-o", cls.at("counts.h5"), *cells,
+                  *settings(output__realizations='"none"'))
+        stylobate("run", f"{studies}/round_column.toml", "-o", cls.at("space.h5"), *cells)
+        stylobate("run", f"{studies}/monument_risk.toml", "-o", cls.at("fragility.h5"), *fragility)
+        stylobate("replay", cls.at("fragility.h5"), "--realization", 20, "-o", cls.at("replay.h5"))
+        stylobate("risk", cls.at("fragility.h5"), "--hazard", "k0=1e-3,k=3,measure=pgv,sigma_ln=0.5", "-o",
+                  cls.at("risk.h5"))
+        stylobate("run", f"{studies}/sensitivity_column.toml", "-o", cls.at("sensitivity.h5"),
+                  *settings(sensitivity__samples=8, excitation__cycles=4, excitation__ramp_cycles=1))
+        stylobate("run", f"{studies}/monument_past.toml", "-o", cls.at("survival.h5"),
+                  *settings(study__realizations=4, survival__events=1, surface__frequency_hz="{from=0.5,to=1.5,count=2}",
+                            surface__pga_m_s2="{from=2,to=20,count=4}"))
+        stylobate("compare", f"{studies}/strengthening_dowels.toml", "-o", cls.at("comparison.h5"), *cells)
+        cls.pages = ["single", "surface", "one_cell", "counts", "space", "fragility", "replay", "risk", "sensitivity",
+                     "survival", "comparison"]
+        for name in cls.pages:
+            stylobate("report", cls.at(f"{name}.h5"))
+
+    def each(self):
+        for name in self.pages:
+            with self.subTest(page=name):
+                self.open(f"{name}.html")
+                yield name
+                self.assertEqual(self.browser.errors, [])
+
+    def test_opens_with_the_answer_and_its_interval(self):
+        for name in self.each():
+            answer = self.browser.js('document.querySelector("h2 + .box strong, h2 + p ~ .box strong").textContent')
+            self.assertTrue(answer.strip(), name)
+            if name not in ("single", "replay", "survival"):  # one realization; a past that is perhaps not judged
+                self.assertRegex(answer, r"\d\s?\S* to \S*\d|without an interval|open|not determined")
+
+    def test_fits_a_narrow_screen(self):
+        self.browser.size(420, 900, phone=True)
+        try:
+            for _ in self.each():
+                self.assertLessEqual(self.browser.js("document.documentElement.scrollWidth"), 420)
+                self.assertEqual(self.browser.js("""(() => {
+                    const small = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+                    while (walk.nextNode()) {
+                        const of = walk.currentNode.parentElement;
+                        if (!walk.currentNode.textContent.trim() || !of.getClientRects().length) continue;
+                        if (of.closest("svg, script, noscript")) continue;
+                        if (parseFloat(getComputedStyle(of).fontSize) < 10.95) small.push(of.outerHTML.slice(0, 80));
+                    }
+                    return small;
+                })()"""), [])
+        finally:
+            self.browser.size(1200, 1600)
+
+    def test_no_line_breaks_inside_an_interval(self):
+        self.browser.size(420, 900, phone=True)
+        intervals = 0
+        try:
+            for _ in self.each():
+                found = self.browser.js("""(() => {
+                    const broken = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+                    let all = 0;
+                    while (walk.nextNode()) {
+                        const node = walk.currentNode;
+                        if (node.parentElement.closest("script, svg, pre, code")) continue;
+                        for (const one of node.textContent.matchAll(/[-+]?[\\d.]+\\sto\\s[-+]?[\\d.]+/g)) {
+                            const range = document.createRange();
+                            range.setStart(node, one.index);
+                            range.setEnd(node, one.index + one[0].length);
+                            const lines = new Set([...range.getClientRects()].map((box) => Math.round(box.top)));
+                            if (lines.size > 1) broken.push(one[0]);
+                            ++all;
+                        }
+                    }
+                    return [all, broken];
+                })()""")
+                intervals += found[0]
+                self.assertEqual(found[1], [])
+        finally:
+            self.browser.size(1200, 1600)
+        self.assertGreater(intervals, 30)
+
+    def test_settings_are_folded_and_printed(self):
+        for name in self.each():
+            if name != "risk":
+                self.assertEqual(self.browser.js('document.querySelectorAll("details[open]").length'), 0)
+            self.browser.js("""void addEventListener("beforeprint", () => {
+                window.folded = document.querySelectorAll("details:not([open])").length; })""")
+            self.browser.pdf(self.at("page.pdf"))
+            self.assertEqual(self.browser.js("window.folded"), 0)
+            self.assertEqual(self.browser.js('document.querySelectorAll("details[open]").length'), 0)
+
+    def test_the_structure_is_dark_where_the_page_is(self):
+        stone = 'getComputedStyle(document.querySelector(".sketch rect + rect, .sketch polygon")).fill'
+        brightness = lambda colour: sum(map(int, re.findall(r"\d+", colour)[:3]))  # noqa: E731
+        for name in self.each():
+            if name == "risk":
+                continue
+            light = brightness(self.browser.js(stone))
+            self.browser.look("dark")
+            dark = brightness(self.browser.js(stone))
+            self.browser.look("light")
+            self.assertLess(dark, light - 150)
+
+    def test_a_comparison_shows_what_differs(self):
+        self.open("comparison.html")
+        self.assertEqual(self.browser.js('document.querySelectorAll(".beside .sketches").length'), 4)
+        marks = self.browser.js('[...document.querySelectorAll(".marks-list")].map((e) => e.textContent.trim())')
+        self.assertEqual(len(marks), 3)  # the base has none
+        self.assertTrue(all(text.startswith("dowel (all 9 joints)") for text in marks), marks)
+        rows = self.browser.js("""[...[...document.querySelectorAll("caption")].find((c) => c.textContent.includes("keys"))
+            .parentElement.rows].map((row) => [...row.cells].map((cell) => cell.textContent))""")
+        self.assertEqual(rows[0][0], "key")
+        for row in rows[1:]:
+            self.assertGreater(len(set(row[1:])), 1, row)
+            self.assertTrue(row[0].startswith("mechanisms."), row)
+        gap = next(row for row in rows if row[0] == "mechanisms.dowel.gap_m")
+        self.assertEqual(dict(zip(rows[0], gap)), {"key": "mechanisms.dowel.gap_m", "strengthening_dowels": "–",
+                                                   "bonded_dowels": "0", "dowels": "0.001", "loose_dowels": "0.02"})
+
+    def test_realizations_of_a_fragility_study_have_their_motion(self):
+        self.open("fragility.html")
+        self.assertRegex(self.browser.js('document.querySelector(".player .which").textContent'),
+                         r"Realization \d+, motion \S+ at PGV [\d.]+ m/s: ")
+        self.open("replay.html")
+        self.assertRegex(self.browser.js('document.querySelector("figcaption + *, figcaption").closest("main").textContent'),
+                         r"Realization 20, motion \S+ at PGV [\d.]+ m/s")
 
 
 if __name__ == "__main__":

@@ -192,6 +192,16 @@ inline std::string read_bytes(const fs::path& file)
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+/// A page, with ordinary blanks inside its intervals: no line breaks there.
+inline std::string read_page(const fs::path& file)
+{
+    std::string page = read_bytes(file);
+    for (const auto& [unbroken, plain] : {std::pair("&nbsp;to&nbsp;", " to "), {"&nbsp;%", " %"}})
+        for (std::size_t at = page.find(unbroken); at != std::string::npos; at = page.find(unbroken, at))
+            page.replace(at, std::string_view(unbroken).size(), plain);
+    return page;
+}
+
 inline void write_bytes(const fs::path& file, std::string_view content)
 {
     std::ofstream out(file, std::ios::binary);

@@ -333,9 +333,17 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg"}).status, 0);
     EXPECT_NE(read_bytes(folder / "col_comparison_collapse.svg").find("<text>worse</text>"), std::string::npos);
     EXPECT_EQ(run(Words{"report", "col_comparison.h5"}).status, 0);
-    const std::string page = read_bytes(folder / "col_comparison.html");
+    const std::string page = read_page(folder / "col_comparison.html");
     for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/svg+xml"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
+    // base and variants side by side, and only the keys that differ; the full texts are folded
+    EXPECT_EQ(count_of(page, "<div class=\"sketches\">"), 3U);
+    std::string keys = page.substr(page.find("The keys in which the studies differ"));
+    keys = keys.substr(0, keys.find("</table>"));
+    EXPECT_NE(keys.find("<code>contact.friction</code>"), std::string::npos) << keys;
+    EXPECT_EQ(keys.find("study.seed"), std::string::npos) << keys;
+    EXPECT_EQ(keys.find("structure.depth_m"), std::string::npos) << keys;
+    EXPECT_EQ(count_of(page, "<summary>The study of "), 3U);
     EXPECT_EQ(count_of(page, left_out_text(2)), 1U);
     EXPECT_NE(run(Words{"info", "col_comparison.h5"}).out.find(left_out_text(2) + "\n"), std::string::npos);
     expect_refused(Words{"export", "col_comparison.h5", "--to", "png", "--limit", "peak"}, {"it has collapse"});

@@ -138,8 +138,29 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     EXPECT_EQ(no_state.status, 2);
     EXPECT_NE(no_state.err.find("peak_0.15"), std::string::npos) << no_state.err;
     EXPECT_EQ(run(std::vector<std::string>{"report", "f.h5", "-o", "f.html"}).status, 0);
-    const std::string page = bytes("f.html");
+    const std::string page = read_page(folder / "f.html");
     const std::string summary = page.substr(page.find(">1&ensp;Summary"), 1000);
+    // the answer first, with its interval
+    const std::size_t answer = summary.find("<div class=\"box answer\"><strong>At PGV ");
+    EXPECT_NE(answer, std::string::npos) << summary;
+    EXPECT_NE(summary.find("half of the structures fall", answer), std::string::npos) << summary;
+    // each remark once, with the limit states that it concerns
+    std::string remarks = page.substr(page.find("Limits of the curves"));
+    remarks = remarks.substr(0, remarks.find("</ul>"));
+    EXPECT_GE(count_of(remarks, "<li>"), 1U) << remarks;
+    EXPECT_EQ(count_of(remarks, "<li>"), count_of(remarks, " This concerns ")) << remarks;
+    EXPECT_LE(count_of(remarks, "fewer than 10, the coverage"), 1U) << remarks;
+    EXPECT_LE(count_of(remarks, "stand and still moved at the end"), 1U) << remarks;
+    // one limit state is shown at first: the collapse
+    EXPECT_NE(page.find("\"name\": \"a block falls"), std::string::npos);
+    EXPECT_NE(page.find("\"shown\": false"), std::string::npos);
+    const std::size_t shown = page.find("\"shown\": true");
+    ASSERT_NE(shown, std::string::npos);
+    EXPECT_NE(page.rfind("\"name\": \"a block falls", shown), std::string::npos);
+    EXPECT_LT(shown, page.find("\"shown\": false"));
+    // realizations are known by their motion
+    EXPECT_NE(page.find(" at PGV "), std::string::npos);
+    EXPECT_NE(page.find("\"motion\": \"motion "), std::string::npos);
     EXPECT_NE(summary.find("95 % interval, clustered by motion"), std::string::npos) << summary;
     EXPECT_EQ(page.find("Jeffreys"), std::string::npos) << "an interval as if runs of one motion were independent";
     for (const char* words : {"Variance components", "Intensity measures ranked", "clustered by motion"})

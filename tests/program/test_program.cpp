@@ -152,7 +152,7 @@ TEST_F(Verbs, SummariesHaveTheConventions)
     of_study.front() = "info";
     EXPECT_NE(run(of_study).out.find("  Conventions: " + line + "\n"), std::string::npos);
     ASSERT_EQ(run(Words{"report", "eight.h5", "-o", "eight.html"}).status, 0);
-    EXPECT_NE(read_bytes(folder / "eight.html").find("Conventions: " + line + "."), std::string::npos);
+    EXPECT_NE(read_page(folder / "eight.html").find("Conventions: " + line + "."), std::string::npos);
 }
 
 TEST_F(Verbs, RunNamesItsResultsAfterTheStudyAndSpeaksPlainWords)

@@ -16,7 +16,7 @@ protected:
         const Ended ended = run(arguments);
         EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
     }
-    std::string page(const std::string& name) const { return read_bytes(folder / name); }
+    std::string page(const std::string& name) const { return read_page(folder / name); }
     /// Has them, in this order.
     static void expect_has(const std::string& page, const Words& parts)
     {
@@ -69,8 +69,8 @@ TEST_F(Report, OfASingleRealizationAndOfAReplay)
     expect_has(html, {"Kind of study: replay", "Realization 7 ", "8 Hz, PGA 16 m/s²", "Drawn in this realization",
                       "Motion", "--realization 7 -o seven.h5"});
     // not the axes of the surface that it is from
-    const std::string facts = html.substr(html.find("The study</h2>"), html.find("The structure at rest"));
-    EXPECT_EQ(facts.substr(0, facts.find("<figure>")).find("2 from"), std::string::npos) << facts;
+    const std::string facts = html.substr(html.find("Settings of the study"));
+    EXPECT_EQ(facts.substr(0, facts.find("</details>")).find("2 from"), std::string::npos) << facts;
 }
 
 TEST_F(Report, OfADiagnosis)

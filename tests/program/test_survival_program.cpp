@@ -214,7 +214,7 @@ TEST_F(SurvivalProgram, AHazardCurveInAFileIsItsPoints)
     const Ended level = run(words(with(base, {"survival.hazard={file=\"level.csv\",sigma_ln=1}"}), "level.h5", "2"));
     ASSERT_EQ(level.status, 0) << testing::PrintToString(level);
     ASSERT_EQ(run({"report", "level.h5"}).status, 0);
-    EXPECT_NE(bytes("level.html").find("outside of the points of the hazard curve, 0.5 to 1.2 m/s2"),
+    EXPECT_NE(read_page(folder / "level.html").find("outside of the points of the hazard curve, 0.5 to 1.2 m/s2"),
               std::string::npos);
     std::ofstream(folder / "pgv.csv") << "pgv_m_s,annual_frequency\n1,0.1\n2,0.0125\n";
     expect_refused(words(with(base, {"survival.hazard={file=\"pgv.csv\",sigma_ln=1}"}), "none.h5", "1"),

@@ -245,7 +245,7 @@ double upper_limit(const Counted& records, double level)
         reached += times * record.second;
         number += times;
     }
-    if (!(reached < trials))
+    if (!(reached < trials * (1 - 1e-9))) // all of them, with the rounding of sums of weights
         return 1;
     const double tail = (1 - level) / 2;
     const auto above = [&](double share) {

@@ -4,9 +4,9 @@
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/model/motion_set.hpp"
-#include "io/files/toml_document.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/pairing.hpp"
+#include "studies/decisions/compare/study_difference.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -20,55 +20,6 @@
 namespace stylobate {
 
 namespace {
-
-/// A value in full, so that two are equal if their texts are.
-std::string text_of(const TomlValue& value)
-{
-    switch (value.type) {
-    case TomlValue::Type::boolean:
-        return value.boolean ? "true" : "false";
-    case TomlValue::Type::integer:
-        return fmt::format("{}", value.integer);
-    case TomlValue::Type::number:
-        return fmt::format("{}", value.number);
-    case TomlValue::Type::array: {
-        std::string list;
-        for (const TomlValue& entry : value.entries)
-            list += (list.empty() ? "" : ", ") + text_of(entry);
-        return "[" + list + "]";
-    }
-    case TomlValue::Type::table: {
-        std::string list;
-        for (const TomlValue& entry : value.entries)
-            list += (list.empty() ? "" : ", ") + entry.key + " = " + text_of(entry);
-        return "{ " + list + " }";
-    }
-    case TomlValue::Type::string:
-    case TomlValue::Type::date:
-        break;
-    }
-    return toml_quoted(value.text);
-}
-
-using Keys = std::map<std::string, std::string>;
-
-void flatten(const TomlValue& table, const std::string& above, Keys& keys)
-{
-    for (const TomlValue& value : table.entries) {
-        const std::string key = above.empty() ? value.key : above + "." + value.key;
-        if (value.type == TomlValue::Type::table)
-            flatten(value, key, keys);
-        else
-            keys[key] = text_of(value);
-    }
-}
-
-Keys keys_of(const ResultHeader& header, const std::string& name)
-{
-    Keys keys;
-    flatten(parse_toml(header.study_toml, name), "", keys);
-    return keys;
-}
 
 /// Keys, or beginnings of keys (with a dot), that both studies need alike.
 std::vector<std::string> fixed_keys()
@@ -103,9 +54,9 @@ bool is_fixed(const std::string& key)
 
 /// The first key of a kind that is not alike, in the order of the names; nullopt where all are alike.
 template <class Wanted>
-std::optional<std::string> first_difference(const Keys& base, const Keys& variant, const Wanted& wanted)
+std::optional<std::string> first_difference(const StudyKeys& base, const StudyKeys& variant, const Wanted& wanted)
 {
-    Keys all = base;
+    StudyKeys all = base;
     all.insert(variant.begin(), variant.end());
     for (const auto& [key, value] : all) {
         const auto a = base.find(key), b = variant.find(key);
@@ -115,7 +66,7 @@ std::optional<std::string> first_difference(const Keys& base, const Keys& varian
     return std::nullopt;
 }
 
-std::string value_or_absent(const Keys& keys, const std::string& key)
+std::string value_or_absent(const StudyKeys& keys, const std::string& key)
 {
     const auto found = keys.find(key);
     return found == keys.end() ? "is absent" : "= " + found->second;
@@ -154,7 +105,7 @@ void check_can_be_compared(const ResultHeader& header, const std::string& name)
 void check_comparable(const ResultHeader& base, const std::string& base_name, const ResultHeader& variant,
                       const std::string& variant_name)
 {
-    const Keys a = keys_of(base, base_name), b = keys_of(variant, variant_name);
+    const StudyKeys a = study_keys(base.study_toml, base_name), b = study_keys(variant.study_toml, variant_name);
     std::optional<std::string> key;
     for (const char* first : {"study.kind", "study.seed", "study.realizations"}) // these name the cause best
         if (!key)
@@ -222,7 +173,7 @@ std::vector<std::string> differences_to_know(const ResultHeader& base, const Res
     if (base.study_toml == variant.study_toml)
         return {"It is the study of the base: the variant changes nothing."};
     std::vector<std::string> notes;
-    const Keys a = keys_of(base, "base"), b = keys_of(variant, "variant");
+    const StudyKeys a = study_keys(base.study_toml, "base"), b = study_keys(variant.study_toml, "variant");
     const auto numeric = [](const std::string& key) {
         return key.starts_with("run.") && key != "run.max_invalid_fraction";
     };

@@ -4,12 +4,13 @@
 #include "io/files/atomic_file.hpp"
 #include "io/plots/figure_panel.hpp"
 #include "io/plots/plot_maps.hpp"
-#include "io/plots/plot_structure.hpp"
 #include "io/study/study_file.hpp"
+#include "studies/decisions/compare/study_difference.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/left_out.hpp"
+#include "studies/results/structure_sketch.hpp"
 
 #include <fmt/format.h>
 
@@ -57,6 +58,16 @@ std::string unknown_text(const VariantComparison& variant, const LimitComparison
     return unknown > 0 ? fmt::format(" ({} pairs left out: still moving at the end)", unknown) : std::string();
 }
 
+/// "dowels: probability of collapse -10.2 to +5.8 percentage points (95 % interval)"
+std::string answer_title(const Comparison& comparison, const VariantComparison& variant)
+{
+    const LimitComparison& limit = variant.limits.front();
+    if (limit.overall.counts.pairs() == 0)
+        return variant.name;
+    return fmt::format("{}: probability of {} {} ({:g} % interval)", variant.name, limit.name,
+                       points_text(limit.overall), 100 * comparison.level);
+}
+
 Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
 {
     switch (limit.verdict(place)) {
@@ -83,7 +94,8 @@ public:
     {
         page_.section("The answer");
         answers();
-        structure();
+        page_.section("The intervention");
+        interventions();
         page_.section("What the answer depends on");
         dependence();
         page_.section("What changes");
@@ -96,15 +108,11 @@ public:
         named();
         page_.section("What is common");
         common();
-        page_.section("The studies");
-        page_.heading("Base: " + c_.base_name);
-        page_.block(c_.base_toml);
-        for (const VariantComparison& variant : c_.variants) {
-            page_.heading(variant.name);
-            page_.block(variant.study_toml);
-        }
-        page_.section("How to repeat it");
+        page_.section("Reproduction");
         commands();
+        page_.details("The study of the base, " + c_.base_name, [&] { page_.block(c_.base_toml); });
+        for (const VariantComparison& variant : c_.variants)
+            page_.details("The study of " + variant.name, [&] { page_.block(variant.study_toml); });
         return std::move(page_);
     }
 
@@ -127,7 +135,7 @@ private:
             page_.box(verdict == ChangeVerdict::better  ? "good"
                       : verdict == ChangeVerdict::worse ? "bad"
                                                         : "warn",
-                      variant.name, answer_text(c_, variant));
+                      answer_title(c_, variant), answer_text(c_, variant));
             if (const std::optional<std::string> harm = harm_text(c_, variant))
                 page_.note(variant.name + ": " + *harm);
         }
@@ -147,11 +155,47 @@ private:
         }
     }
 
-    void structure()
+    /// The structures beside each other, and the keys in which the studies differ.
+    void interventions()
     {
-        picture("the structure", "The structure of the base, as designed.", [&](const fs::path& png) {
-            plot_structure(parse_study(c_.base_toml, c_.base_name), c_.base_name, png);
-        });
+        const Study base = parse_study(c_.base_toml, c_.base_name);
+        Html drawings = Html::ready("<div class=\"beside\">");
+        const auto add = [&](const std::string& name, const Html& drawing) {
+            drawings += Html::ready("<div><strong>");
+            drawings += name;
+            drawings += Html::ready("</strong>");
+            drawings += drawing;
+            drawings += Html::ready("</div>");
+        };
+        add(c_.base_name, structure_sketch(base, &base));
+        std::vector<std::string> texts{c_.base_toml};
+        for (const VariantComparison& variant : c_.variants) {
+            add(variant.name, structure_sketch(parse_study(variant.study_toml, variant.name), &base));
+            texts.push_back(variant.study_toml);
+        }
+        drawings += Html::ready("</div>");
+        page_.figure(drawings, sketch_caption(base) + " Marked in colour: what the base does not have.");
+        differences(texts);
+    }
+
+    void differences(const std::vector<std::string>& texts)
+    {
+        const std::vector<DifferentKey> keys = different_keys(texts);
+        if (keys.empty()) {
+            page_.paragraph("The studies have the same values in all keys.");
+            return;
+        }
+        HtmlTable table{"l", {"key"}, {}, "The keys in which the studies differ"};
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            table.align += "l";
+            table.head.emplace_back(i == 0 ? c_.base_name : c_.variants[i - 1].name);
+        }
+        for (const DifferentKey& different : keys) {
+            std::vector<Html>& row = table.rows.emplace_back(std::vector<Html>{code(different.key)});
+            for (const std::optional<std::string>& value : different.values)
+                row.push_back(value ? code(*value) : Html("–"));
+        }
+        page_.table(table);
     }
 
     void dependence()

@@ -148,6 +148,21 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
                                               : "The risk is " + verdict + ".");
 }
 
+namespace {
+
+/// "dowels: -6 to -1 percentage points in 100 years (90 % interval)"
+std::string change_title(const RiskChange& change, const VariantChange& variant)
+{
+    const StateChange& s = variant.principal();
+    if (!s.determined)
+        return variant.name + ": not determined";
+    const Limits p = s.change.probability.back().total;
+    return fmt::format("{}: {:+.3g} to {:+.3g} percentage points in {:g} years ({:g} % interval)", variant.name,
+                       100 * p.lower, 100 * p.upper, change.years.back(), 100 * change.level);
+}
+
+} // namespace
+
 HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
 {
     HtmlPage page(title.value_or("Change of risk: " + change.title),
@@ -160,7 +175,7 @@ HtmlPage risk_page(const RiskChange& change, const std::string& file, const std:
         page.box(verdict == (s.damage ? "lower" : "higher")   ? "good"
                  : verdict == (s.damage ? "higher" : "lower") ? "bad"
                                                               : "warn",
-                 variant.name, risk_change_answer(change, variant));
+                 change_title(change, variant), risk_change_answer(change, variant));
     }
     page.section("Result");
     page.paragraph(intervals_text(change) + " " + as_new_text);
@@ -190,6 +205,7 @@ HtmlPage risk_page(const RiskChange& change, const std::string& file, const std:
         }
         page.table(table);
     }
+    add_change_figures(change, page);
     std::vector<Html> notes;
     for (const VariantChange& variant : change.variants)
         for (const StateChange& s : variant.states)

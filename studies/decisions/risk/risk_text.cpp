@@ -321,6 +321,17 @@ std::string risk_answer(const Risk& risk)
                               100 * probability_over(s.estimate.by_mean_hazard, years));
 }
 
+std::string risk_answer_title(const Risk& risk)
+{
+    const StateRisk& s = risk.principal();
+    if (!s.determined)
+        return s.meaning + ": not determined";
+    const double years = risk.years.back();
+    const Limits p = probability_over(s.estimate.frequency, years).total;
+    return fmt::format("Probability in {:g} years: {:.3g} to {:.3g} % ({:g} % interval)", years, 100 * p.lower,
+                       100 * p.upper, 100 * risk.level);
+}
+
 std::string risk_grounds(const Risk& risk)
 {
     const StateRisk& s = risk.principal();

@@ -55,6 +55,10 @@ std::string range_text(const FrequencyPart& part);
 /// principal limit state; where it is not determined, between which bounds.
 std::string risk_answer(const Risk& risk);
 
+/// The same as a heading, with the interval alone: "Probability in 100 years: 1.31 to 9.84 % (90 % interval)"; where
+/// it is not determined, the limit state.
+std::string risk_answer_title(const Risk& risk);
+
 /// Which intensities contribute, what makes the interval wide, and what would narrow it.
 std::string risk_grounds(const Risk& risk);
 
@@ -69,6 +73,9 @@ std::string risk_change_answer(const RiskChange& change, const VariantChange& va
 
 /// @param file of the estimate, for its name   @param title instead of the comparison's; nullopt: that one
 HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title);
+
+/// What `plot_risk` draws, as figures of the page: the same values.
+void add_change_figures(const RiskChange& change, HtmlPage& page);
 
 /// Shares of the stripes of base and variants, and the change of the probability over the last of the years.
 /// @param state a limit state; nullopt: the principal one   @throws InputError if it is none, or is not determined

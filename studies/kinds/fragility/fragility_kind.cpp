@@ -116,6 +116,11 @@ std::vector<std::pair<std::string, std::string>> FragilityKind::files(const std:
     return files;
 }
 
+std::optional<Answer> FragilityKind::answer() const
+{
+    return fragility_answer(fragility_);
+}
+
 void FragilityKind::sections(PageWriter& writer) const
 {
     fragility_section(fragility_, writer.page);

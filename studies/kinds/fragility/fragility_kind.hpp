@@ -28,6 +28,7 @@ public:
     Table columns(const std::vector<ResultRow>& rows) const override;
     std::vector<std::pair<std::string, std::string>> files(const std::string& format,
                                                            const std::string& name) const override;
+    std::optional<Answer> answer() const override;
     void sections(PageWriter& writer) const override;
 
     /// What was found, once it is complete.

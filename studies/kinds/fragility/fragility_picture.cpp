@@ -29,17 +29,8 @@ void add_point(double x, double value, const Limits& limits, FigureSeries& to)
     to.high.push_back(std::isnan(limits.upper) ? value : std::min(limits.upper, 1.0));
 }
 
-void add_state(const StateFragility& s, Figure& figure)
+void add_stripes(const StateFragility& s, const std::string& name, Figure& figure)
 {
-    const std::string name = legend_of(s);
-    if (has_curve(s)) {
-        FigureSeries curve{name, SeriesKind::line, {}, {}, {}, {}, name, "fitted curve"};
-        for (const CurvePoint& at : s.curve.at)
-            add_point(at.intensity[0], at.probability.value, at.probability.records, curve);
-        figure.series.push_back(std::move(curve));
-    }
-    if (!s.stripes)
-        return;
     FigureSeries shares{name, SeriesKind::points, {}, {}, {}, {}, name, "shares of the stripes"};
     FigureSeries monotone{name, SeriesKind::line, {}, {}, {}, {}, name, "monotone curve"};
     for (const StripeShare& stripe : s.stripes->stripes) {
@@ -50,6 +41,22 @@ void add_state(const StateFragility& s, Figure& figure)
     figure.series.push_back(std::move(shares));
     if (!has_curve(s) || s.fit.p_value < fit_significance)
         figure.series.push_back(std::move(monotone));
+}
+
+void add_state(const StateFragility& s, bool shown, Figure& figure)
+{
+    const std::string name = legend_of(s);
+    const std::size_t first = figure.series.size();
+    if (has_curve(s)) {
+        FigureSeries curve{name, SeriesKind::line, {}, {}, {}, {}, name, "fitted curve"};
+        for (const CurvePoint& at : s.curve.at)
+            add_point(at.intensity[0], at.probability.value, at.probability.records, curve);
+        figure.series.push_back(std::move(curve));
+    }
+    if (s.stripes)
+        add_stripes(s, name, figure);
+    for (std::size_t i = first; i < figure.series.size(); ++i)
+        figure.series[i].shown = shown;
 }
 
 } // namespace
@@ -80,25 +87,42 @@ std::vector<const StateFragility*> chosen(const Fragility& f, const std::vector<
     return all;
 }
 
-Figure figure_of(const Fragility& f, const std::vector<const StateFragility*>& states)
+/// @param shown how many of them are shown at first
+Figure figure_of(const Fragility& f, const std::vector<const StateFragility*>& states, std::size_t shown)
 {
     Figure figure;
     figure.title = "Fragility curves";
     figure.x_label = describe_measure(f.measure);
     figure.y_label = "probability of reaching the limit state";
     figure.x_log = true;
-    for (const StateFragility* s : states)
-        add_state(*s, figure);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        add_state(*states[i], i < shown, figure);
     return figure;
 }
 
 } // namespace
 
+const StateFragility* principal_state(const Fragility& f)
+{
+    const auto found = std::ranges::find_if(f.states, [](const StateFragility& s) {
+        return s.state.kind == DamageState::Kind::collapse && s.state.shaking == 0;
+    });
+    return found != f.states.end() ? &*found : f.states.empty() ? nullptr : &f.states.back();
+}
+
 Figure fragility_figure(const Fragility& f)
 {
-    std::vector<const StateFragility*> states = chosen(f, {});
+    std::vector<const StateFragility*> states;
+    if (const StateFragility* principal = principal_state(f))
+        states.push_back(principal);
+    for (const DamageState::Kind kind :
+         {DamageState::Kind::collapse, DamageState::Kind::peak, DamageState::Kind::residual,
+          DamageState::Kind::unseated, DamageState::Kind::total})
+        for (const StateFragility& s : f.states)
+            if (s.state.kind == kind && &s != states.front())
+                states.push_back(&s);
     states.resize(std::min(states.size(), most_states));
-    return figure_of(f, states);
+    return figure_of(f, states, 1); // the bands of several hide each other
 }
 
 void plot_fragility(const Fragility& f, const std::vector<std::string>& names, const std::string& title,
@@ -109,7 +133,7 @@ void plot_fragility(const Fragility& f, const std::vector<std::string>& names, c
     const std::vector<const StateFragility*> states = chosen(f, names);
     if (states.size() > most_states)
         throw InputError(fmt::format("{} limit states are too many for one picture", states.size()));
-    Figure figure = figure_of(f, states);
+    Figure figure = figure_of(f, states, states.size());
     figure.y_range = {-0.015, 1.015};
     write_figure(figure, title,
                  fmt::format("{} · {}", design_text(f),

@@ -24,6 +24,13 @@ std::string interval(const Limits& limits)
     return fmt::format("{} to {}", number(limits.lower), number(limits.upper));
 }
 
+/// "m/s²"
+std::string page_unit(const std::string& measure)
+{
+    const std::string unit = measure_unit(measure);
+    return unit == "m/s2" ? "m/s²" : unit;
+}
+
 std::string percent(double share)
 {
     return fmt::format("{:.3g} %", 100 * share);
@@ -78,6 +85,65 @@ std::vector<std::string> remarks(const StateFragility& s)
     return all;
 }
 
+/// Names of limit states, and a remark of each in brackets; "" where there is none.
+using Concerned = std::vector<std::pair<std::string, std::string>>;
+
+Html concerned_text(const Concerned& states, std::size_t all)
+{
+    if (states.size() == all && all > 1 && std::ranges::all_of(states, [](const auto& s) { return s.second.empty(); }))
+        return "all limit states";
+    Html text;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == states.size() ? " and " : ", ";
+        text += code(states[i].first);
+        if (!states[i].second.empty())
+            text += " (" + states[i].second + ")";
+    }
+    return text;
+}
+
+/// What a reader of the page must know besides the numbers: each sentence once, with the limit states that it concerns.
+std::vector<Html> limits_of_curves(const Fragility& f)
+{
+    Concerned unfit, falling, spared;
+    std::vector<std::pair<std::string, Concerned>> alike;
+    const auto say = [&](const StateFragility& s, const std::string& sentence) {
+        auto found = std::ranges::find(alike, sentence, &std::pair<std::string, Concerned>::first);
+        if (found == alike.end())
+            found = alike.insert(alike.end(), {sentence, {}});
+        found->second.emplace_back(s.state.name, "");
+    };
+    for (const StateFragility& s : f.states) {
+        if (has_curve(s) && s.fit.p_value < fit_significance)
+            unfit.emplace_back(s.state.name, fmt::format("p = {:.2g}", s.fit.p_value));
+        if (s.stripes && s.stripes->p_monotone < 0.05)
+            falling.emplace_back(s.state.name, fmt::format("p = {:.2g}", s.stripes->p_monotone));
+        if (s.resurrected > 0)
+            spared.emplace_back(s.state.name, fmt::format("{} of {}", s.resurrected, s.reached_ever));
+        for (const std::string& sentence : s.curve.says)
+            say(s, sentence);
+        if (s.moving > 0)
+            say(s, fmt::format("{} of {} realizations stand and still moved at the end. Their residual displacements "
+                               "are not known, so they are not counted.",
+                               s.moving, s.curve.trials + static_cast<double>(s.moving)));
+    }
+    std::vector<Html> items;
+    const auto item = [&](const std::string& sentence, const Concerned& states) {
+        if (states.empty())
+            return;
+        Html text = sentence + " This concerns ";
+        text += concerned_text(states, f.states.size());
+        items.push_back(text += ".");
+    };
+    item("The lognormal curve does not fit: use the shares of the stripes instead.", unfit);
+    item("Stronger shaking was less damaging somewhere, so that no curve that rises describes the shares.", falling);
+    for (const auto& [sentence, states] : alike)
+        item(sentence, states);
+    item("Some structures that reached the limit state did not reach it under a stronger scaling of the same motion.",
+         spared);
+    return items;
+}
+
 std::string share_text(const DispersionShares& shares)
 {
     std::string text;
@@ -91,6 +157,33 @@ std::string share_text(const DispersionShares& shares)
 }
 
 } // namespace
+
+Answer fragility_answer(const Fragility& f)
+{
+    const StateFragility* s = principal_state(f);
+    if (!s)
+        return {"There are no curves.", f.says.empty() ? "No realization is valid." : f.says.front()};
+    const std::string of = "At " + short_measure(f.measure), unit = " " + page_unit(f.measure);
+    const std::string by = design_text(f) + ".";
+    if (!has_curve(*s)) {
+        const auto median = median_text(s->curve.median.records);
+        return {median ? fmt::format("{} {}{} half of the structures fall.", of, *median, unit)
+                       : std::string("At which intensity half of the structures fall is not determined."),
+                fmt::format("{} of {} realizations fell, over all intensities. No curve could be fitted. {}",
+                            s->curve.reached, s->curve.trials, by)};
+    }
+    const Limits &median = s->curve.median.records, &dispersion = s->curve.dispersion.records;
+    const auto known = [](const Limits& limits) { return limits.lower > 0 && std::isfinite(limits.upper); };
+    const std::string spread = fmt::format("Dispersion {}{}. ", number(s->curve.dispersion.value),
+                                           known(dispersion) ? " (" + interval(dispersion) + ")" : std::string());
+    if (!known(median))
+        return {fmt::format("{} {}{} half of the structures fall: a best estimate without an interval.", of,
+                            number(s->curve.median.value), unit),
+                spread + by};
+    return {fmt::format("{} {}{} half of the structures fall (95 % interval).", of, interval(median), unit),
+            fmt::format("Best estimate {}{}. {}{} The intervals are clustered by motion.",
+                        number(s->curve.median.value), unit, spread, by)};
+}
 
 std::string design_text(const Fragility& f)
 {
@@ -258,12 +351,19 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         page.box("warn", "Note", line);
     if (!f.states.empty())
         page.figure(figure_svg(fragility_figure(f)),
-                    "Lines with bands: lognormal curves with their 95 % bands. Points with bars: shares of the stripes "
-                    "with their intervals. Where the lognormal curve does not fit (p below 0.05), and where there is "
-                    "none, a line through the points is the best curve that does not decrease.");
-    HtmlTable table{"lrrrrr", {"limit state", "reached", "median", "95 %", "dispersion", "95 %"}, {}, ""};
+                    "The legend switches limit states on and off. Lines with bands: lognormal curves with their 95 % "
+                    "bands. Points with bars: shares of the stripes with their intervals. Where the lognormal curve "
+                    "does not fit (p below 0.05), and where there is none, a line through the points is the best curve "
+                    "that does not decrease.");
+    const std::string unit = page_unit(f.measure);
+    HtmlTable table{"llrrrrr",
+                    {"limit state", "name", "reached", unit.empty() ? "median" : "median [" + unit + "]", "95 %",
+                     "dispersion", "95 %"},
+                    {},
+                    ""};
     for (const StateFragility& s : f.states) {
-        std::vector<Html> row = {s.state.describe, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
+        std::vector<Html> row = {s.state.describe, code(s.state.name),
+                                 fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
         if (has_curve(s))
             row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
                                    number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
@@ -272,11 +372,7 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         table.rows.push_back(std::move(row));
     }
     page.table(table);
-    std::vector<Html> items;
-    for (const StateFragility& s : f.states)
-        for (const std::string& remark : remarks(s))
-            items.push_back(s.state.name + ": " + remark);
-    if (!items.empty()) {
+    if (const std::vector<Html> items = limits_of_curves(f); !items.empty()) {
         page.heading("Limits of the curves");
         page.list(items);
     }
@@ -287,7 +383,8 @@ void fragility_section(const Fragility& f, HtmlPage& page)
         if (s.shares) {
             std::vector<Html> row = {s.state.describe};
             for (const DispersionShare& share : s.shares->levels)
-                row.push_back(share.known ? level_text(share, s.shares->records) : std::string("with the left"));
+                row.push_back(share.known ? level_text(share, s.shares->records)
+                                          : std::string("in the column on its left"));
             shares.rows.push_back(std::move(row));
         }
     page.table(shares);

@@ -3,6 +3,7 @@
 
 #include "io/plots/figure.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
+#include "studies/kinds/kind.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
 
@@ -22,9 +23,15 @@ std::string design_text(const Fragility& fragility);
 /// Whether a lognormal curve could be fitted.
 bool has_curve(const StateFragility& state);
 
-/// Of the peak's limit states and the collapse: the fitted curves with their bands, with the p-value of their lack of
-/// fit in the legend; the shares of the stripes with their intervals; and the monotone curve through these where the
-/// lognormal one does not fit or where there is none.
+/// The limit state that the answer is about: the collapse; null where there are none.
+const StateFragility* principal_state(const Fragility& fragility);
+
+/// The intensity at which half of the structures fall, with its interval.
+Answer fragility_answer(const Fragility& fragility);
+
+/// Of each limit state, the collapse first and at first alone shown: the fitted curve with its band, with the p-value
+/// of its lack of fit in the legend; the shares of the stripes with their intervals; and the monotone curve through
+/// these where the lognormal one does not fit or where there is none.
 Figure fragility_figure(const Fragility& fragility);
 
 /// The section of a result's page.

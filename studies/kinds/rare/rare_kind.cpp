@@ -219,12 +219,23 @@ Picture RareKind::picture(const ResultReader& reader, const std::string& results
             [this](const std::string& title, const std::filesystem::path& file) { plot_rare(table_, title, file); }};
 }
 
+std::optional<Answer> RareKind::answer() const
+{
+    const std::vector<std::string> sentences = rare_sentences(table_);
+    std::string more;
+    for (std::size_t i = std::isnan(table_.lower) ? 1 : 0; i < sentences.size(); ++i)
+        more += (more.empty() ? "" : " ") + sentences[i];
+    if (std::isnan(table_.lower))
+        return Answer{sentences.front(), more};
+    return Answer{fmt::format("The probability of collapse is {:.3g} to {:.3g} ({:.0f} % interval).", table_.lower,
+                              table_.upper, 100 * level),
+                  more};
+}
+
 bool RareKind::summary(PageWriter& writer) const
 {
     const RareTable& table = table_;
     HtmlPage& page = writer.page;
-    for (const std::string& sentence : rare_sentences(table))
-        page.paragraph(sentence);
     HtmlTable levels{"rrrrr",
                      {"level", "above [m]", "conditional probability", "candidates taken", "chains that never moved"},
                      {},

@@ -47,6 +47,7 @@ public:
     std::span<const PictureKind> pictures() const override { return own_pictures; }
     Picture picture(const ResultReader& reader, const std::string& results,
                     const PictureRequest& request) const override;
+    std::optional<Answer> answer() const override;
     bool summary(PageWriter& writer) const override;
     bool shows_motion() const override { return false; }
 

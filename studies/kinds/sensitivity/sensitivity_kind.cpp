@@ -328,6 +328,33 @@ std::vector<std::pair<std::string, std::string>> SensitivityKind::files(const st
     return files;
 }
 
+std::optional<Answer> SensitivityKind::answer() const
+{
+    const SensitivityTable::Index* index = table_.find("total");
+    if (!index && !table_.indices.empty())
+        index = &table_.indices.front();
+    if (!index || table_.outcomes.empty())
+        return std::nullopt;
+    std::size_t most = table_.factors.size();
+    for (std::size_t k = 0; k < table_.factors.size(); ++k) // of the first outcome, the collapse
+        if (table_.factors[k] != rest_name && std::isfinite(index->of.value[k]) &&
+            (most == table_.factors.size() || index->of.value[k] > index->of.value[most]))
+            most = k;
+    const std::string outcome = spoken(table_.outcomes.front());
+    if (most == table_.factors.size())
+        return Answer{"Which factor decides about " + outcome + " is not determined.", design_text(table_) + "."};
+    bool apart = true;
+    for (std::size_t k = 0; k < table_.factors.size(); ++k)
+        apart = apart && (k == most || table_.factors[k] == rest_name || index->of.upper[k] < index->of.lower[most]);
+    return Answer{fmt::format(fmt::runtime(apart ? "Of the factors, {1} decides most about {0}: {2} {3:.2g} to {4:.2g} "
+                                                   "(95 % interval)."
+                                                 : "Which factor decides most about {0} is open: {1} has the largest "
+                                                   "{2}, {3:.2g} to {4:.2g} (95 % interval)."),
+                              outcome, spoken(table_.factors[most]), heading(index->name), index->of.lower[most],
+                              index->of.upper[most]),
+                  fmt::format("Best estimate {:.2g}; {}.", index->of.value[most], design_text(table_))};
+}
+
 void SensitivityKind::sections(PageWriter& writer) const
 {
     writer.page.section("Sensitivity to the factors");

@@ -24,6 +24,7 @@ public:
                     const PictureRequest& request) const override;
     std::vector<std::pair<std::string, std::string>> files(const std::string& format,
                                                            const std::string& name) const override;
+    std::optional<Answer> answer() const override;
     void sections(PageWriter& writer) const override;
     bool shows_motion() const override { return false; }
 

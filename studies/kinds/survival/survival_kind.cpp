@@ -83,6 +83,11 @@ std::vector<std::pair<std::string, std::string>> SurvivalKind::files(const std::
     return files;
 }
 
+std::optional<Answer> SurvivalKind::answer() const
+{
+    return survival_answer(survival_);
+}
+
 void SurvivalKind::sections(PageWriter& writer) const
 {
     survival_section(survival_, writer);

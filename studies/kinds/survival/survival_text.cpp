@@ -432,6 +432,16 @@ Json survival_json(const Survival& s)
     return json;
 }
 
+Answer survival_answer(const Survival& s)
+{
+    if (!s.judged())
+        return {"The past of the structure is not judged.", "The past " + not_judged_words(s) + "."};
+    const PastPosterior& p = s.past->posterior;
+    return {fmt::format("The PGA of the past was {:.3g} to {:.3g} m/s² ({:g} % credible interval).",
+                        p.intensity_lower.value, p.intensity_upper.value, 100 * s.level),
+            fmt::format("Median {:.3g} m/s². {}.", p.intensity_median.value, agreeing_words(s))};
+}
+
 void survival_section(const Survival& s, PageWriter& writer)
 {
     HtmlPage& page = writer.page;

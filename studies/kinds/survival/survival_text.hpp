@@ -3,6 +3,7 @@
 
 #include "io/plots/figure.hpp"
 #include "io/tables/table.hpp"
+#include "studies/kinds/kind.hpp"
 #include "studies/kinds/survival/survival.hpp"
 #include "studies/report/html.hpp"
 #include "studies/report/json.hpp"
@@ -15,6 +16,8 @@ namespace stylobate {
 
 std::string survival_text(const Survival& survival);
 Json survival_json(const Survival& survival);
+/// The PGA of the past, with its credible interval.
+Answer survival_answer(const Survival& survival);
 void survival_section(const Survival& survival, PageWriter& writer);
 
 /// Why nothing can be concluded, and what to do. @pre not judged

@@ -1,7 +1,7 @@
 // A figure that the program has drawn: values under the pointer or under the keys, and series that can be switched off.
 // The drawing itself stays as it is; its data stand behind it in a script with the class `figure-data`:
 //
-//   {x: {from, to, log, first, last, label, ticks}, y: {...}, series: [{name, group, layer, kind, x, y, low, high}]}
+//   {x: {from, to, log, first, last, label, ticks}, y: {...}, series: [{name, group, layer, kind, shown, x, y, low, high}]}
 //
 // first and last are where the ends of an axis lie [px]. A group of the drawing has data-series, its number.
 
@@ -26,13 +26,16 @@ class LiveFigure {
     this.x = new FigureAxis(data.x);
     this.y = new FigureAxis(data.y);
     this.series = data.series.map((series, i) => ({...series, element: drawing.querySelector(`[data-series="${i}"]`)}));
-    this.hiddenGroups = new Set();
+    const groupOf = (series) => series.group || series.name;
+    const shown = new Set(this.series.filter((series) => series.shown !== false).map(groupOf));
+    this.hiddenGroups = new Set(this.series.map(groupOf).filter((group) => !shown.has(group)));
     this.hiddenLayers = new Set();
     this.tip = new Tip(this.figure);
     this.marks = svg("g", {class: "marks"});
     drawing.append(this.marks);
     this.makeKeys();
     this.makeLayers();
+    this.redraw();
     this.listen();
   }
 
@@ -45,14 +48,17 @@ class LiveFigure {
   makeKeys() {
     for (const key of this.drawing.querySelectorAll(".key")) {
       const group = key.dataset.group;
+      const mark = () => {
+        const off = this.hiddenGroups.has(group);
+        key.classList.toggle("off", off);
+        key.setAttribute("aria-pressed", String(!off));
+      };
       const flip = (event) => {
         if (event.type === "keydown" && event.key !== "Enter" && event.key !== " ") return;
         event.preventDefault();
         event.stopPropagation();
         if (!this.hiddenGroups.delete(group)) this.hiddenGroups.add(group);
-        const off = this.hiddenGroups.has(group);
-        key.classList.toggle("off", off);
-        key.setAttribute("aria-pressed", String(!off));
+        mark();
         this.redraw();
       };
       const box = key.getBBox(); // gaps between the letters belong to it too
@@ -60,6 +66,7 @@ class LiveFigure {
                                fill: "transparent"}));
       filled(key, {role: "button", tabindex: 0, "aria-pressed": "true", "aria-label": `show ${group}`, click: flip,
                    keydown: flip}, []);
+      mark();
     }
   }
 

@@ -2,7 +2,7 @@
 // controls. The animations stand in the page as
 //
 //   {rate_hz, px_m, quantum_px, width, height, ground, blocks: [name], look: [class], list: [{index, cell, state,
-//    frequency_hz, pga_m_s2, samples, falls: [[block, time_s], ...], data}]}
+//    frequency_hz, pga_m_s2, [motion], samples, falls: [[block, time_s], ...], data}]}
 //
 // px_m: pixels per metre; data: see `decoded`. Those of windows.js and space.js have other members besides.
 
@@ -159,7 +159,8 @@ class Player {
 
   titleText() {
     const one = this.one;
-    const shaking = one.frequency_hz > 0 ? ` at ${numberText(one.frequency_hz)} Hz, ${numberText(one.pga_m_s2)} m/s²` : "";
+    const shaking = one.motion ? `, ${one.motion}`
+        : one.frequency_hz > 0 ? ` at ${numberText(one.frequency_hz)} Hz, ${numberText(one.pga_m_s2)} m/s²` : "";
     return `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state}`;
   }
 

@@ -48,6 +48,12 @@ TEST(RecordShare, IsClopperAndPearsonWhereRecordsAreAllOrNothing)
             }
         }
     EXPECT_EQ(record_share_limits({}, 0.95).upper, 1);
+    // all have reached it, but for the rounding of sums of weights
+    const std::vector<RecordCount> rounded = {{0.1 + 0.2, 0.3}, {0.1 + 0.2, 0.3}, {0.3, 0.3}};
+    ASSERT_LT(rounded[0].reached, rounded[0].trials);
+    EXPECT_EQ(record_share_limits(rounded, 0.95).upper, 1);
+    EXPECT_NEAR(record_share_limits(rounded, 0.95).lower, record_share_limits(records(3, 1, {1, 1, 1}), 0.95).lower,
+                1e-6);
 }
 
 /// Against a million draws of the weights, where records have any share and any number of trials.

@@ -99,6 +99,15 @@ TEST(Html, EscapesWhatComesFromElsewhere)
     EXPECT_EQ(Html::ready("<b>").markup, "<b>");
 }
 
+TEST(Html, NoLineBreaksInsideAnInterval)
+{
+    EXPECT_EQ(Html("1.2 to 3.4 % of 5 to ten").markup, "1.2&nbsp;to&nbsp;3.4&nbsp;% of 5 to ten");
+    EXPECT_EQ(Html("(-5 to +3) and 2e-05 to ∞; to 7").markup, "(-5&nbsp;to&nbsp;+3) and 2e-05&nbsp;to&nbsp;∞; to 7");
+    EXPECT_EQ(Html("from 1 to 2 to 3").markup, "from 1&nbsp;to&nbsp;2&nbsp;to&nbsp;3");
+    EXPECT_EQ(Html("goes to 3").markup, "goes to 3");
+    EXPECT_EQ(code("1 to 2").markup, "<code>1 to 2</code>") << "what is copied";
+}
+
 TEST(Html, Base64AsInRfc4648)
 {
     EXPECT_EQ(base64(""), "");
@@ -366,9 +375,10 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
         before = at;
     }
     EXPECT_EQ(count_of(page, "<figure>"), 4U); // three curves, and the ends of the windows in motion
-    for (const char* words : {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81 (0.7 to 0.95)",
-                              "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1 to 8 Hz",
-                              "18364758544493064720", "stylobate diagnose &#39;col&quot;umn &amp; co.h5&#39;"})
+    for (const char* words :
+         {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81 (0.7&nbsp;to&nbsp;0.95)",
+          "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1&nbsp;to&nbsp;8 Hz",
+          "18364758544493064720", "stylobate diagnose &#39;col&quot;umn &amp; co.h5&#39;"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
@@ -503,12 +513,12 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
     for (const char* part : {"Calibration: campaign &quot;7&quot; &lt;b&gt;.h5",
                              "These data determine 1 of 2 fitted parameters.",
                              "it predicts them better than the start study",
-                             "+75.0 (+20.5 to +129.5)",
+                             "+75.0 (+20.5&nbsp;to&nbsp;+129.5)",
                              "nothing slides &lt;here&gt; &amp; there",
                              "1.2e+07",
                              ">effective</span>",
-                             "9.6e+06 to 1.5e+07",
-                             "2.4e+06 to 6e+07",
+                             "9.6e+06&nbsp;to&nbsp;1.5e+07",
+                             "2.4e+06&nbsp;to&nbsp;6e+07",
                              "(-0.70)",
                              ">best</span>",
                              "points",

@@ -1,0 +1,358 @@
+#include "studies/results/structure_sketch.hpp"
+
+#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/spatial/placed_solid.hpp"
+#include "io/files/suggest.hpp"
+#include "io/plots/solid_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace stylobate {
+namespace {
+
+constexpr double most_wide = 330, most_high = 220; ///< of an elevation [px]
+constexpr double beside = 14, slab = 10;           ///< room at the sides, the ground [px]
+
+const char* fill_of(const PlacedBlock& block)
+{
+    return block.fixed ? "var(--fixed)" : block.role == BlockRole::epistyle ? "var(--lintel)" : "var(--stone)";
+}
+
+/// How a mark is drawn.
+enum class MarkLook { pin, pair, band, seam, cable, link, outline };
+
+MarkLook look_of(const MechanismRule& rule)
+{
+    switch (rule.mechanism) {
+    case Mechanism::dowel:
+        return MarkLook::pin;
+    case Mechanism::pull_out:
+        return MarkLook::pair;
+    case Mechanism::bearing:
+        return MarkLook::band;
+    case Mechanism::tendon:
+        return MarkLook::cable;
+    case Mechanism::clamp:
+        return MarkLook::link;
+    default:
+        return rule.place == MechanismPlace::joint ? MarkLook::seam : MarkLook::outline;
+    }
+}
+
+/// What is marked in one colour.
+struct Mark {
+    std::string words; ///< "dowel: all 9 joints"
+    MarkLook look = MarkLook::seam;
+    std::vector<std::size_t> places; ///< beds or blocks of the layout
+};
+
+/// "all 9 joints", "3 of 9 joints", "joint 0"
+std::string places_words(const std::vector<std::size_t>& places, std::size_t all, const char* noun)
+{
+    if (places.size() == all)
+        return all == 1 ? fmt::format("the {}", noun) : fmt::format("all {}", counted(all, noun));
+    if (places.size() == 1)
+        return fmt::format("{} {}", noun, places.front());
+    return fmt::format("{} of {}", places.size(), counted(all, noun));
+}
+
+std::string spoken_name(std::string name)
+{
+    std::ranges::replace(name, '_', ' ');
+    return name;
+}
+
+std::vector<Mark> mechanism_marks(const Study& study, const Layout& layout, const Study* base)
+{
+    std::vector<Mark> marks;
+    for (const MechanismRule& rule : mechanism_rules()) {
+        if (rule.place == MechanismPlace::base)
+            continue;
+        const bool joints = rule.place == MechanismPlace::joint;
+        std::size_t all = joints ? layout.beds.size() : layout.blocks.size();
+        if (!joints)
+            all -= static_cast<std::size_t>(std::ranges::count_if(layout.blocks, &PlacedBlock::fixed));
+        Mark mark{{}, look_of(rule), {}};
+        for (const MechanismSpec& spec : study.mechanisms) {
+            const bool old = base && std::ranges::find(base->mechanisms, spec) != base->mechanisms.end();
+            if (spec.mechanism != rule.mechanism || old || !acts(spec, study.contact.friction))
+                continue;
+            for (const int place : spec.places.empty() ? usual_places(rule, layout) : spec.places)
+                mark.places.push_back(static_cast<std::size_t>(place));
+        }
+        std::ranges::sort(mark.places);
+        mark.places.erase(std::unique(mark.places.begin(), mark.places.end()), mark.places.end());
+        if (mark.places.empty())
+            continue;
+        mark.words =
+            fmt::format("{} ({})", spoken_name(rule.name), places_words(mark.places, all, joints ? "joint" : "block"));
+        marks.push_back(std::move(mark));
+    }
+    return marks;
+}
+
+bool same_stone(const PlacedBlock& a, const PlacedBlock& b)
+{
+    return a.width_m == b.width_m && a.height_m == b.height_m && a.depth_m == b.depth_m && a.mass_kg == b.mass_kg &&
+           a.top_ratio == b.top_ratio && a.fixed == b.fixed;
+}
+
+bool same_contact(const ContactSpec& a, const ContactSpec& b)
+{
+    const auto fields = [](const ContactSpec& c) {
+        return std::tie(c.form, c.normal_stiffness_n_m2, c.tangential_stiffness_n_m, c.normal_stiffness_n_m3,
+                        c.tangential_stiffness_n_m3, c.normal_damping_ratio, c.tangential_damping_ratio,
+                        c.normal_damping_n_s_m, c.tangential_damping_n_s_m, c.damping, c.damping_per, c.friction,
+                        c.restitution, c.restitution_law);
+    };
+    return fields(a) == fields(b);
+}
+
+std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study* base)
+{
+    std::vector<Mark> marks = mechanism_marks(study, layout, base);
+    const Layout old = base ? lay_out(base->structure) : Layout{};
+    Mark beds{"bed of its own values", MarkLook::seam, {}}, stones{"other size or mass", MarkLook::outline, {}};
+    for (std::size_t i = 0; i < layout.beds.size(); ++i) {
+        const BedSpec& bed = layout.beds[i].bed;
+        if (base && i < old.beds.size() ? !(bed == old.beds[i].bed) : !(bed == BedSpec{}))
+            beds.places.push_back(i);
+    }
+    if (base && layout.blocks.size() == old.blocks.size())
+        for (std::size_t i = 0; i < layout.blocks.size(); ++i)
+            if (!same_stone(layout.blocks[i], old.blocks[i]))
+                stones.places.push_back(i);
+    if (base && !same_contact(study.contact, base->contact)) {
+        beds = {"other contact", MarkLook::seam, {}};
+        for (std::size_t i = 0; i < layout.beds.size(); ++i)
+            beds.places.push_back(i);
+    }
+    for (Mark* mark : {&stones, &beds})
+        if (!mark->places.empty()) {
+            mark->words +=
+                fmt::format(" ({})", mark == &beds ? places_words(mark->places, layout.beds.size(), "joint")
+                                                   : places_words(mark->places, layout.blocks.size(), "block"));
+            marks.push_back(std::move(*mark));
+        }
+    return marks;
+}
+
+/// One view of the structure, in pixels from the upper left corner.
+class Elevation {
+public:
+    Elevation(double left_m, double right_m, double bottom_m, double top_m, double per_metre)
+        : left_m_(left_m), top_m_(top_m), scale_(per_metre), width_((right_m - left_m) * per_metre + 2 * beside),
+          height_((top_m - bottom_m) * per_metre + slab + 4)
+    {
+    }
+
+    double x(double metres) const { return beside + (metres - left_m_) * scale_; }
+    double y(double metres) const { return 4 + (top_m_ - metres) * scale_; }
+    double scale() const { return scale_; }
+
+    void ground()
+    {
+        body_ += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.0f}\" "
+                             "style=\"fill:var(--ground)\"/>\n",
+                             y(0), width_, slab);
+    }
+    void rectangle(double left, double right, double bottom, double top, const char* fill)
+    {
+        body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+                             "style=\"fill:{};stroke:var(--edge)\"/>\n",
+                             x(left), y(top), (right - left) * scale_, (top - bottom) * scale_, fill);
+    }
+    /// @param fill nullptr: an edge alone
+    void polygon(const std::vector<ViewPoint>& points, const char* fill)
+    {
+        std::string at;
+        for (const ViewPoint& point : points)
+            at += fmt::format("{}{:.1f},{:.1f}", at.empty() ? "" : " ", x(point.x), y(point.y));
+        body_ +=
+            fmt::format("<polygon points=\"{}\" style=\"fill:{};stroke:var(--edge)\"/>\n", at, fill ? fill : "none");
+    }
+    void stroke(double x1, double y1, double x2, double y2, double width, const std::string& colour)
+    {
+        body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke-width=\"{:g}\" "
+                             "style=\"stroke:{}\"/>\n",
+                             x1, y1, x2, y2, width, colour);
+    }
+    void outline(double left, double right, double bottom, double top, const std::string& colour)
+    {
+        body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" stroke-width=\"3\" "
+                             "style=\"fill:none;stroke:{}\"/>\n",
+                             x(left) + 2, y(top) + 2, std::max(1.0, (right - left) * scale_ - 4),
+                             std::max(1.0, (top - bottom) * scale_ - 4), colour);
+    }
+
+    std::string svg(const char* of, const char* below) const
+    {
+        return fmt::format("<div class=\"sketch\"><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} "
+                           "{1:.0f}\" width=\"{0:.0f}\" role=\"img\" aria-label=\"the structure at rest{2}\">\n"
+                           "{3}</svg>{4}</div>",
+                           width_, height_, of, body_, below);
+    }
+
+private:
+    double left_m_, top_m_, scale_, width_, height_;
+    std::string body_;
+};
+
+void draw_mark(Elevation& view, const Layout& layout, const Mark& mark, const std::string& colour)
+{
+    for (const std::size_t place : mark.places) {
+        if (place >= (mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::outline
+                          ? layout.blocks.size()
+                          : layout.beds.size()))
+            continue;
+        if (mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::outline) {
+            const PlacedBlock& block = layout.blocks[place];
+            if (mark.look == MarkLook::cable)
+                view.stroke(view.x(block.x_m()), view.y(block.top()), view.x(block.x_m()), view.y(0) + slab, 3, colour);
+            else if (mark.look == MarkLook::link)
+                view.stroke(view.x(block.right()) - 12, view.y(block.y_m), view.x(block.right()) + 12,
+                            view.y(block.y_m), 4, colour);
+            else
+                view.outline(block.left(), block.right(), block.bottom(), block.top(), colour);
+            continue;
+        }
+        const PlacedBed& bed = layout.beds[place];
+        const PlacedBlock& upper = layout.blocks[static_cast<std::size_t>(bed.upper)];
+        double left = upper.left(), right = upper.right(), length = upper.height_m;
+        if (bed.lower >= 0) {
+            const PlacedBlock& lower = layout.blocks[static_cast<std::size_t>(bed.lower)];
+            left = std::max(left, lower.left());
+            right = std::min(right, lower.right());
+            length = std::min(length, lower.height_m);
+        }
+        const double y = view.y(upper.bottom()), middle = view.x((left + right) / 2);
+        const double half = std::clamp(0.3 * length * view.scale(), 4.0, 12.0);
+        const double apart = (right - left) * view.scale() / 5;
+        if (mark.look == MarkLook::pin)
+            view.stroke(middle, y - half, middle, y + half, 4, colour);
+        else if (mark.look == MarkLook::pair)
+            for (const double at : {middle - apart, middle + apart})
+                view.stroke(at, y - half, at, y + half, 2.5, colour);
+        else
+            view.stroke(view.x(left), y, view.x(right), y, mark.look == MarkLook::band ? 7 : 3.5, colour);
+    }
+}
+
+struct Extent {
+    double from = std::numeric_limits<double>::infinity(), to = -std::numeric_limits<double>::infinity();
+    void add(double a, double b)
+    {
+        from = std::min(from, a);
+        to = std::max(to, b);
+    }
+    double length() const { return to - from; }
+};
+
+void draw_view(Elevation& drawing, const Layout& layout, const std::vector<PlacedSolid>& solids, const SolidView& view)
+{
+    for (const SeenSolid& seen : painted(solids, view)) {
+        drawing.polygon(seen.outline, fill_of(layout.blocks[seen.body]));
+        for (const SeenFace& face : seen.faces)
+            if (!face.smooth)
+                drawing.polygon(face.points, nullptr);
+    }
+}
+
+/// Whether the side shows something else than the front.
+bool differs_from_the_side(const Layout& layout)
+{
+    return std::ranges::any_of(layout.blocks, [&](const PlacedBlock& block) {
+        return block.role == BlockRole::epistyle || block.axis_m != layout.blocks.front().axis_m ||
+               block.axis_z_m != layout.blocks.front().axis_z_m || block.width_m != block.depth_m ||
+               block.offset_m != block.offset_z_m;
+    });
+}
+
+std::string views_in_space(const Layout& layout, const std::vector<Mark>& marks)
+{
+    std::vector<PlacedSolid> solids;
+    Extent x, y, z;
+    y.add(0, 0);
+    for (const PlacedBlock& block : layout.blocks) {
+        solids.push_back(solid_of(block));
+        const std::vector<PlacedSolid> alone{solids.back()};
+        for (const ViewPoint& p : painted(alone, SolidView::front()).front().outline) {
+            x.add(p.x, p.x);
+            y.add(p.y, p.y);
+        }
+        for (const ViewPoint& p : painted(alone, SolidView::side()).front().outline)
+            z.add(p.x, p.x);
+    }
+    const double scale = std::min(most_wide / std::max(x.length(), z.length()), most_high / y.length());
+    Elevation front(x.from, x.to, 0, y.to, scale);
+    front.ground();
+    draw_view(front, layout, solids, SolidView::front());
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        draw_mark(front, layout, marks[i], fmt::format("var(--s{})", i % 6 + 1));
+    std::string all = front.svg(", from the front", "<div class=\"note\">from the front</div>");
+    if (differs_from_the_side(layout)) {
+        Elevation side(z.from, z.to, 0, y.to, scale);
+        side.ground();
+        draw_view(side, layout, solids, SolidView::side());
+        all += side.svg(", from the side", "<div class=\"note\">from the side</div>");
+    }
+    // seen from above z points downwards, and from the side to the left
+    const double plan_scale = std::min(most_wide / x.length(), most_high / z.length());
+    const double finer = std::min(plan_scale, 2 * scale);
+    Elevation plan(x.from, x.to, z.from, z.to, finer);
+    draw_view(plan, layout, solids, SolidView::above());
+    return all + plan.svg(", from above", "<div class=\"note\">from above</div>");
+}
+
+std::string view_in_plane(const Layout& layout, const std::vector<Mark>& marks)
+{
+    Extent x, y;
+    y.add(0, 0);
+    for (const PlacedBlock& block : layout.blocks) {
+        x.add(block.left(), block.right());
+        y.add(block.bottom(), block.top());
+    }
+    Elevation front(x.from, x.to, 0, y.to, std::min(most_wide / x.length(), most_high / y.to));
+    front.ground();
+    for (const PlacedBlock& block : layout.blocks)
+        front.rectangle(block.left(), block.right(), block.bottom(), block.top(), fill_of(block));
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        draw_mark(front, layout, marks[i], fmt::format("var(--s{})", i % 6 + 1));
+    return front.svg("", "");
+}
+
+} // namespace
+
+Html structure_sketch(const Study& study, const Study* base)
+{
+    const Layout layout = lay_out(study.structure);
+    const std::vector<Mark> marks = marks_of(study, layout, base);
+    std::string html = "<div class=\"sketches\">" +
+                       (study.structure.spatial() ? views_in_space(layout, marks) : view_in_plane(layout, marks)) +
+                       "</div>";
+    if (marks.empty())
+        return Html::ready(html);
+    html += "<div class=\"marks-list\">";
+    for (std::size_t i = 0; i < marks.size(); ++i)
+        html += fmt::format("<span><span class=\"swatch\" style=\"background:var(--s{})\"></span>{}</span> ", i % 6 + 1,
+                            html_escaped(marks[i].words));
+    return Html::ready(html + "</div>");
+}
+
+std::string sketch_caption(const Study& study)
+{
+    std::string text = "The structure at rest, to scale";
+    if (study.structure.spatial())
+        text += ", from the front, from above and, where it differs, from the side";
+    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
+    return text + (std::ranges::any_of(blocks, &PlacedBlock::fixed) ? "; fixed blocks are darker." : ".");
+}
+
+} // namespace stylobate
