@@ -103,8 +103,8 @@ TEST_F(DiagnosisFile, EveryFieldOfTheStructuresIsListed)
                                   cells] = figure; // the last three: of no diagnosis
     EXPECT_EQ(listed<DiagnosisFigure>(), 9U);
     const FigureSeries series;
-    [[maybe_unused]] const auto& [name, kind, x, y, low, high, group, layer, colour, dashed, weight] =
-        series; // the last five: of no diagnosis
+    [[maybe_unused]] const auto& [name, kind, x, y, low, high, group, layer, colour, dashed, weight, shown] =
+        series; // the last six: of no diagnosis
     EXPECT_EQ(listed<FigureSeries>(), 6U);
     const Diagnosis whole;
     [[maybe_unused]] const auto& [d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18,
