@@ -52,15 +52,26 @@ for file in python.h5 column.h5; do
 done
 
 # what is missing is named, with the remedy
-as_user "! env/bin/stylobate export column.h5 --to png 2>message; grep -q 'apt install' message
+as_user "env/bin/stylobate export column.h5 --to svg >/dev/null
+    ! env/bin/stylobate export column.h5 --to png 2>message; grep -q 'apt install librsvg2-2' message
     ! env/bin/stylobate run $input -o mpi.h5 --mpi 2>message; grep -q MPI message
     env/bin/stylobate info | grep -q '^MPI: none'"
 as_user "mv env/lib/python3.11/site-packages/stylobate away
     ! env/bin/stylobate info 2>message; grep -q 'Install the wheel again' message
     mv away env/lib/python3.11/site-packages/stylobate"
 
+timed "apt install librsvg2-2 fonts-dejavu-core" in_root "apt-get update &&
+    apt-get install --yes --no-install-recommends librsvg2-2 fonts-dejavu-core"
+as_user "env/bin/stylobate export column.h5 --to png && $python -c '
+import stylobate
+study = stylobate.Study.from_toml(\"$input\")
+study.check(trial_seconds=0, law_seconds=0).draw(\"drawing.png\")'" >/dev/null
+for picture in column_surface drawing; do
+    [[ $(head -c 8 "$root/tmp/user/$picture.png" | od -An -tx1 | tr -d ' ') == 89504e470d0a1a0a ]] || fail "no $picture.png"
+done
+
 # beside h5py, whose HDF5 is another one
-timed "apt install python3-h5py" in_root "apt-get update && apt-get install --yes --no-install-recommends python3-h5py"
+timed "apt install python3-h5py" in_root "apt-get install --yes --no-install-recommends python3-h5py"
 for order in "h5py, stylobate" "stylobate, h5py"; do
     timed "import $order: each reads what the other has written, by turns" as_user "$python -c '
 import $order
