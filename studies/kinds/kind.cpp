@@ -27,7 +27,9 @@ std::size_t nearest_on_axis(const std::vector<double>& axis, double wanted, cons
 void check_complete(const ResultReader& reader, const std::string& results)
 {
     if (!reader.complete())
-        throw InputError(fmt::format("{}: the run is not complete; run the same study again to continue it", results));
+        throw InputError(fmt::format("{}: the run is not complete: it has {} of {} realizations.\n  Run the same study "
+                                     "again to continue it.",
+                                     results, reader.done(), reader.header().total));
 }
 
 Kind::Kind(const Study& study, const ResultHeader& header)

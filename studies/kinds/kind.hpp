@@ -175,6 +175,8 @@ public:
                                                                    const std::string& name) const;
     /// Opens the page with its own summary. @returns whether it does
     virtual bool summary(PageWriter&) const { return false; }
+    /// Puts the map of its cells on the first screen of the page. @pre `surface` has one
+    virtual void map(PageWriter&) const {}
     virtual void sections(PageWriter&) const {}
     /// Whether the page shows the first realizations over time.
     virtual bool shows_motion() const { return true; }

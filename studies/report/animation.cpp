@@ -214,6 +214,18 @@ Animation animation_of(const Trajectory& t, const AnimationStage& stage, std::si
     return animation;
 }
 
+std::string ascending_text(const std::vector<double>& sorted_s, double quantum_s)
+{
+    NumberBytes bytes;
+    std::uint64_t before = 0;
+    for (const double time_s : sorted_s) {
+        const auto time = static_cast<std::uint64_t>(std::llround(std::max(time_s, 0.0) / quantum_s));
+        bytes.add(time - before);
+        before = time;
+    }
+    return base64(bytes.bytes());
+}
+
 Json animation_store(const AnimationStage& stage, double rate_hz, const std::vector<AnimatedBlock>& blocks,
                      const std::optional<SpaceLooks>& looks)
 {

@@ -56,6 +56,10 @@ struct Animation {
 /// @returns the animation without the values of its row
 Animation animation_of(const Trajectory& trajectory, const AnimationStage& stage, std::size_t stride);
 
+/// Times in ascending order as text, in whole multiples of a quantum: the first one, and the differences from one to
+/// the next, as unsigned numbers of variable length (page/cells.js reads them). @param quantum_s > 0
+std::string ascending_text(const std::vector<double>& sorted_s, double quantum_s);
+
 /// A block of all animations of a page.
 struct AnimatedBlock {
     std::string name;

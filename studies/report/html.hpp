@@ -29,6 +29,8 @@ struct Html {
 /// A text for HTML and for the values of attributes; bytes that are no UTF-8, and control characters, become U+FFFD.
 std::string html_escaped(std::string_view text);
 
+/// A text without a line break inside: a share with its interval.
+Html unbroken(std::string_view text);
 /// A word of a file or of the command line.
 Html code(std::string_view text);
 /// A word in a coloured field. @param tone "good", "warn", "bad", or "" for the plain colour
@@ -48,6 +50,10 @@ public:
     /// A numbered section; the contents at the top of the page lead to it.
     void section(const std::string& title);
     void heading(const std::string& title);
+    /// Puts the contents here instead of the top of the page.
+    void contents();
+    /// The answer of the page in one sentence.
+    void answer(const Html& sentence);
     void paragraph(const Html& text);
     /// Smaller.
     void note(const Html& text);
@@ -62,6 +68,8 @@ public:
     void figure(const Html& picture, const Html& caption);
     /// A sentence below which more opens. @param more puts it into the page
     void details(const Html& sentence, const std::function<void()>& more);
+    /// What belongs together for the style and the script. @param name a class   @param more puts it into the page
+    void part(std::string_view name, const std::function<void()>& more);
     /// Data for the script (`data_script`).
     void data(std::string_view id, std::string_view json);
     /// Where the script puts the player of the animations.
@@ -72,6 +80,7 @@ public:
 private:
     std::string title_, subtitle_, contents_, body_;
     int sections_ = 0;
+    std::size_t contents_at_ = 0; ///< of the body
 };
 
 /// A picture inside the page.

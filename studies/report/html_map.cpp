@@ -12,9 +12,9 @@
 namespace stylobate {
 namespace {
 
-constexpr double frame_left = 70, frame_top = 12, frame_width = 690, frame_height = 430;
-constexpr double scale_left = 785, scale_width = 18;
-constexpr double picture_width = 860, picture_height = 500;
+constexpr double frame_left = 74, frame_top = 10, frame_width = 470, frame_height = 430;
+constexpr double scale_left = 560, scale_width = 16;
+constexpr double picture_width = 640, picture_height = 496;
 constexpr double seam = 0.5; ///< by which cells overlap, so that no light comes between them
 
 double px_x(double unit)
@@ -46,7 +46,7 @@ std::string map_cells(const CellMap& map)
 /// A dark line under a white one is seen on every colour.
 std::string map_lines(const CellMap& map)
 {
-    std::string out, labels;
+    std::string out = "<g class=\"contours\">\n", labels;
     for (const SurfaceContour& contour : map.contours) {
         std::string data;
         for (const ContourLine& line : contour.lines)
@@ -63,7 +63,7 @@ std::string map_lines(const CellMap& map)
         labels += svg_text(x, y + 4, "middle", fmt::format("{}", contour.level),
                            " class=\"on-colour\" pointer-events=\"none\" font-size=\"12\"");
     }
-    return out + labels;
+    return out + labels + "</g>\n";
 }
 
 /// At the centres of the cells, as many as have room.
@@ -71,53 +71,59 @@ std::string map_axes(const CellMap& map)
 {
     std::string out;
     double last = -1e9;
+    // of a narrow drawing, whose letters are larger, every other number is left out
+    const auto look = [](std::size_t number) { return number % 2 == 1 ? " class=\"every-other\"" : ""; };
+    std::size_t drawn = 0;
     for (std::size_t i = 0; i < map.x.size(); ++i) {
         const double x = px_x((map.x_edges[i] + map.x_edges[i + 1]) / 2);
-        if (x - last < 46)
+        if (x - last < 42)
             continue;
         last = x;
         out += svg_rule(x, px_y(0), x, px_y(0) + 5, "axis");
-        out += svg_text(x, px_y(0) + 20, "middle", fmt::format("{:.3g}", map.x[i]));
+        out += svg_text(x, px_y(0) + 20, "middle", fmt::format("{:.3g}", map.x[i]), look(drawn++));
     }
     last = 1e9;
+    drawn = 0;
     for (std::size_t j = 0; j < map.y.size(); ++j) {
         const double y = px_y((map.y_edges[j] + map.y_edges[j + 1]) / 2);
         if (last - y < 22)
             continue;
         last = y;
         out += svg_rule(frame_left - 5, y, frame_left, y, "axis");
-        out += svg_text(frame_left - 9, y + 4.5, "end", fmt::format("{:.3g}", map.y[j]));
+        out += svg_text(frame_left - 9, y + 4.5, "end", fmt::format("{:.3g}", map.y[j]), look(drawn++));
     }
     out += svg_text(px_x(0.5), px_y(0) + 44, "middle", map.x_label);
     out +=
-        svg_text(18, px_y(0.5), "middle", map.y_label, fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", px_y(0.5)));
+        svg_text(16, px_y(0.5), "middle", map.y_label, fmt::format(" transform=\"rotate(-90 16 {:.1f})\"", px_y(0.5)));
     return out;
 }
 
 std::string colour_scale(const CellMap& map)
 {
-    std::string out;
+    std::string out = "<g class=\"scale\">\n";
     constexpr int steps = 48;
     for (int k = 0; k < steps; ++k)
         out += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"{}\"/>\n", scale_left,
                            px_y((k + 1.0) / steps), scale_width, frame_height / steps + 0.5,
                            viridis_colour((k + 0.5) / steps));
     for (int k = 0; k <= 5; ++k)
-        out += svg_text(scale_left + scale_width + 6, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
-    return out + svg_text(picture_width - 8, px_y(0.5), "middle", map.value_label,
-                          fmt::format(" transform=\"rotate(-90 {} {:.1f})\"", picture_width - 8, px_y(0.5)));
+        out += svg_text(scale_left + scale_width + 5, px_y(0.2 * k) + 4.5, "start", fmt::format("{:.1f}", 0.2 * k));
+    return out +
+           svg_text(picture_width - 8, px_y(0.5), "middle", map.value_label,
+                    fmt::format(" transform=\"rotate(-90 {} {:.1f})\"", picture_width - 8, px_y(0.5))) +
+           "</g>\n";
 }
 
 } // namespace
 
 Html map_svg(const CellMap& map)
 {
-    return Html::ready(
-        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cells\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-                    "width=\"{0:.0f}\" role=\"img\" aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n"
-                    "{3}{4}{5}{6}</svg>",
-                    picture_width, picture_height, html_escaped(map.title), map_cells(map), map_lines(map),
-                    map_axes(map), colour_scale(map)));
+    return Html::ready(fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cells\" data-frame=\"{7}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+        "width=\"{0:.0f}\" role=\"img\" aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n"
+        "{3}{4}{5}{6}</svg>",
+        picture_width, picture_height, html_escaped(map.title), map_cells(map), map_lines(map), map_axes(map),
+        colour_scale(map), fmt::format("{} {} {} {}", frame_left, frame_top, frame_width, frame_height)));
 }
 
 } // namespace stylobate

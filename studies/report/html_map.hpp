@@ -19,7 +19,8 @@ struct CellMap {
     std::vector<SurfaceContour> contours;
 };
 
-/// Each cell has its number in `data-cell`, for the script of the page (cells.js).
+/// For the script of the page (cells.js) each cell has its number in `data-cell`, and the drawing in `data-frame` left,
+/// top, width and height of the frame; contours and colour scale are groups that it draws anew.
 /// @pre all sizes fit
 Html map_svg(const CellMap& map);
 

@@ -64,6 +64,11 @@ Choice choose_by_cells(const std::vector<ResultRow>& trials, std::size_t cells, 
                 if (k < of->size())
                     choice.indices.push_back((*of)[k]);
         }
+    for (std::uint64_t place = 0; place < cells; ++place)
+        if (const Fates& cell = all[order.index(place)]; !cell.mixed())
+            for (const std::vector<std::uint64_t>* of : {&cell.fell, &cell.stood})
+                if (!of->empty())
+                    choice.indices.push_back(of->front());
     return choice;
 }
 
@@ -207,13 +212,12 @@ private:
         for (const Animation& animation : kept_.list)
             cells.insert(animation.cell);
         if (all == 0)
-            kept_.words = choice.cells == 0 && is_surface()
-                              ? "No animations: no cell has both realizations that fell and realizations that did not."
-                              : "No animations: there are no valid realizations.";
+            kept_.words = "No animations: there are no valid realizations.";
         else if (is_surface())
-            kept_.words = fmt::format("Animations: {} realizations in {} of the {} cells in which some fell and some "
-                                      "did not (at most {} of each in a cell)",
-                                      kept, cells.size(), choice.cells, options_.each);
+            kept_.words =
+                fmt::format("Animations: {} realizations in {} of {} cells (at most {} that fell and {} that "
+                            "did not in each of the {} cells that have both, one in each other cell)",
+                            kept, cells.size(), results_.header().cells(), options_.each, options_.each, choice.cells);
         else
             kept_.words = fmt::format("Animations: {} of {}", kept, counted(all, "chosen realization"));
         if (all == 0)

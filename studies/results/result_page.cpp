@@ -1,7 +1,6 @@
 #include "studies/results/result_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/plot_order.hpp"
@@ -9,9 +8,9 @@
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
-#include "studies/report/json.hpp"
 #include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
+#include "studies/results/cells_data.hpp"
 #include "studies/results/fall_rose.hpp"
 #include "studies/results/quantile_table.hpp"
 #include "studies/results/result_picture.hpp"
@@ -21,11 +20,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <map>
 
 namespace stylobate {
 namespace {
@@ -37,101 +33,6 @@ std::string interval_text(const Share& share)
     if (std::isnan(share.lower))
         return "–";
     return fmt::format("{:.1f} to {:.1f} %", 100 * share.lower, 100 * share.upper);
-}
-
-struct OfCell {
-    std::array<std::uint64_t, 5> states{}; ///< in the order of `State`
-    std::map<std::int32_t, std::uint64_t> first;
-    std::vector<double> fall_time_s;
-    FallRose rose;
-};
-
-std::string name_of(std::int32_t block, const std::vector<std::string>& names)
-{
-    return block == several_blocks ? "several together" : names.at(static_cast<std::size_t>(block));
-}
-
-void add_outcomes(Json& json, const std::vector<OfCell>& cells, const std::vector<std::string>& names)
-{
-    Json outcomes = Json::object();
-    for (const State state : {State::stood, State::rocked, State::slid, State::invalid}) {
-        std::vector<std::uint64_t> counts;
-        for (const OfCell& cell : cells)
-            counts.push_back(cell.states[static_cast<std::size_t>(state)]);
-        if (state != State::invalid || std::ranges::any_of(counts, [](std::uint64_t n) { return n > 0; }))
-            outcomes.member(to_string(state), Json::brief(counts));
-    }
-    json.member("outcomes", outcomes);
-    Json first = Json::object(), times = Json::object(), roses = Json::object();
-    bool any_rose = false;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        std::vector<double> sorted = cells[i].fall_time_s;
-        if (sorted.empty())
-            continue;
-        std::sort(sorted.begin(), sorted.end());
-        Json of_cell = Json::list();
-        for (const auto& [block, count] : cells[i].first)
-            of_cell.item(Json::list().item(name_of(block, names)).item_as_is(fmt::format("{}", count)));
-        first.member(fmt::format("{}", i), of_cell);
-        times.member(fmt::format("{}", i),
-                     Json::brief(std::vector<double>{
-                         sorted.front(), sorted_quantile(sorted, 0.5, QuantileDefinition::linear), sorted.back()}));
-        if (cells[i].rose.falls() == 0)
-            continue;
-        roses.member(fmt::format("{}", i), Json::brief(cells[i].rose.counts()));
-        any_rose = true;
-    }
-    json.member("first", first).member("times", times);
-    if (any_rose)
-        json.member("rose", roses);
-}
-
-/// JSON for the map of the page (studies/report/page/cells.js): axes, counts, probabilities with their intervals; where
-/// there are rows, also how often each state was reached, which block fell first, and when.
-/// @param table of the study   @param trials rows that are trials; none: nothing is known of single realizations
-/// @param header of the results, for the names of blocks and the model
-/// @param file of the results, for the command that runs one again
-std::string cells_json(const SurfaceTable& table, const std::vector<ResultRow>& trials, const ResultHeader& header,
-                       const std::string& file)
-{
-    Json json = Json::object();
-    const RowQuantity& of = table.row_quantity();
-    json.member("rows", Json::brief(table.rows()))
-        .member("row_name", of.name)
-        .member("row_symbol", of.symbol)
-        .member("row_option", of.option)
-        .member("pga_m_s2", Json::brief(table.pga_m_s2))
-        .member("interval", describe_interval(table.interval))
-        .member("trials", Json::brief(table.trials))
-        .member("collapses", Json::brief(table.collapses))
-        .member("probability", Json::brief(table.probability))
-        .member("lower", Json::brief(table.lower))
-        .member("upper", Json::brief(table.upper))
-        .member("file", file);
-    if (!table.method.empty()) {
-        Json methods = Json::list();
-        for (const IntervalMethod method : table.method)
-            methods.item(
-                std::string_view(method == IntervalMethod::surface ? "neighbouring cells too" : "this cell alone"));
-        json.member("method", methods);
-    }
-    if (trials.empty())
-        return json.text();
-    std::vector<OfCell> cells(table.trials.size());
-    for (const ResultRow& row : trials) {
-        if (row.cell >= cells.size())
-            continue;
-        OfCell& cell = cells[row.cell];
-        ++cell.states[static_cast<std::size_t>(row.outcome.state)];
-        if (row.outcome.state != State::collapsed)
-            continue;
-        cell.fall_time_s.push_back(row.outcome.collapse_time_s);
-        ++cell.first[row.outcome.first_collapse_block];
-        if (header.dimensions == 3)
-            cell.rose.add(row.outcome);
-    }
-    add_outcomes(json, cells, header.block_names);
-    return json.text();
 }
 
 class ResultPage {
@@ -162,23 +63,33 @@ public:
 
     HtmlPage page()
     {
-        page_.section("Summary");
         const std::optional<Answer> answer = kind_.answer();
-        if (answer)
-            page_.box("answer", answer->sentence, answer->more);
+        if (surface_) {
+            page_.answer(answer ? Html(answer->sentence) : counted_answer());
+            depends();
+            kind_.map(writer_);
+            answers();
+            page_.contents();
+        }
+        page_.section("Summary");
+        if (answer && surface_) // the sentence stands above
+            page_.paragraph(answer->more);
+        else if (answer)
+            page_.box("main", answer->sentence, answer->more);
         if (!kind_.summary(writer_))
             summary(answer.has_value());
-        std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
-        laws.front() = static_cast<char>(std::toupper(laws.front()));
-        page_.paragraph(laws);
-        add_left_out(page_, study_.structure.dimensions);
+        if (!surface_)
+            depends();
         studied();
         if (kind_.draws_plainly()) {
             outcomes();
             kind_.sections(writer_);
             if (laws_)
                 law_band_section(writer_, *laws_);
-            answers();
+            if (!surface_)
+                answers();
+            else if (animations_.words)
+                page_.note(*animations_.words);
             pictures();
             order();
             motions();
@@ -211,27 +122,56 @@ private:
         }
     }
 
+    /// How many collapsed, with the interval.
+    Html counted_answer() const
+    {
+        if (rows_.size() == 1)
+            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        const Share collapsed = counts_.share(LimitState::collapse);
+        const std::optional<std::string> of = counted_words(study_);
+        Html text = fmt::format("{} of {} valid realizations{}{} collapsed: ", collapsed.count, collapsed.trials,
+                                of ? " " + *of : "",
+                                surface_ ? fmt::format(" over {} × {} cells of {} and PGA", header_.rows().size(),
+                                                       header_.pga_m_s2.size(), header_.row_quantity().name)
+                                         : "");
+        text += unbroken(percent_text(collapsed.probability));
+        text += " (";
+        if (!std::isnan(collapsed.lower)) {
+            text += unbroken(interval_text(collapsed));
+            text += "; ";
+        }
+        text += describe_interval(counts_.interval()) + ").";
+        return text;
+    }
+
+    /// The share that fell with its interval first.
+    std::string share_answer() const
+    {
+        const Share collapsed = counts_.share(LimitState::collapse);
+        if (rows_.size() == 1)
+            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        if (std::isnan(collapsed.lower))
+            return fmt::format("{} of the realizations collapsed: a share without an interval.",
+                               percent_text(collapsed.probability));
+        return fmt::format("{} of the realizations collapsed ({:g} % interval).", interval_text(collapsed),
+                           100 * interval_level);
+    }
+
+    /// On what the answer depends: the contact law, and what the model leaves out.
+    void depends()
+    {
+        std::string laws = laws_ ? law_band_words(laws_->limits.front(), *laws_) + "." : law_advice(study_);
+        laws.front() = static_cast<char>(std::toupper(laws.front()));
+        page_.paragraph(laws);
+        add_left_out(page_, study_.structure.dimensions);
+    }
+
     /// The share that fell. @param answered whether the page has opened with another answer
     void summary(bool answered)
     {
         const Share collapsed = counts_.share(LimitState::collapse);
-        const std::optional<std::string> of = counted_words(study_);
-        const bool one = rows_.size() == 1, known = !std::isnan(collapsed.lower);
-        std::string sentence, text;
-        if (one)
-            sentence = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
-        else
-            sentence = fmt::format("{} of the realizations collapsed ({}).",
-                                   known ? interval_text(collapsed) : percent_text(collapsed.probability),
-                                   known ? "95 % interval" : describe_interval(counts_.interval()));
-        if (!one)
-            text = fmt::format("{} of {} valid realizations{}{} collapsed: {} ({}{}).", collapsed.count,
-                               collapsed.trials, of ? " " + *of : "",
-                               surface_ ? fmt::format(" over {} × {} cells of {} and PGA", header_.rows().size(),
-                                                      header_.pga_m_s2.size(), header_.row_quantity().name)
-                                        : "",
-                               percent_text(collapsed.probability), known ? interval_text(collapsed) + "; " : "",
-                               describe_interval(counts_.interval()));
+        const bool one = rows_.size() == 1;
+        Html text = one && !surface_ && !answered ? Html() : counted_answer();
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
                     "probability of each cell is given below.";
@@ -246,10 +186,10 @@ private:
         if (const std::optional<std::string> moving = counts_.moving_text())
             text += " " + (one ? std::string("It still moved at the end: its residual displacements are not known.")
                                : *moving);
-        if (answered)
+        if (answered || surface_)
             page_.paragraph(text);
         else
-            page_.box("answer", sentence, text);
+            page_.box("main", share_answer(), text);
         if (!invalid_.empty()) {
             std::string list;
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)
@@ -279,32 +219,24 @@ private:
         if (rows_.size() == 1)
             return;
         page_.section("Outcomes");
-        const bool to_rest = study_.outcome.follow == Follow::rest;
         HtmlTable table{"lrrr", {"limit state", "reached", "share", describe_interval(counts_.interval())}, {}, ""};
-        for (std::size_t i = 0; i < limit_state_names().size(); ++i) {
-            const auto limit = static_cast<LimitState>(i);
-            if ((limit == LimitState::total && !to_rest) ||
-                (limit == LimitState::unseated && study_.structure.epistyles.empty()))
-                continue;
+        for (const LimitState limit : counted_limits(study_)) {
             const Share share = counts_.share(limit);
             table.rows.push_back({describe(limit), fmt::format("{} of {}", share.count, share.trials),
                                   percent_text(share.probability), interval_text(share)});
         }
         page_.table(table);
-        if (to_rest && counts_.share(LimitState::total).count > 0)
+        if (study_.outcome.follow == Follow::rest && counts_.share(LimitState::total).count > 0)
             page_.note(
                 fmt::format("Median time of the total collapse: {:.3g} s.", counts_.median_total_collapse_time_s()));
         page_.note("Rocking or sliding without collapse: classified by the larger of the two motions.");
     }
 
-    /// What the script of the page needs beside the figures: the cells of a surface, and realizations in motion.
+    /// What the script of the page needs: the cells of a surface, and realizations in motion.
     void answers()
     {
-        if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_) {
-            page_.data("cells", cells_json(*table, rows_, header_, fs::path(results_.file()).filename().string()));
-            if (animations_.words)
-                page_.note(*animations_.words);
-        }
+        if (const std::optional<SurfaceTable> table = kind_.surface(); table && surface_)
+            page_.data("cells", cells_json(*table, results_));
         if (!animations_.list.empty())
             page_.data("animations", animations_json(animations_, study_));
     }

@@ -139,6 +139,9 @@ class Browser:
         self.send("Emulation.setScriptExecutionDisabled", {"value": not on})
 
     def open(self, path):
+        """@param path may end in # and what a link has behind it"""
+        self.send("Page.navigate", {"url": "about:blank"})  # the same page with another # would not be loaded anew
+        self._wait("Page.loadEventFired")
         self.requests, self.errors = [], []
         self._events.clear()
         self.send("Page.navigate", {"url": "file://" + os.path.abspath(path)})

@@ -23,6 +23,44 @@ def stylobate(*words):
     subprocess.run([Given.program, *map(str, words), "--quiet"], check=True, stdout=subprocess.DEVNULL)
 
 
+# Texts that are shown: how many, and those whose letters are smaller than 11 px on the screen.
+LETTERS = """(() => {
+    const small = [];
+    let texts = 0;
+    for (const element of document.querySelectorAll("body *")) {
+      const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+      if (!own || !element.checkVisibility({visibilityProperty: true}) || element.matches(".spoken, .unseen, option, title")) continue;
+      ++texts;
+      const matrix = element.ownerSVGElement ? element.getScreenCTM() : null, scale = matrix ? Math.hypot(matrix.a, matrix.b) : 1;
+      const size = parseFloat(getComputedStyle(element).fontSize) * scale;
+      if (size < 10.99) small.push([element.tagName, element.textContent.slice(0, 40), size]);
+    }
+    return {texts, small};
+})()"""
+
+# Shares with intervals: "61 % (58 to 64)", "58.1 to 64.0 %"; those that go over the end of a line.
+BROKEN = """(() => {
+    const broken = [];
+    let intervals = 0;
+    const walk = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+    for (let node; (node = walk.nextNode());) {
+      if (!node.parentElement.checkVisibility() || node.parentElement.closest(".spoken, pre, option")) continue;
+      for (const found of node.textContent.matchAll(/[\\d.]+ % \\([\\d.]+ to [\\d.]+\\)|[\\d.]+( %)? to [\\d.]+ %/g)) {
+        ++intervals;
+        const range = document.createRange();
+        range.setStart(node, found.index);
+        range.setEnd(node, found.index + found[0].length);
+        if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) broken.push(found[0]);
+      }
+    }
+    return {intervals, broken};
+})()"""
+
+
+def settings(**values):
+    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
 class Page(unittest.TestCase):
     """A browser for all tests of a class; after each one it has asked for the page alone and complained of nothing."""
 
@@ -43,7 +81,7 @@ class Page(unittest.TestCase):
 
     def open(self, name):
         self.browser.open(self.at(name))
-        self.page = self.at(name)
+        self.page = self.at(name.split("#")[0])
 
     def tearDown(self):
         self.assertEqual(self.browser.errors, [])

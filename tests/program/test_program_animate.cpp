@@ -1,5 +1,6 @@
 /// The realizations in motion of `stylobate report`: which are kept, within which limits, and what is refused.
 
+#include "studies/experiment/limit_state.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "tests/program/program.hpp"
 #include "tests/studies/measured/diagnosis/diagnosis_sample.hpp"
@@ -54,7 +55,7 @@ protected:
         return all;
     }
 
-    /// The first of each fate in the cells that have both, from the rows.
+    /// The first of each fate in the cells that have both, and the first of all in the others, from the rows.
     std::set<Key> expected(std::size_t each) const
     {
         std::map<std::uint64_t, std::array<std::vector<std::uint64_t>, 2>> cells;
@@ -62,20 +63,21 @@ protected:
             if (row.outcome.state != State::invalid)
                 cells[row.cell][row.outcome.state == State::collapsed].push_back(row.index);
         std::set<Key> all;
-        for (const auto& [cell, fates] : cells)
-            if (!fates[0].empty() && !fates[1].empty())
-                for (const std::vector<std::uint64_t>& fate : fates)
-                    for (std::size_t k = 0; k < std::min(each, fate.size()); ++k)
-                        all.emplace(cell, fate[k]);
+        for (const auto& [cell, fates] : cells) {
+            const bool mixed = !fates[0].empty() && !fates[1].empty();
+            for (const std::vector<std::uint64_t>& fate : fates)
+                for (std::size_t k = 0; k < std::min<std::size_t>(mixed ? each : 1, fate.size()); ++k)
+                    all.emplace(cell, fate[k]);
+        }
         return all;
     }
 };
 
-TEST_F(Animate, OneOfEachFateOfEveryMixedCell)
+TEST_F(Animate, OneOfEachFateOfEveryCell)
 {
     make_surface();
     const std::set<Key> one = expected(1), two = expected(2);
-    ASSERT_GE(one.size(), 4U) << "the study has too few mixed cells to test anything";
+    ASSERT_GE(one.size(), 16U + 2U) << "the study has too few mixed cells to test anything";
     ASSERT_GT(two.size(), one.size());
     EXPECT_EQ(kept(page_of("surface.h5", {})), one);
     EXPECT_EQ(kept(page_of("surface.h5", {"--animate", "2"})), two);
@@ -99,6 +101,37 @@ TEST_F(Animate, CellsHaveTheCountsOfTheRows)
         EXPECT_NEAR(cells["upper"].items[cell].number, surface.upper[cell], 1e-5);
         EXPECT_EQ(cells["outcomes"]["rocked"].items[cell].number, states[cell][1]);
         EXPECT_EQ(cells["outcomes"]["slid"].items[cell].number, states[cell][2]);
+    }
+}
+
+TEST_F(Animate, CellsHaveEachLimitStateWithItsInterval)
+{
+    make_surface();
+    const JsonValue cells = data_of(page_of("surface.h5", {"--animate", "0"}), "cells");
+    const std::vector<ResultRow> rows = ResultReader(folder / "surface.h5").rows();
+    std::vector<std::string> names;
+    for (const JsonValue& limit : cells["limits"].items)
+        names.push_back(limit["name"].text);
+    EXPECT_EQ(names, (std::vector<std::string>{"collapse", "rocked", "slid", "moving"})); // no epistyle, one fall
+    std::map<std::pair<double, double>, const JsonValue*> intervals;
+    for (const JsonValue& one : cells["intervals"].items)
+        intervals[{one.items[0].number, one.items[1].number}] = &one.items[2];
+    for (const JsonValue& limit : cells["limits"].items) {
+        if (limit["name"].text == "collapse") // its own members
+            continue;
+        std::vector<std::uint64_t> counts(16);
+        for (const ResultRow& row : rows)
+            counts[row.cell] +=
+                row.outcome.state != State::invalid && reached(limit_state_of(limit["name"].text), row.outcome);
+        for (std::size_t cell = 0; cell < 16; ++cell) {
+            const double trials = cells["trials"].items[cell].number, count = static_cast<double>(counts[cell]);
+            EXPECT_EQ(limit["reached"].items[cell].number, count);
+            const Share share = share_of(static_cast<std::uint64_t>(trials), counts[cell]);
+            const auto ends = intervals.find({trials, count});
+            ASSERT_NE(ends, intervals.end());
+            EXPECT_NEAR(ends->second->items[0].number, share.lower, 1e-5);
+            EXPECT_NEAR(ends->second->items[1].number, share.upper, 1e-5);
+        }
     }
 }
 
@@ -167,7 +200,7 @@ TEST_F(Animate, RefusesWhatCannotBeHad)
                                          .signal = SIGINT,
                                          .when = when_done(100)});
     EXPECT_EQ(stopped.status, 130) << testing::PrintToString(stopped);
-    expect_refused({"report", "part.h5"}, {"part.h5", "not complete"});
+    expect_refused({"report", "part.h5"}, {"part.h5", "not complete: it has ", " of 320000 realizations"});
 }
 
 TEST_F(Animate, ADiagnosisHasNone)

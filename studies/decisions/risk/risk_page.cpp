@@ -226,7 +226,7 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optiona
                   fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
                               hazard_text(risk.hazard), risk.code_version));
     page.section("The answer");
-    page.box(risk.principal().determined ? "answer" : "warn", risk_answer_title(risk), risk_answer(risk));
+    page.box(risk.principal().determined ? "main" : "warn", risk_answer_title(risk), risk_answer(risk));
     page.paragraph(risk_grounds(risk));
     if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
         page.paragraph("Conventions: " + *conventions + ".");

@@ -252,13 +252,22 @@ Picture SurfaceKind::picture(const ResultReader& reader, const std::string& resu
     return picture;
 }
 
+void SurfaceKind::map(PageWriter& writer) const
+{
+    const SurfaceTable table = *surface();
+    writer.page.part("instrument", [&] {
+        writer.page.part("of-map", [&] {
+            writer.page.figure(map_svg(surface_map(table)),
+                               fmt::format("The probability of collapse over {} and PGA. Lines: 0.05, 0.5 and 0.95.",
+                                           table.row_quantity().name));
+        });
+    });
+}
+
 void SurfaceKind::sections(PageWriter& writer) const
 {
     const SurfaceTable table = *surface();
     writer.page.section("Probability of collapse");
-    writer.page.figure(map_svg(surface_map(table)),
-                       fmt::format("The probability of collapse over {} and PGA. Lines: 0.05, 0.5 and 0.95.",
-                                   table.row_quantity().name));
     if (table.pga_m_s2.size() > 1)
         writer.page.figure(
             figure_svg(slice_figure(table)),

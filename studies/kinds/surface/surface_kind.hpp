@@ -48,6 +48,7 @@ public:
     {
         return picture != "surface" && picture != "slice";
     }
+    void map(PageWriter& writer) const override;
     void sections(PageWriter& writer) const override;
     bool shows_motion() const override { return false; }
 

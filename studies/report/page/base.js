@@ -38,6 +38,13 @@ function percentText(share, digits = 1) {
   return share === null ? "–" : `${(100 * share).toFixed(digits)} %`;
 }
 
+/** A share with its interval: "61.4 % (58.1 to 64.0)". */
+function shareText(share, lower, upper) {
+  if (share === null) return "–";
+  const [low, high] = [lower, upper].map((end) => (100 * end).toFixed(1));
+  return `${percentText(share)} (${low} to ${high})`;
+}
+
 function clamp(value, least, most) {
   return Math.min(Math.max(value, least), most);
 }

@@ -63,9 +63,9 @@ class Player {
     this.paths = svg("g", {});
     this.falls = svg("g", {});
     this.cursor = svg("line", {class: "cursor", y1: 4, y2: 66});
-    this.label = svg("text", {x: 6, y: 14, "font-size": 12});
+    this.label = html("p", {class: "of-strip"});
     this.strip = svg("svg", {class: "strip", viewBox: `0 0 ${width} 70`, "aria-hidden": "true"}, this.paths, this.falls,
-                     this.cursor, this.label);
+                     this.cursor);
     this.strip.addEventListener("pointerdown", (event) => this.scrubTo(event));
     this.strip.addEventListener("pointermove", (event) => event.buttons && this.scrubTo(event));
     this.playButton = html("button", {type: "button", click: () => this.toggle(), class: "play"}, "Play");
@@ -74,22 +74,26 @@ class Player {
       this.show(Number(this.slider.value) / this.rate());
     }});
     this.clock = html("span", {class: "time"});
-    this.speeds = html("select", {"aria-label": "speed", change: () => { this.speed = Number(this.speeds.value); }});
+    this.speeds = html("select", {class: "speed", "aria-label": "speed", change: () => { this.speed = Number(this.speeds.value); }});
     for (const [factor, name] of [[1, "real time"], [0.5, "1/2 speed"], [0.25, "1/4 speed"], [0.1, "1/10 speed"],
                                   [0.05, "1/20 speed"]])
       this.speeds.append(html("option", {value: factor}, name));
     this.before = html("button", {type: "button", click: () => this.choose(this.place - 1), class: "previous",
-                                  "aria-label": `previous ${this.noun()}`}, "◀ previous");
+                                  "aria-label": `previous ${this.noun()}`}, "◀");
     this.after = html("button", {type: "button", click: () => this.choose(this.place + 1), class: "next",
-                                 "aria-label": `next ${this.noun()}`}, "next ▶");
+                                 "aria-label": `next ${this.noun()}`}, "▶");
+    this.choices = html("select", {class: "choices", "aria-label": `${this.noun()} that is shown`,
+                                   change: () => this.choose(Number(this.choices.value))},
+                        ...this.list.map((one, i) => html("option", {value: i}, this.choiceText(one))));
     this.title = html("p", {class: "which"});
     this.says = html("p", {class: "says"});
     this.element = html("div", {class: "player only-with-script", keydown: (event) => this.key(event)},
-        html("div", {class: "controls"}, this.before, this.after, this.title),
-        ...this.drawings(), this.strip,
+        html("div", {class: "controls"}, this.before, this.choices, this.after), this.title,
+        ...this.drawings(), this.label, this.strip,
         html("div", {class: "controls"}, this.playButton, this.slider, this.clock, this.speeds),
         this.says,
-        html("p", {class: "note"}, "Keys: space plays and pauses, the arrows go a sample back and on (with shift ten), ",
+        html("details", {class: "note"}, html("summary", {}, "Keys, and what is drawn"),
+             "Space plays and pauses, the arrows go a sample back and on (with shift ten), ",
              `n and p choose the next and the previous ${this.noun()}. ${this.noteText()}The drawing moves with the base; `,
              "the marks on the ground stand still in the laboratory."));
   }
@@ -160,6 +164,12 @@ class Player {
     return `Realization ${one.index}${shaking}: ${stateWords[one.state] ?? one.state}`;
   }
 
+  /** Of the list of all. */
+  choiceText(one) {
+    const first = Math.min(...one.falls.map(([, time]) => time));
+    return `${one.index}: ${stateWords[one.state] ?? one.state}${Number.isFinite(first) ? ` at ${numberText(first, 3)} s` : ""}`;
+  }
+
   clockText() { return `${this.time.toFixed(3)} s of ${this.end.toFixed(3)} s`; }
 
   /** Where a block is drawn, of its own place [px, rad]; x from the middle, y upwards from the ground. */
@@ -192,12 +202,14 @@ class Player {
     this.setBlocks();
     this.title.textContent = `${this.titleText()} (${place + 1} of ${this.list.length})`;
     this.stage.setAttribute("aria-label", this.title.textContent);
-    this.before.hidden = this.after.hidden = this.list.length === 1;
+    this.before.hidden = this.after.hidden = this.choices.hidden = this.list.length === 1;
+    this.choices.value = String(place);
     this.before.disabled = place === 0;
     this.after.disabled = place === this.list.length - 1;
     this.slider.max = one.samples - 1;
     this.drawStrip();
     this.show(0);
+    this.element.dispatchEvent(new CustomEvent("chosen", {detail: one}));
   }
 
   /** Displacement of the base over the whole time, with the falls. */

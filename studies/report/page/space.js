@@ -322,7 +322,19 @@ function shaded(pen, colour, bright) {
   return `rgb(${parts.join(",")})`;
 }
 
+/** In the place of a player that would need a canvas. */
+class NoPlayer {
+  constructor() {
+    this.element = this.stage = html("p", {class: "player note"},
+        "This browser has no canvas: realizations of structures in space are not shown in motion.");
+  }
+  choose() {}
+  pause() {}
+  key() {}
+}
+
 /** The player of a page's animations. */
 function playerOf(store, list) {
+  if (store.dimensions === 3 && !html("canvas").getContext?.("2d")) return new NoPlayer();
   return new (store.layers ? WindowPlayer : store.dimensions === 3 ? SpacePlayer : Player)(store, list);
 }

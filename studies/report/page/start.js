@@ -4,23 +4,19 @@ for (const script of document.querySelectorAll("script.figure-data"))
   new LiveFigure(script.parentElement.querySelector("svg"), JSON.parse(script.textContent));
 {
   const store = dataOf("animations"), cells = dataOf("cells");
-  const map = document.querySelector("svg.cells");
-  if (cells && map) new CellMap(map, cells, store);
+  const map = document.querySelector(".instrument");
+  if (cells && map) new Instrument(map, new Cells(cells), store);
   for (const place of document.querySelectorAll("[data-player]"))
     if (store && store.list.length)
       place.append(playerOf(store, store.list).element);
 }
-// what is folded on the screen is printed
+// What is folded is printed too.
+let unfolded = [];
 addEventListener("beforeprint", () => {
-  for (const folded of document.querySelectorAll("details:not([open])")) {
-    folded.open = true;
-    folded.dataset.folded = "";
-  }
+  unfolded = [...document.querySelectorAll("details:not([open]):not(.take)")];
+  for (const details of unfolded) details.open = true;
 });
 addEventListener("afterprint", () => {
-  for (const folded of document.querySelectorAll("details[data-folded]")) {
-    folded.open = false;
-    delete folded.dataset.folded;
-  }
+  for (const details of unfolded) details.open = false;
 });
 document.documentElement.dataset.alive = "yes";

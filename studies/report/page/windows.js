@@ -47,6 +47,7 @@ class WindowPlayer extends Player {
   noun() { return "window"; }
   rate() { return this.one.rate_hz; }
   titleText() { return this.one.title; }
+  choiceText(one) { return one.title; }
 
   clockText() {
     return `${(this.one.start_s + this.time).toFixed(3)} s (to ${(this.one.start_s + this.end).toFixed(3)} s)`;
