@@ -119,14 +119,6 @@ public:
 private:
     void answers()
     {
-        std::string names;
-        for (const VariantComparison& variant : c_.variants)
-            names += (names.empty() ? "" : ", ") + variant.name;
-        page_.paragraph(
-            fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
-        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
-            page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
-        add_left_out_of(page_, c_.base_toml);
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
                 continue;
@@ -139,6 +131,9 @@ private:
             if (const std::optional<std::string> harm = harm_text(c_, variant))
                 page_.note(variant.name + ": " + *harm);
         }
+        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
+            page_.note(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
+        add_left_out_of(page_, c_.base_toml);
     }
 
     /// Draws it, or says why not.
