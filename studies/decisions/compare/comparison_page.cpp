@@ -58,13 +58,13 @@ std::string unknown_text(const VariantComparison& variant, const LimitComparison
     return unknown > 0 ? fmt::format(" ({} pairs left out: still moving at the end)", unknown) : std::string();
 }
 
-/// "dowels: probability of collapse -10.2 to +5.8 percentage points (95 % interval)"
+/// "dowels: the probability of collapse changes by -10.2 to +5.8 percentage points (95 % interval)"
 std::string answer_title(const Comparison& comparison, const VariantComparison& variant)
 {
     const LimitComparison& limit = variant.limits.front();
     if (limit.overall.counts.pairs() == 0)
         return variant.name;
-    return fmt::format("{}: probability of {} {} ({:g} % interval)", variant.name, limit.name,
+    return fmt::format("{}: the probability of {} changes by {} ({:g} % interval)", variant.name, limit.name,
                        points_text(limit.overall), 100 * comparison.level);
 }
 
