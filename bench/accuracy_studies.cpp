@@ -12,13 +12,13 @@
 ///       [--draws N] [--study NAME] [--inputs FOLDER]
 
 #include "bench/mean.hpp"
-#include "bench/processor.hpp"
-#include "bench/scenes.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/table.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/workflow/bench/scenes.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,12 +2,12 @@
 /// the most. Where there is no device, one line says so.
 
 #include "bench/counted.hpp"
-#include "bench/scenes.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/device/slot_tasks.hpp"
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/structure/scales.hpp"
 #include "ensemble/run/executor.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <benchmark/benchmark.h>
 

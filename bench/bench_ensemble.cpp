@@ -1,13 +1,14 @@
 /// Whole studies: sampling, stepping, refilling of lanes, everything but the results file. And measured motion followed
 /// in lockstep against one at a time: the same jobs, code and results, by lanes in a register.
 
-#include "bench/scenes.hpp"
 #include "ensemble/run/executor.hpp"
 #include "ensemble/tracking/tracking.hpp"
 #include "studies/experiment/loaded_study.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <set>
 #include <string>
 #include <thread>
 
@@ -39,8 +40,8 @@ void ensemble(benchmark::State& state, Isa isa, int threads)
     state.counters["collapsed_share"] = static_cast<double>(progress.collapsed) / static_cast<double>(progress.done);
 }
 
-/// README's first command without its files: once, on two threads.
-void main_job(benchmark::State& state, Isa isa)
+/// README's first command without its files: once.
+void main_job(benchmark::State& state, Isa isa, int threads)
 {
     const LoadedStudy main_job =
         LoadedStudy::from_file(std::string(STYLOBATE_SOURCE) + "/studies/inputs/small_scale_column.toml", {});
@@ -49,7 +50,7 @@ void main_job(benchmark::State& state, Isa isa)
     plan.sink = [](const Realization&, const Outcome&) {};
     Observer observer;
     for (auto _ : state)
-        state.counters["seconds"] = run_ensemble(main_job.experiment(), {isa, 2}, plan, observer).seconds;
+        state.counters["seconds"] = run_ensemble(main_job.experiment(), {isa, threads}, plan, observer).seconds;
 }
 
 /// Sixty-four parameter sets of the specimen along what one of them did under an earthquake of two seconds, with nine
@@ -131,13 +132,17 @@ void following_ratio(benchmark::State& state)
 }
 
 const bool registered = [] {
-    benchmark::RegisterBenchmark((std::string("BM_MainJob/") + to_string(best_isa())).c_str(), main_job, best_isa())
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    benchmark::RegisterBenchmark((std::string("BM_MainJob/") + to_string(best_isa())).c_str(), main_job, best_isa(),
+                                 cores)
         ->Unit(benchmark::kSecond)
         ->Iterations(1)
         ->Repetitions(1);
-    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    std::set<int> counts = {cores};
+    for (int threads = 1; threads < cores; threads *= 2)
+        counts.insert(threads);
     for (const Isa isa : usable_isas())
-        for (int threads = 1; threads <= cores; threads *= 2)
+        for (const int threads : counts)
             benchmark::RegisterBenchmark(
                 (std::string("BM_Ensemble/") + to_string(isa) + "/" + std::to_string(threads)).c_str(), ensemble, isa,
                 threads)

@@ -1,7 +1,7 @@
 /// The kernel alone, and what the machine could do at the most.
 
 #include "bench/counted.hpp"
-#include "bench/warm_kernel.hpp"
+#include "studies/workflow/bench/warm_kernel.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -5,13 +5,13 @@
 
 #include "studies/experiment/conventions.hpp"
 #include "bench/mean.hpp"
-#include "bench/processor.hpp"
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/interval.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/table.hpp"
 #include "studies/experiment/contact_laws.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 /// The step counted on the number that counts (`counted.hpp`).
 
 #include "bench/counted.hpp"
-#include "bench/scenes.hpp"
 #include "bench/spatial_column.hpp"
 #include "kernels/planar/step.hpp"
 #include "kernels/spatial/step.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <vector>
 

@@ -7,12 +7,12 @@
 /// The study has rigid contacts and outcome.follow = "rest".
 
 #include "bench/mean.hpp"
-#include "bench/processor.hpp"
 #include "ensemble/experiment.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/planar/hand_over.hpp"
 #include "io/study/study_file.hpp"
 #include "io/tables/table.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

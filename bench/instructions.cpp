@@ -1,7 +1,7 @@
 /// The instructions of a block-step, counted by running it one instruction at a time (ptrace) and naming each by the
 /// disassembly: all instruction sets alike, AVX-512 too, which callgrind does not know. x86-64 and Linux only.
 
-#include "bench/warm_kernel.hpp"
+#include "studies/workflow/bench/warm_kernel.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 /// Benchmarks say which code ran on which processor.
 
-#include "bench/processor.hpp"
 #include "studies/version.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -5,9 +5,11 @@
 
 #include "bench/results_file.hpp"
 #include "io/tables/table.hpp"
+#include "studies/workflow/bench/speed_row.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -127,14 +129,21 @@ void rows_of_kind(const ResultsFile& file)
         const double peak = best("BM_PeakFma/{}", "flops_per_second");
         if (steps == 0 || peak == 0)
             continue;
-        const auto whole = [](double number) { return number > 0 ? fmt::format("{:.0f}", number) : ""; };
-        fmt::print("{}", markdown_row("{} | {} | {} | {:.0f} % | {} | {} | {} | {} | {}", file.processor, isa,
-                                      millions(steps), 100 * best("BM_Kernel/{}/7", "flops_per_second") / peak,
-                                      times(steps, file.best("BM_Kernel/scalar/7", "block_steps_per_second")),
-                                      millions(best("BM_Step/{}/7", "block_steps_per_second")),
-                                      whole(best("BM_Ensemble/{}/1", "realizations_per_second")),
-                                      whole(best("BM_Ensemble/{}/2", "realizations_per_second")),
-                                      whole(best("BM_MainJob/{}/iterations:1/repeats:1", "seconds"))));
+        int threads = 1; // the most that were measured
+        for (const Measured& run : file.runs)
+            if (const std::string family = fmt::format("BM_Ensemble/{}/", isa); run.name.starts_with(family))
+                threads = std::max(threads, std::stoi(run.name.substr(family.size())));
+        fmt::print("{}", speed_row({.processor = file.processor,
+                                    .threads = threads,
+                                    .isa = isa,
+                                    .steps = steps,
+                                    .of_the_peak = best("BM_Kernel/{}/7", "flops_per_second") / peak,
+                                    .times_scalar = steps / file.best("BM_Kernel/scalar/7", "block_steps_per_second"),
+                                    .with_all = best("BM_Step/{}/7", "block_steps_per_second"),
+                                    .one_thread = best("BM_Ensemble/{}/1", "realizations_per_second"),
+                                    .all_threads = file.best(fmt::format("BM_Ensemble/{}/{}", isa, threads),
+                                                             "realizations_per_second"),
+                                    .main_job_s = best("BM_MainJob/{}/iterations:1/repeats:1", "seconds")}));
     }
 }
 
@@ -152,11 +161,7 @@ void kinds(const std::filesystem::path& folder)
         if (kept.date < file.date)
             kept = file;
     }
-    fmt::print("{}",
-               markdown_head("processor | instruction set | steps, million block-steps/s | of the peak | times the "
-                             "scalar rate | with all | small surface, realizations/s, 1 thread | 2 threads | "
-                             "main job, 2 threads [s]",
-                             Align::numbers));
+    fmt::print("{}", speed_head());
     for (const auto& [name, file] : last)
         rows_of_kind(file);
 }

@@ -10,11 +10,11 @@
 ///                                                                     scripts/tables.sh rigid_limit
 
 #include "bench/mean.hpp"
-#include "bench/processor.hpp"
 #include "bench/rigid_agreement.hpp"
 #include "bench/rocking_cells.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/tables/table.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

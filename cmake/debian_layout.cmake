@@ -8,14 +8,8 @@ function(compress file)
   execute_process(COMMAND gzip -9nf ${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Notices of the libraries of headers alone, whose code is in the programs: as Debian has them.
-set(third_party "")
-foreach(package libxsimd-dev libcli11-dev libeigen3-dev librandom123-dev libtomlplusplus-dev pybind11-dev)
-  if(EXISTS /usr/share/doc/${package}/copyright)
-    file(READ /usr/share/doc/${package}/copyright notice)
-    string(APPEND third_party "==== ${package} ====\n\n${notice}\n")
-  endif()
-endforeach()
+include(${CPACK_STYLOBATE_SOURCE_DIR}/cmake/third_party.cmake)
+third_party_notices(third_party)
 
 foreach(component ${CPACK_COMPONENTS_ALL})
   set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component}/usr)

@@ -7,6 +7,10 @@ function(literal_of out)
     if(text MATCHES "<!--|</?(script|style)")
       message(FATAL_ERROR "${file} contains ${CMAKE_MATCH_0}, which would end the element that it stands in")
     endif()
+    if(file MATCHES "\\.js$") # comments of whole lines, and indents, stay in the source
+      string(REGEX REPLACE "\n *(//|/\\*\\*|\\* |\\*/)[^\n]*" "" text "\n${text}")
+      string(REGEX REPLACE "\n +" "\n" text "${text}")
+    endif()
     string(APPEND parts "R\"embedded(${text})embedded\"\n") # one literal a file: compilers limit their length
   endforeach()
   set(${out} "${parts}" PARENT_SCOPE)

@@ -10,7 +10,7 @@
 
 namespace stylobate {
 
-enum class Isa { scalar, avx2, avx512, neon };
+enum class Isa { scalar, avx2, avx512, neon, wasm };
 
 /// The planar model's step.
 struct PlanarKernels {
@@ -47,7 +47,7 @@ struct KernelTable {
 };
 
 const char* to_string(Isa isa);
-/// "scalar", "avx2", "avx512" or "neon"; false for any other word.
+/// "scalar", "avx2", "avx512", "neon" or "wasm"; false for any other word.
 bool parse_isa(std::string_view name, Isa& isa);
 
 /// The instruction sets that are built in and that this processor has, narrowest first.

@@ -1,5 +1,6 @@
 #include "io/files/atomic_file.hpp"
 #include "library/inside.hpp"
+#include "library/tables.hpp"
 #include "studies/decisions/compare/comparison.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/workflow/compare.hpp"
@@ -25,23 +26,6 @@ struct Answer::Data {
 };
 
 namespace {
-
-Table table_of(const inner::Table& table)
-{
-    Table made{table.name(), {}, {}};
-    made.attributes = table.attributes();
-    for (const inner::Table::Column& column : table.columns())
-        made.columns.push_back({column.name, column.unit, column.values, column.shape});
-    return made;
-}
-
-std::vector<Table> tables_of(const std::vector<inner::Table>& tables)
-{
-    std::vector<Table> made;
-    for (const inner::Table& table : tables)
-        made.push_back(table_of(table));
-    return made;
-}
 
 /// Finds by name. @param what for the message
 template <class List>

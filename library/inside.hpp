@@ -91,7 +91,7 @@ public:
     }
     void stage(const std::string& line) override { note(line); }
     void progress(const inner::Progress& p) override { note(inner::progress_line(p)); }
-    void counted(const std::string& line, const inner::Progress& p) override
+    void counted(const char*, const std::string& line, const inner::Progress& p) override
     {
         if (std::exchange(done_, p.done) != p.done)
             note(line);

@@ -2,6 +2,7 @@
 
 #include "io/store/result_layout.hpp"
 #include "io/study/study_file.hpp"
+#include "library/tables.hpp"
 #include "studies/kinds/adaptive/adaptive_kind.hpp"
 #include "studies/workflow/run.hpp"
 
@@ -13,6 +14,16 @@
 namespace stylobate::api {
 
 namespace {
+
+/// The tables of any kind that a complete file has.
+std::vector<inner::Table> tables_in(const inner::ResultReader& reader)
+{
+    std::vector<inner::Table> tables;
+    for (const char* name : {"fragility", "rare", "sensitivity", "survival", "twins"})
+        if (inner::Table table = reader.table(name); !table.empty())
+            tables.push_back(std::move(table));
+    return tables;
+}
 
 /// @throws InputError for a word that is no limit state
 inner::LimitState limit_of(const std::string& word)
@@ -53,8 +64,7 @@ Result Result::from_file(const std::filesystem::path& file)
         if (!data.complete)
             data.finish();
         else
-            data.finish(header.cells() == 0 ? std::nullopt : std::optional(reader.surface()), reader.table("rare"),
-                        reader.table("fragility"));
+            data.finish(header.cells() == 0 ? std::nullopt : std::optional(reader.surface()), tables_in(reader));
         return Inside::make<Result>(std::move(data));
     });
 }
@@ -179,6 +189,11 @@ Fragility Result::fragility() const
     return fragility_of(data_->fragility);
 }
 
+const std::vector<Table>& Result::tables() const
+{
+    return data_->tables;
+}
+
 Result::Data::Data(inner::ResultHeader of, inner::Study from, std::string called)
     : header(std::move(of)), study(std::move(from)), name(std::move(called)),
       limits(header.block_names.size(),
@@ -226,8 +241,7 @@ void Result::Data::add(const inner::Tally& tally)
         counts_[i] = inner::SurfaceCounts::of(inner::surface_of(header, tally, static_cast<inner::LimitState>(i)));
 }
 
-void Result::Data::finish(std::optional<inner::SurfaceTable> surface, const inner::Table& of_rare,
-                          const inner::Table& of_fragility)
+void Result::Data::finish(std::optional<inner::SurfaceTable> surface, const std::vector<inner::Table>& found)
 {
     std::sort(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) { return a.index < b.index; });
     for (const inner::SurfaceCounts& each : counts_)
@@ -235,8 +249,13 @@ void Result::Data::finish(std::optional<inner::SurfaceTable> surface, const inne
     counts_.clear();
     if (surface && !surfaces.empty())
         surfaces[static_cast<std::size_t>(inner::LimitState::collapse)] = std::move(*surface);
-    rare = inner::rare_table(of_rare);
-    fragility = inner::fragility_table(of_fragility);
+    const auto named = [&](const std::string& wanted) {
+        const auto at = std::ranges::find(found, wanted, &inner::Table::name);
+        return at == found.end() ? inner::Table(wanted) : *at;
+    };
+    rare = inner::rare_table(named("rare"));
+    fragility = inner::fragility_table(named("fragility"));
+    tables = tables_of(found);
 }
 
 namespace {

@@ -29,9 +29,8 @@ struct Result::Data {
     void add(const inner::ResultRow& row);
     /// Takes the counts of a study that keeps no rows instead.
     void add(const inner::Tally& tally);
-    /// The last step. @param surface of the collapse, as the kind of study has it; what it has not is empty
-    void finish(std::optional<inner::SurfaceTable> surface = {}, const inner::Table& rare = inner::Table("rare"),
-                const inner::Table& fragility = inner::Table("fragility"));
+    /// The last step. @param surface of the collapse, as the kind of study has it   @param found the kind's tables
+    void finish(std::optional<inner::SurfaceTable> surface = {}, const std::vector<inner::Table>& found = {});
 
     inner::ResultHeader header;
     inner::Study study;
@@ -43,6 +42,7 @@ struct Result::Data {
     std::vector<inner::SurfaceTable> surfaces; ///< of each limit state; empty for other kinds
     inner::RareTable rare;
     inner::FragilityTable fragility;
+    std::vector<Table> tables;
 
     bool is_adaptive() const { return study.surface && study.surface->adaptive; }
 

@@ -64,12 +64,6 @@ private:
     std::function<void(const inner::ResultRow&)> away_;
 };
 
-inner::Table table_of(const std::vector<inner::Table>& tables, const std::string& name)
-{
-    const auto found = std::ranges::find(tables, name, &inner::Table::name);
-    return found == tables.end() ? inner::Table(name) : *found;
-}
-
 } // namespace
 
 Result Inside::run(const Experiment& experiment, const RunOptions& options)
@@ -89,12 +83,10 @@ Result Inside::run(const Experiment& experiment, const RunOptions& options)
         data.count_the_first([&](std::uint64_t index) { return kept.states.contains(index); });
     for (const inner::ResultRow& row : kept.rows)
         data.add(row);
-    if (!data.complete) {
+    if (data.complete)
+        data.finish(study.kind().surface(), study.kind().tables());
+    else
         data.finish();
-    } else {
-        const std::vector<inner::Table> tables = study.kind().tables();
-        data.finish(study.kind().surface(), table_of(tables, "rare"), table_of(tables, "fragility"));
-    }
     return make<Result>(std::move(data));
 }
 

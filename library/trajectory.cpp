@@ -8,6 +8,7 @@
 #include "library/inside.hpp"
 #include "library/result.hpp"
 #include "studies/experiment/trajectory.hpp"
+#include "stylobate/figure.hpp"
 
 #include <fmt/format.h>
 
@@ -226,13 +227,19 @@ std::vector<std::vector<inner::ShadedPolygon>> seen_in_space(const Trajectory& t
     return seen;
 }
 
-void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& file)
+std::string svg(const Trajectory& t, double time_s)
 {
     const inner::Trajectory drawn = drawn_from(t);
     const std::size_t sample = t.sample_at(time_s);
     const bool plane = !inner::is_spatial(drawn);
     const SvgScene scene = plane ? scene_in_plane(t, drawn, sample) : scene_in_space(t, drawn, sample);
-    translated([&] { inner::write_whole(file, scene.text(t.outcome.index, t.time_s[sample], plane)); });
+    return scene.text(t.outcome.index, t.time_s[sample], plane);
+}
+
+void write_svg(const Trajectory& t, double time_s, const std::filesystem::path& file)
+{
+    const std::string drawing = svg(t, time_s);
+    translated([&] { inner::write_whole(file, drawing); });
 }
 
 void write_strip(const Trajectory& t, const std::filesystem::path& png, const std::optional<std::string>& title)

@@ -29,7 +29,7 @@ done
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh --tests
 if [[ ${#selection[@]} -eq 0 ]]; then # packages in a bare Debian, and on an old processor
-    scripts/install_packages.sh debootstrap dpkg-dev file lintian qemu-user-static
+    scripts/install_packages.sh debootstrap dpkg-dev file lintian patchelf qemu-user-static
 fi
 cmake --preset "$preset" >/dev/null
 cmake --build "build/$preset" --parallel "$(nproc)"

@@ -1,7 +1,7 @@
 #include "bench/peers/column.hpp"
 
 #include "bench/peers/engine.hpp"
-#include "bench/scenes.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "bench/peers/restitution.hpp"
 #include "bench/peers/space/space_table.hpp"
 #include "bench/peers/table.hpp"
-#include "bench/processor.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "bench/work_precision/page.hpp"
 
-#include "bench/scenes.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
 #include "ensemble/run/executor.hpp"
 #include "studies/evidence/verification/model.hpp"

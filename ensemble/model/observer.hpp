@@ -1,8 +1,10 @@
 #pragma once
 /// Messages from a run to its caller. The library itself prints nothing.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace stylobate {
@@ -30,6 +32,26 @@ struct Progress {
     /// Whether `total` is only the most that it can take; `expected` is then an estimate of what it takes, 0: unknown.
     bool open_end = false;
     std::uint64_t expected = 0;
+
+    /// How many there will be at the end: `total`, of an open end an estimate; nullopt: not known.
+    std::optional<std::uint64_t> end() const
+    {
+        if (!open_end)
+            return total;
+        return expected > 0 ? std::optional(std::max(expected, done)) : std::nullopt;
+    }
+    /// Time to the end if it goes on as it did [s]; of a single realization the most that it can take. nullopt: not
+    /// known, or nothing is left.
+    std::optional<double> seconds_left() const
+    {
+        if (const std::optional<std::uint64_t> last = end(); last && rate > 0 && done < *last)
+            return static_cast<double>(*last - done) / rate;
+        if (simulates_first() && seconds > 0 && total == 1)
+            return (furthest.latest_end_s / furthest.reached_s - 1) * seconds;
+        return std::nullopt;
+    }
+    /// Whether the first realizations take long: none has ended, and how far one is is known.
+    bool simulates_first() const { return done == 0 && furthest.reached_s > 0; }
 };
 
 class Observer {

@@ -1,6 +1,7 @@
 #pragma once
 /// Outcomes of the realizations of a study.
 
+#include "stylobate/answer.hpp"
 #include "stylobate/fragility.hpp"
 #include "stylobate/surface.hpp"
 
@@ -91,6 +92,10 @@ public:
 
     /// @throws InputError if the study is of another kind, or not complete
     Fragility fragility() const;
+
+    /// What the study computes of its realizations beside shares and surface (io/FORMAT.md): "fragility", "rare",
+    /// "sensitivity", "survival", "twins". Empty: its kind has none, or the run is not complete.
+    const std::vector<Table>& tables() const;
 
     Result(const Result&) = default;
     Result& operator=(const Result&) = default;

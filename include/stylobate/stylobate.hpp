@@ -14,6 +14,7 @@
 #include "stylobate/diagnosis.hpp"
 #include "stylobate/error.hpp"
 #include "stylobate/experiment.hpp"
+#include "stylobate/figure.hpp"
 #include "stylobate/fragility.hpp"
 #include "stylobate/past.hpp"
 #include "stylobate/record.hpp"

@@ -70,10 +70,14 @@ std::vector<std::size_t> thinned(const std::vector<double>& y, std::size_t most)
             low = y[i] < y[low] ? i : low;
             high = y[i] > y[high] ? i : high;
         }
+        if (begin == 0 && std::min(low, high) > 0)
+            kept.push_back(0); // the ends of a line stay where they are
         kept.push_back(std::min(low, high));
         if (low != high)
             kept.push_back(std::max(low, high));
     }
+    if (!y.empty() && kept.back() + 1 < y.size())
+        kept.push_back(y.size() - 1);
     return kept;
 }
 
@@ -281,9 +285,9 @@ void FigurePanel::draw_x_numbers(DrawingSheet& sheet, const PlotFrame& frame) co
 void FigurePanel::draw_axes(DrawingSheet& sheet, const PlotFrame& frame, bool x_labels, bool y_labels) const
 {
     const double unit = look_.unit;
-    const double most = std::max(2.0, (frame.bottom - frame.top) / (2.6 * look_.letters()));
+    const double most = std::max(3.0, (frame.bottom - frame.top) / (1.6 * look_.letters()));
     double last = 1e9;
-    for (const PlotScale::Tic& tic : y_.tics(std::min(most, 7.0))) {
+    for (const PlotScale::Tic& tic : y_.tics(std::min(most, 8.0))) {
         const double y = y_.px(tic.value);
         if (figure_.cells.empty() && !tic.text.empty())
             sheet.line(frame.left, y, frame.right, y, look_.grid(), unit);
@@ -484,7 +488,7 @@ void draw_colour_scale(DrawingSheet& sheet, const FigureLook& look, const PlotFr
 void write_figure(const Figure& figure, const std::string& title, const std::string& subtitle,
                   const std::filesystem::path& file, PictureSize size)
 {
-    const FigureLook look{size.width / 900.0, false};
+    const FigureLook look{size.width / 800.0, false};
     DrawingSheet sheet(size, look.letters());
     FigurePanel panel(figure, look);
     PlotFrame frame;
@@ -514,7 +518,7 @@ std::vector<std::string> names_of(const Figure& figure)
 void write_figures(const std::vector<Figure>& figures, std::size_t columns, const std::string& title,
                    const std::string& subtitle, const std::filesystem::path& file, PictureSize size, double unit)
 {
-    const FigureLook look{unit > 0 ? unit : size.width / 1000.0, false};
+    const FigureLook look{unit > 0 ? unit : size.width / 900.0, false};
     unit = look.unit;
     const double margin = 16 * unit;
     DrawingSheet sheet(size, look.letters());

@@ -27,7 +27,7 @@ struct FigureLook {
 };
 
 /// Look of a picture file of a width of 1800 pixels.
-inline constexpr FigureLook picture_look{2, false};
+inline constexpr FigureLook picture_look{2.25, false};
 
 /// Where a plot's data lie on a sheet [px].
 struct PlotFrame {

@@ -76,9 +76,10 @@ const Rasterizer& rasterizer()
         return whole ? std::optional(r) : std::nullopt;
     }();
     if (!found)
-        throw InputError("no picture can be drawn as PNG or PDF: librsvg was not found.\n"
-                         "  Install it: apt install librsvg2-2. Or set STYLOBATE_LIBRSVG to its path, or name a file .svg, "
-                         "which needs nothing.");
+        throw InputError(
+            "no picture can be drawn as PNG or PDF: librsvg was not found.\n"
+            "  Install it: apt install librsvg2-2. Or set STYLOBATE_LIBRSVG to its path, or name a file .svg, "
+            "which needs nothing.");
     return *found;
 }
 

@@ -107,7 +107,7 @@ void draw_scale(DrawingSheet& sheet, const FigureLook& look, const MapPanel& pan
         end("≤", panel.low, frame.bottom + 0.9 * look.letters());
     if (any([&](double value) { return value > panel.high; }))
         end("≥", panel.high, frame.top - 0.9 * look.letters());
-    draw_colour_scale(sheet, look, {left, frame.top, left + 11 * look.unit, frame.bottom}, scale, "",
+    draw_colour_scale(sheet, look, {left, frame.top, left + 14 * look.unit, frame.bottom}, scale, "",
                       [&](double value) { return viridis_colour((value - panel.low) / (panel.high - panel.low)); });
 }
 
@@ -122,7 +122,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
     const bool boxes = std::any_of(picture.panels.begin(), picture.panels.end(),
                                    [](const MapPanel& panel) { return panel.classes.empty(); });
     const PictureSize size;
-    const FigureLook look{columns > 3 ? 1.1 : 1.4, false};
+    const FigureLook look{columns > 3 ? 1.2 : 1.7, false};
     const double unit = look.unit, margin = 20;
     DrawingSheet sheet(size, look.letters());
     const double top = sheet.heading(picture.title, picture.subtitle);
@@ -138,7 +138,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
         FigurePanel drawn(figure, look);
         const double left = margin + wide * static_cast<double>(k % columns);
         const double above = top + high * static_cast<double>(k / columns);
-        PlotFrame frame{left + drawn.room_left(), above + 2.6 * look.letters(), left + wide - (boxes ? 68 : 16) * unit,
+        PlotFrame frame{left + drawn.room_left(), above + 2.6 * look.letters(), left + wide - (boxes ? 66 : 16) * unit,
                         0};
         frame.bottom = above + high - drawn.room_below(frame.right - frame.left) - 4 * unit;
         sheet.text(panel.title, (frame.left + frame.right) / 2, above + look.letters(),

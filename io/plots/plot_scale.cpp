@@ -37,6 +37,8 @@ std::vector<PlotScale::Tic> log_tics(double from, double to, double most)
     const int stride = static_cast<int>(std::max(1.0, std::ceil(decades / most)));
     std::vector<PlotScale::Tic> tics;
     for (const std::array<bool, 9>& digits : labelled) {
+        if (decades < 1 && !digits[2])
+            continue; // all digits have room
         tics.clear();
         std::size_t numbers = 0;
         for (int decade = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, decade) <= to; ++decade)
@@ -107,12 +109,19 @@ std::vector<PlotScale::Tic> PlotScale::tics(double most) const
     if (log && to > 2 * from)
         return log_tics(from, to, most);
     const double rough = (to - from) / std::max(1.0, most - 1);
-    const double decade = std::pow(10, std::floor(std::log10(rough)));
-    const double step = decade * (rough <= 1.001 * decade ? 1 : rough < 2.5 * decade ? 2 : rough < 6 * decade ? 5 : 10);
+    double decade = std::pow(10, std::floor(std::log10(rough)));
+    int digit = rough <= 1.001 * decade ? 1 : rough < 2.5 * decade ? 2 : rough < 6 * decade ? 5 : 10;
     std::vector<Tic> tics;
-    for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
-        tics.push_back({i == 0 ? 0 : i * step, tic_text(i == 0 ? 0 : i * step)});
-    return tics;
+    while (true) {
+        const double step = digit * decade;
+        tics.clear();
+        for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
+            tics.push_back({i == 0 ? 0 : i * step, tic_text(i == 0 ? 0 : i * step)});
+        if (tics.size() >= 3 || !(to > from))
+            return tics; // fewer would not show the scale
+        decade = digit == 1 ? decade / 10 : decade;
+        digit = digit == 10 ? 5 : digit == 5 ? 2 : digit == 2 ? 1 : 5;
+    }
 }
 
 } // namespace stylobate

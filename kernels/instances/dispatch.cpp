@@ -10,11 +10,13 @@ extern const KernelTable scalar_kernels;
 extern const KernelTable portable_kernels, avx2_kernels, avx512_kernels;
 #elif defined(STYLOBATE_NEON)
 extern const KernelTable neon_kernels;
+#elif defined(__wasm_simd128__)
+extern const KernelTable wasm_kernels;
 #endif
 
 namespace {
 
-constexpr std::array names{"scalar", "avx2", "avx512", "neon"};
+constexpr std::array names{"scalar", "avx2", "avx512", "neon", "wasm"};
 
 bool usable(Isa isa)
 {
@@ -29,6 +31,9 @@ bool usable(Isa isa)
                __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
 #elif defined(STYLOBATE_NEON)
     case Isa::neon:
+        return true;
+#elif defined(__wasm_simd128__)
+    case Isa::wasm:
         return true;
 #endif
     default:
@@ -56,7 +61,7 @@ bool parse_isa(std::string_view name, Isa& isa)
 std::vector<Isa> usable_isas()
 {
     std::vector<Isa> found;
-    for (Isa isa : {Isa::scalar, Isa::neon, Isa::avx2, Isa::avx512})
+    for (Isa isa : {Isa::scalar, Isa::neon, Isa::wasm, Isa::avx2, Isa::avx512})
         if (usable(isa))
             found.push_back(isa);
     return found;
@@ -74,6 +79,9 @@ const KernelTable& kernels(Isa isa)
 #elif defined(STYLOBATE_NEON)
     case Isa::neon:
         return neon_kernels;
+#elif defined(__wasm_simd128__)
+    case Isa::wasm:
+        return wasm_kernels;
 #endif
     default:
 #if defined(STYLOBATE_X86)

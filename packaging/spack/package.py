@@ -23,6 +23,7 @@ class Stylobate(CMakePackage):
     depends_on("c", type="build")
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
+    depends_on("pkgconfig", type="build")
     depends_on("git", type="build")  # gives the version its commit
 
     depends_on("xsimd@8.1", type="build")
@@ -43,7 +44,7 @@ class Stylobate(CMakePackage):
     extends("python", when="+python")
     depends_on("python@3.9:", type=("build", "run"), when="+python")
     depends_on("py-pybind11@2.10:", type="build", when="+python")
-    depends_on("py-numpy", type="run", when="+python")
+    depends_on("py-numpy@:1", type="run", when="+python")
 
     generator("ninja")
 

@@ -1,6 +1,6 @@
-#include "python/module/arrays.hpp"
 #include "python/module/interruptible.hpp"
 #include "python/module/module.hpp"
+#include "python/module/tables.hpp"
 #include "stylobate/stylobate.hpp"
 
 #include <pybind11/stl.h>
@@ -13,24 +13,6 @@ namespace {
 namespace sb = stylobate::api;
 using namespace pybind11::literals;
 
-/// Its attributes, and name: (unit, values). Texts are a list, numbers a view that keeps the owner alive.
-py::tuple table(const py::object& owner, const sb::Table& from)
-{
-    py::dict attributes, columns;
-    for (const auto& [name, value] : from.attributes)
-        attributes[py::str(name)] = value;
-    for (const sb::Column& column : from.columns)
-        columns[py::str(column.name)] = std::visit(
-            [&](const auto& values) {
-                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, std::vector<std::string>>)
-                    return py::make_tuple(column.unit, values);
-                else
-                    return py::make_tuple(column.unit, view(owner, values, {column.shape.begin(), column.shape.end()}));
-            },
-            column.values);
-    return py::make_tuple(attributes, columns);
-}
-
 } // namespace
 
 void add_answers(py::module_& module)
@@ -40,13 +22,7 @@ void add_answers(py::module_& module)
         .def("text", &A::text)
         .def("json", &A::json)
         .def("rows", [](const py::object& self) { return table(self, self.cast<const A&>().rows()); })
-        .def("tables",
-             [](const py::object& self) {
-                 py::dict all;
-                 for (const sb::Table& each : self.cast<const A&>().tables())
-                     all[py::str(each.name)] = table(self, each);
-                 return all;
-             })
+        .def("tables", [](const py::object& self) { return tables(self, self.cast<const A&>().tables()); })
         .def("write", &A::write, "file"_a)
         .def("draw", &A::draw, "picture"_a, "limit_state"_a, py::call_guard<py::gil_scoped_release>());
     py::class_<sb::Comparison, A>(module, "Comparison").def_static("from_file", &sb::Comparison::from_file, "file"_a);

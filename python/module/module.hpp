@@ -40,6 +40,7 @@ void add_options(pybind11::module_& module, const char* name, Members... members
 
 void add_study(pybind11::module_& module);       ///< Study, Record, and errors
 void add_result(pybind11::module_& module);      ///< Result, Surface, Fragility, Trajectory
+void add_figure(pybind11::module_& module);      ///< SVG
 void add_run(pybind11::module_& module);         ///< run, run_to_file, follow
 void add_check(pybind11::module_& module);       ///< check
 void add_calibration(pybind11::module_& module); ///< calibrate

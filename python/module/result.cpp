@@ -2,6 +2,7 @@
 #include "library/trajectory.hpp"
 #include "python/module/arrays.hpp"
 #include "python/module/module.hpp"
+#include "python/module/tables.hpp"
 #include "stylobate/stylobate.hpp"
 
 #include <pybind11/stl.h>
@@ -167,6 +168,7 @@ void add_result(py::module_& module)
         .def("share", &sb::Result::share, "limit_state"_a = "collapse")
         .def("surface", &sb::Result::surface, "limit_state"_a = "collapse")
         .def("fragility", &sb::Result::fragility)
+        .def("tables", [](const py::object& self) { return tables(self, self.cast<const R&>().tables()); })
         .def("columns",
              [](const py::object& self) { // name: (unit, whether -1 is none, values)
                  const auto& result = self.cast<const sb::Result&>();

@@ -10,7 +10,7 @@
 SI units; the unit is part of each name. Results have the bits of the program `stylobate`, for every number of threads.
 """
 
-from ._answer import Answer, Comparison, Page, Past, Risk, Table, compare, past, report, risk
+from ._answer import Answer, Comparison, Page, Past, Risk, compare, past, report, risk
 from ._calibration import Calibration, calibrate
 from ._check import Check
 from ._core import (
@@ -36,6 +36,7 @@ from ._replay import Replay
 from ._result import Result, ResultGone, TooManyInvalid
 from ._run import run
 from ._study import Study
+from ._table import Table
 
 __all__ = [
     "Answer",

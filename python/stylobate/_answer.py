@@ -5,47 +5,10 @@ import os
 import warnings
 
 from . import _core
-from ._forward import FiledFinding, forwarded, options
+from ._forward import FiledFinding, forwarded
 from ._study import _settings, number, whole_number
-
-
-class Table:
-    """Columns of one length or shape: `table["name"]` is a read-only NumPy array, or a list of texts. A number with an
-    interval has the columns NAME, NAME_lower and NAME_upper.
-
-    attributes  what holds of the whole: a dictionary
-    units       the unit of each column; "": none, or that in its name
-    """
-
-    def __init__(self, core):
-        self.attributes, columns = core
-        self.units = {name: unit for name, (unit, _) in columns.items()}
-        self._columns = {name: values for name, (_, values) in columns.items()}
-
-    def __getitem__(self, column):
-        return self._columns[column]
-
-    def __iter__(self):
-        return iter(self._columns)
-
-    def __len__(self):
-        return len(self._columns)
-
-    def keys(self):
-        """Names of the columns."""
-        return self._columns.keys()
-
-    def to_pandas(self):
-        """A pandas.DataFrame of the columns that are lists; `attrs["units"]`: the unit of each column."""
-        import pandas
-
-        frame = pandas.DataFrame({name: values for name, values in self._columns.items()
-                                  if getattr(values, "ndim", 1) == 1})
-        frame.attrs["units"] = {name: self.units[name] for name in frame}
-        return frame
-
-    def __repr__(self):
-        return f"<Table: {', '.join(self)}>"
+from ._table import Table
+from ._view import View, chart, line, options, points, with_ends, words
 
 
 class Answer(FiledFinding):
@@ -71,13 +34,6 @@ class Answer(FiledFinding):
         """
         self._core.draw(os.fspath(path), limit_state or None)
 
-    def _repr_html_(self):
-        rows = self.rows
-        body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row) + "</tr>"
-                       for row in zip(*(rows[name] for name in rows)))
-        head = "".join(f"<th>{html.escape(name)}</th>" for name in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
-
     def __repr__(self):
         return f"<{type(self).__name__}: {len(self.rows[next(iter(self.rows))])} rows>"
 
@@ -93,6 +49,19 @@ class Comparison(Answer):
 
     def __init__(self, path):
         super().__init__(_core.Comparison.from_file(os.fspath(path)))
+
+    def _view(self):
+        rows = [row for row in _records(self.rows) if row["place"] == "all"]
+        first = rows[0]["limit_state"]
+        of_first = [row for row in rows if row["limit_state"] == first]
+        shown = View(f"{first}: " + "; ".join(f"{row['variant']} {with_ends(row, 'difference')}, {_verdict(row)}"
+                                              for row in of_first))
+        shown.figure(_whiskers(of_first, "variant", "difference", f"change of the probability of {first}"),
+                     caption="Change by each variant over all cells, with its interval")
+        shown.table(("variant", "limit state", "base", "variant", "difference", "verdict"),
+                    ((row["variant"], row["limit_state"], row["base_probability"], row["variant_probability"],
+                      with_ends(row, "difference"), _verdict(row)) for row in rows))
+        return shown.more("The text of the program", self.text())
 
     def plot(self, ax=None, limit_state="collapse"):
         """Draws the difference of the probability of a limit state over all cells, for each variant, with its interval;
@@ -116,16 +85,32 @@ class Risk(Answer):
     def __init__(self, path):
         super().__init__(_core.Risk.from_file(os.fspath(path)))
 
+    def _view(self):
+        rows, name = self._over_years()
+        asked = next((row for row in rows if row["limit_state"] == "collapse"), rows[0])
+        shown = View(f"{asked['name']}: {name.replace('_', ' ')} {with_ends(asked, name)}")
+        shown.figure(_whiskers(rows, "name", name, name.replace("_", " ")), caption="With the interval of each")
+        numbers = [column for column in self.rows if f"{column}_lower" in self.rows]
+        shown.table(["", *(column.replace("_", " ") for column in numbers)],
+                    ((row["name"], *(with_ends(row, column) for column in numbers)) for row in rows))
+        return shown.more("The text of the program", self.text())
+
     def plot(self, ax=None):
         """Draws the probabilities of the limit states over the last of the years, or their changes by the variants, with
         their intervals; returns the axes (Matplotlib)."""
+        rows, name = self._over_years()
+        return _intervals(ax, rows, "name", name, name.replace("_", " "))
+
+
+    def _over_years(self):
+        """Rows with a name of their own, and the column of the probability over the last of the years, or its change."""
         rows = _records(self.rows)
         change = "variant" in self.rows
         ending = "_years_change" if change else "_years"
         name = [name for name in self.rows if name.startswith("probability_") and name.endswith(ending)][-1]
         for row in rows:
             row["name"] = f"{row['variant']}: {row['limit_state']}" if change else row["limit_state"]
-        return _intervals(ax, rows, "name", name, name.replace("_", " "))
+        return rows, name
 
 
 class Past(Answer):
@@ -137,13 +122,30 @@ class Past(Answer):
     "likelihood" has structure, events, pga_m_s2 and likelihood.
     """
 
-    def plot(self, ax=None):
-        """Draws the likelihoods over the peak ground acceleration, of one event; returns the axes (Matplotlib)."""
-        ax = _axes(ax)
+    def _view(self):
+        rows = _records(self.rows)
+        together = next(row for row in rows if row["structure"] == "together")
+        shown = View(f"{together['structure']}: shaking is excluded from {words(together['by_profile_m_s2'])} m/s² on by the "
+                     f"profile, of {together['events']} events")
+        curves = []
+        for name, own, largest in self._likelihoods():
+            curves.append(line([row["pga_m_s2"] for row in own], [row["likelihood"] / largest for row in own], name=name))
+        shown.figure(chart("Likelihood of the shaking", "peak ground acceleration [m/s²]",
+                           "likelihood / largest likelihood", curves), caption="Of one event")
+        shown.table(list(self.rows), ((row[name] for name in self.rows) for row in rows))
+        return shown.more("The text of the program", self.text())
+
+    def _likelihoods(self):
+        """Of one event: structure, its rows, and its largest likelihood."""
         rows = [row for row in _records(self.tables()["likelihood"]) if row["events"] == 1]
         for name in dict.fromkeys(row["structure"] for row in rows):
             own = [row for row in rows if row["structure"] == name]
-            largest = max(row["likelihood"] for row in own)
+            yield name, own, max(row["likelihood"] for row in own)
+
+    def plot(self, ax=None):
+        """Draws the likelihoods over the peak ground acceleration, of one event; returns the axes (Matplotlib)."""
+        ax = _axes(ax)
+        for name, own, largest in self._likelihoods():
             ax.plot([row["pga_m_s2"] for row in own], [row["likelihood"] / largest for row in own], label=name)
         ax.set_xlabel("peak ground acceleration [m/s²]")
         ax.set_ylabel("likelihood / largest likelihood")
@@ -164,7 +166,8 @@ class Page:
         self._core.write(os.fspath(path))
 
     def _repr_html_(self):
-        return f'<iframe srcdoc="{html.escape(self.html)}" width="100%" height="600"></iframe>'
+        return (f'<iframe srcdoc="{html.escape(self.html)}" sandbox="allow-scripts" width="100%" height="600" '
+                'title="page of stylobate"></iframe>')
 
 
 def compare(*files, settings=None, folder="", level=0.95, adaptive=None, margin=0.05, threads=0, simd="auto",
@@ -266,8 +269,15 @@ def _records(table):
     return [dict(zip(table, row)) for row in zip(*(table[name] for name in table))]
 
 
-def _cell(value):
-    return html.escape(value if isinstance(value, str) else f"{value:.4g}")
+def _verdict(row):
+    """In the words of the text."""
+    return "undecided" if row["verdict"] == "open" else row["verdict"]
+
+
+def _whiskers(rows, name, value, label):
+    """As `_intervals`, as SVG."""
+    series = points(range(len(rows)), *([row[value + end] for row in rows] for end in ("", "_lower", "_upper")))
+    return chart(label, "", label, [series], x_ticks=[row[name] for row in rows])
 
 
 def _axes(ax):

@@ -4,8 +4,10 @@ import os
 from collections.abc import Mapping
 
 from . import _core, _toml
-from ._forward import FiledFinding, forwarded, options
+from ._forward import FiledFinding, forwarded
 from ._study import Study, study_of, whole_number
+from ._values import add_parameters
+from ._view import View, interval, options
 
 
 class Calibration(FiledFinding):
@@ -41,6 +43,19 @@ class Calibration(FiledFinding):
     restored_sets = forwarded("restored_sets",
                               "How many of them come from the cache of a calibration that was stopped.")
     seconds = forwarded("seconds", "Duration [s].")
+
+    def _view(self):
+        gain = self.best.held_out
+        shown = View(f"{len(self.parameters)} parameters by {self.evidence}, contact form {self.best.form}"
+                     + (f": {interval(gain.nats, gain.lower, gain.upper)} nats on motions that were left out" if gain
+                        else ""))
+        add_parameters(shown, list(self.parameters.values()))
+        if len(self.forms) > 1:
+            shown.table(("contact form", "gain over the start study, all runs [nat]"),
+                        ((form.form, form.score - form.start_score) for form in self.forms))
+        for note in self.notes:
+            shown.note(note)
+        return shown.more("The text of the program", self.text())
 
     def __repr__(self):
         return f"<Calibration: {len(self.parameters)} parameters by {self.evidence}, contact form {self.best.form}>"

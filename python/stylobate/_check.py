@@ -4,8 +4,9 @@ import os
 import warnings
 
 from . import _core
-from ._forward import Finding, forwarded, options
+from ._forward import Finding, forwarded
 from ._study import experiment_of, number, whole_number
+from ._view import View, options, words
 
 
 class Check(Finding):
@@ -48,6 +49,20 @@ class Check(Finding):
         """Draws the structure to scale with its dimensions: .png, .svg or .pdf. A file that is there is
         replaced."""
         self._core.draw(os.fspath(path))
+
+    def _view(self):
+        most = "at most " if self.at_most else ""
+        time = "" if self.time is None else f", {words(self.time.range_s)} s"
+        shown = View(f"A study of kind {self.kind}: {most}{self.realizations} realizations of {self.free_blocks} free "
+                     f"blocks{time}")
+        shown.facts([("contact form", self.form), ("cells", self.cells), ("time step [s]", self.step_s),
+                     ("memory [MB]", self.memory_bytes / 1e6), ("results file [MB]", self.file_bytes / 1e6)])
+        shown.table(("weak spot", "why", "remedy"),
+                    ((spot.name.replace("_", " "), spot.text, spot.remedy) for spot in self.weak_spots))
+        shown.table(("chosen", "value", "why"), ((each.key, each.value, each.reason) for each in self.chosen))
+        for warning in self.warnings:
+            shown.note(warning)
+        return shown.more("The text of the program", self.text())
 
     def __repr__(self):
         time = "" if self.time is None else f", {self.time.range_s[0]:.2g} to {self.time.range_s[1]:.2g} s"

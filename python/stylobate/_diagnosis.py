@@ -3,8 +3,9 @@
 import os
 
 from . import _core
-from ._forward import FiledFinding, forwarded, options
+from ._forward import FiledFinding, forwarded
 from ._study import Study, study_of, whole_number
+from ._view import View, chart, line, options
 
 
 class Diagnosis(FiledFinding):
@@ -23,6 +24,20 @@ class Diagnosis(FiledFinding):
         """The study with the cause in it (a Study); None: there is none."""
         text = self._core.extended_study
         return Study(_core.Study.from_text(text)) if text else None
+
+    def _view(self):
+        causes = self.causes
+        shown = View(self.verdict_text)
+        shown.table(("mechanism", "place", "parameter", "size", "95 % interval", "probability"),
+                    ((c.mechanism, c.place, c.parameter, c.size if c.size is None else f"{c.size:.4g} {c.unit}",
+                      None if c.lower is None or c.upper is None else (c.lower, c.upper), c.probability)
+                     for c in causes))
+        judged = [c for c in causes if c.probability is not None]
+        if judged:
+            shown.figure(chart("Probabilities of the causes", "", "probability",
+                               [line(range(len(judged)), [c.probability for c in judged], kind="bars")],
+                               x_ticks=[f"{c.mechanism}, {c.place}" for c in judged]))
+        return shown.more("The text of the program", self.text())
 
     def __repr__(self):
         return f"<Diagnosis: {self.verdict}, {len(self.causes)} causes>"

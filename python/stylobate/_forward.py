@@ -3,20 +3,15 @@
 import json
 import os
 
+from ._view import Shown
+
 
 def forwarded(name, doc):
     """The property `name` of `self._core`."""
     return property(lambda self: getattr(self._core, name), doc=doc)
 
 
-def options(made, **values):
-    """Options of a C++ function, by their names."""
-    for name, value in values.items():
-        setattr(made, name, value)
-    return made
-
-
-class Finding:
+class Finding(Shown):
     """An answer of the program, as its text and as a dictionary."""
 
     def __init__(self, core):

@@ -1,7 +1,11 @@
 """One realization through time."""
 
+from . import _core
+from ._values import TOLD, named
+from ._view import Shown, View, chart, line
 
-class Replay:
+
+class Replay(Shown):
     """The blocks of a structure at evenly spaced times. `nt` times, `nb` blocks in layout order: column by column from
     the bottom, then epistyles. The arrays are read-only views; places are in the frame of the base: x to the right, y
     upwards, in space z towards the viewer.
@@ -94,6 +98,26 @@ class Replay:
                 for name, (dims, unit, text, values) in self._lists.items()}
         time = data.pop("time_s")
         return xarray.Dataset(data, coords={"time_s": time, "block": ("block", self.blocks)})
+
+    def _view(self):
+        end, outcome = float(self.time_s[-1]), self.outcome
+        fell = outcome["collapse_time_s"] >= 0
+        when = f" at {outcome['collapse_time_s']:.3f} s" if fell else ""
+        first = outcome["first_collapse_block"]
+        which = f", {self.blocks[first]} first" if first >= 0 else ", several blocks first" if first == -2 else ""
+        shown = View(f"Realization {outcome['index']}: {outcome['state']}{when}{which}")
+        until = min(end, 1.02 * outcome["collapse_time_s"]) if fell else end
+        shown.figure(*(_core.svg(self._core, until * part) for part in (0, 0.5, 0.75, 1)),
+                     caption=f"In the frame of the base, from 0 to {until:.3f} s"
+                             + ("; seen obliquely from above" if self.dimensions == 3 else ""))
+        told = sorted({0, len(self.blocks) // 2, len(self.blocks) - 1})
+        for along in "xz" if self.dimensions == 3 else "x":
+            places, rest = getattr(self, f"{along}_m"), getattr(self, f"rest_{along}_m")
+            series = [line(self.time_s, getattr(self, f"base_{along}_m"), name="base")]
+            series += [line(self.time_s, places[:, i] - rest[i], name=self.blocks[i]) for i in told]
+            shown.figure(chart(f"Displacements of realization {outcome['index']} along {along}", "time [s]",
+                               "displacement [m]" if self.dimensions == 2 else f"displacement along {along} [m]", series))
+        return shown.facts((named(name), outcome[name]) for name in TOLD if name in outcome)
 
     def __repr__(self):
         return (f"<Replay: realization {self.outcome['index']}, {self.outcome['state']}, {len(self.time_s)} times x "

@@ -5,9 +5,12 @@ import os
 from . import _core
 from ._forward import forwarded
 from ._replay import Replay, animation
+from ._result_view import view_of
 from ._study import Study, _settings, whole_number
+from ._table import Table
+from ._values import STATES
+from ._view import Shown
 
-STATES = ("stood", "rocked", "slid", "collapsed", "invalid")
 REASONS = ("none", "not_finite", "energy")
 UNITS = {"_m_s2": "m/s2", "_m_s": "m/s", "_m": "m", "_s": "s"}
 
@@ -24,7 +27,7 @@ class TooManyInvalid(_core.Error):
         self.result = result
 
 
-class Result:
+class Result(Shown):
     """The realizations of a study that have been run, all of them or not.
 
     `Result("column.h5")` reads a results file, complete or not; `run` gives one too.
@@ -185,6 +188,13 @@ class Result:
             coords["stripe"] = ("stripe", fragility.stripe, {"units": unit, "long_name": fragility.measure})
         return xarray.Dataset(data, coords=coords, attrs={"measure": fragility.measure})
 
+    def tables(self):
+        """What the study computes of its realizations beside shares and surface: a Table by its name, "fragility",
+        "rare", "sensitivity", "survival" or "twins" (io/FORMAT.md has their columns); none while the run is not
+        complete.
+        """
+        return {name: Table(table) for name, table in self._core.tables().items()}
+
     def replay(self, index, settings=None):
         """Runs realization `index` again and returns it through time: a Replay. The outcome has the same bits.
 
@@ -230,6 +240,9 @@ class Result:
         seen obliquely from above.
         """
         return animation(self.replay(index), seconds, fps)
+
+    def _view(self):
+        return view_of(self._held, self._path)
 
     def __repr__(self):
         where = "in memory" if self._path is None else self._path

@@ -4,9 +4,10 @@ import operator
 import os
 
 from . import _core, _toml
+from ._view import Shown, View
 
 
-class Study:
+class Study(Shown):
     """A study: the structure, its contacts, the shaking, the random quantities, and the question.
 
     Every key is checked and every default filled in; the keys are those of the study files of the program
@@ -94,6 +95,10 @@ class Study:
 
     def __reduce__(self):  # deep copies, and other processes
         return _from_text, (self.text,)
+
+    def _view(self):
+        shown = View(f"A study of kind {self.kind}: {self.realizations} realizations, seed {self.seed}")
+        return shown.facts(self._core.summary()).more("The study with every default (TOML)", self.text)
 
     def __repr__(self):
         return f"<Study: {self.kind}, {self.realizations} realizations>"

@@ -39,15 +39,15 @@ int check_command(const CommonOptions& options, const std::string& file, CheckRe
     check_kind(file, "check");
     request.drawing = drawing_of(file, drawing);
     request.force = options.force;
-    Console console(options.quiet);
+    Console console = options.console("check");
     const auto report = check_study(LoadedStudy::from_file(file, options.set), file, request, options, console);
     if (!report) {
         say("Interrupted; the study is not checked.\n");
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     print(
         options, [&] { return check_text(*report); }, [&] { return check_json(*report); });
-    return report->missed() ? exit_invalid : exit_done;
+    return console.end(report->missed() ? exit_invalid : exit_done);
 }
 
 int verify_command(const CommonOptions& options, const std::string& file, const VerifyChoice& wanted)
@@ -56,14 +56,12 @@ int verify_command(const CommonOptions& options, const std::string& file, const 
     VerifyOptions verify{.settings = options.set, .run = options.run_options()};
     verify.replay = wanted.replay.value_or(VerifyOptions::usual_replay);
     verify.seed = wanted.seed;
-    Console console(options.quiet);
+    Console console = options.console("verify-file");
     console.begin();
     const FileVerification found = verify_file(file, verify, console);
     print(
         options, [&] { return text_of(found); }, [&] { return json_of(found); });
-    if (!found.well())
-        return exit_failed;
-    return found.stopped ? exit_interrupted : exit_done;
+    return console.end(!found.well() ? exit_failed : found.stopped ? exit_interrupted : exit_done);
 }
 
 } // namespace stylobate

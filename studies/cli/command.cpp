@@ -5,7 +5,37 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
 namespace stylobate {
+
+namespace {
+
+constexpr std::pair<std::string_view, ProgressStyle> progress_styles[] = {{"auto", ProgressStyle::automatic},
+                                                                          {"plain", ProgressStyle::plain},
+                                                                          {"json", ProgressStyle::json},
+                                                                          {"none", ProgressStyle::none}};
+
+std::vector<std::string> progress_words()
+{
+    std::vector<std::string> words;
+    for (const auto& [word, style] : progress_styles)
+        words.emplace_back(word);
+    return words;
+}
+
+} // namespace
+
+Console CommonOptions::console(const char* verb) const
+{
+    if (!leads())
+        return Console(true, ProgressStyle::none, verb);
+    const auto* chosen =
+        std::ranges::find(progress_styles, progress, &std::pair<std::string_view, ProgressStyle>::first);
+    return Console(quiet, chosen->second, verb);
+}
 
 std::optional<Study> start_study(const CommonOptions& options, const std::string& measured, const char* verb,
                                  const std::optional<std::string>& study)
@@ -47,7 +77,15 @@ void add_common(CLI::App& verb, CommonOptions& options, const std::vector<std::s
     verb.add_option("--backend", options.backend, "device that computes")
         ->check(CLI::IsMember(backends))
         ->capture_default_str();
-    verb.add_flag("--quiet", options.quiet, "print results and errors only: no progress, notes and warnings");
+    verb.add_option("--progress", options.progress,
+                    "progress on standard error: auto, one line that is rewritten on a terminal and plain lines "
+                    "elsewhere; plain, a line every ten seconds; json, an object a line every second, notes and "
+                    "warnings too; none")
+        ->check(CLI::IsMember(progress_words()))
+        ->capture_default_str();
+    verb.add_flag(
+        "--quiet", options.quiet,
+        "print results and errors only: no notes and warnings, and no progress unless --progress asks for it");
     verb.add_flag("--json", options.json, "a machine-readable summary on standard output");
 }
 

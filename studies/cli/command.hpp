@@ -30,7 +30,11 @@ struct CommonOptions : Machine {
     std::vector<std::string> set; ///< KEY=VALUE, any key of the study file
     bool quiet = false;
     bool json = false;
-    bool force = false; ///< replace files that are there
+    bool force = false;            ///< replace files that are there
+    std::string progress = "auto"; ///< of `progress_styles`
+
+    /// What a verb shows on standard error; of several ranks the first one alone shows something.
+    Console console(const char* verb) const;
 };
 
 /// The study that a calibration or a diagnosis begins from; none: that of the measured data.
@@ -144,6 +148,8 @@ int report_command(const CommonOptions& options, PageRequest request, const std:
 /// @param wanted the file; nullopt: the campaign's name with _diagnosis.h5
 int diagnose_command(const CommonOptions& options, DiagnosisRequest request, const std::optional<std::string>& study,
                      const std::optional<std::string>& wanted);
+/// @param seconds for all of it   @param markdown only the rows of the table of speeds
+int bench_command(const CommonOptions& options, double seconds, bool markdown);
 /// @param file measured data, outcomes or results; nullopt: about the program
 /// @param mpi of this program (`mpi_library`)
 int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,

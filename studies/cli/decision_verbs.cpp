@@ -23,7 +23,7 @@ int search_study(const CommonOptions& options, const ComparisonRequest& request,
             fmt::format("--search: takes one study file with [optimise], not {} files", request.files.size()));
     if (request.adaptive)
         throw InputError("--adaptive: does not go with --search, whose points are run whole");
-    Console console(options.quiet);
+    Console console = options.console("compare");
     const SearchEnd end = search_study_file({request.files.front(), options.set, picture, request.level, options.force},
                                             options, console);
     print(
@@ -35,7 +35,7 @@ int search_study(const CommonOptions& options, const ComparisonRequest& request,
         [&] {
             return (end.result ? search_json(*end.result) : Json::object()).member("complete", end.result.has_value());
         });
-    return end.result ? report_invalid(end.invalid) : exit_interrupted;
+    return console.end(end.result ? report_invalid(end.invalid) : exit_interrupted);
 }
 
 int compare_command(const CommonOptions& options, ComparisonRequest request, const std::optional<std::string>& wanted)
@@ -46,7 +46,7 @@ int compare_command(const CommonOptions& options, ComparisonRequest request, con
     request.folder = std::filesystem::path(output).parent_path().string();
     request.output = output;
     request.force = options.force;
-    Console console(options.quiet);
+    Console console = options.console("compare");
     const ComparisonEnd end = compare_files(request, options, console);
     if (!end.comparison) {
         print(
@@ -63,12 +63,12 @@ int compare_command(const CommonOptions& options, ComparisonRequest request, con
                     .member("realizations", end.done)
                     .member("total", end.total);
             });
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     print(
         options, [&] { return fmt::format("{}: {}", output, comparison_text(*end.comparison)); },
         [&] { return comparison_json(*end.comparison).member("comparison", output).member("complete", true); });
-    return report_invalid(end.invalid);
+    return console.end(report_invalid(end.invalid));
 }
 
 int past_command(const CommonOptions& options, const std::vector<std::string>& files,
@@ -90,16 +90,16 @@ int risk_command(const CommonOptions& options, RiskRequest request, const std::o
     request.settings = options.set;
     request.output = output;
     request.force = options.force;
-    Console console(options.quiet);
+    Console console = options.console("risk");
     const std::optional<AnyRisk> risk = estimate_risk(request, options, console);
     if (!risk) {
         console.warn(fmt::format("interrupted: '{}' was not written", output));
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     print(
         options, [&] { return risk_text(*risk) + output + "\n"; },
         [&] { return risk_json(*risk).member("written", output); });
-    return exit_done;
+    return console.end(exit_done);
 }
 
 } // namespace

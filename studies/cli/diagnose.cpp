@@ -36,7 +36,7 @@ int calibrate_command(const CommonOptions& options, CalibrationRequest request, 
         AtomicFile::check(results);
     };
     together(options.ranks, [&] { request.start = start_study(options, request.measured, "calibrate", study); });
-    Console console(options.quiet || !options.leads());
+    Console console = options.console("calibrate");
     const CalibrationEnd end = calibrate_measured(request, options, console);
     if (!options.leads()) // it has predicted what rank 0 requested
         return exit_done;
@@ -45,7 +45,7 @@ int calibrate_command(const CommonOptions& options, CalibrationRequest request, 
         console.note(fmt::format(
             "Interrupted: {} of at most {} parameter sets are kept in {}. The same command continues from there.",
             found.kept_sets, end.planned, request.kept->string()));
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     const std::string text = calibrated_text(found, request.measured);
     parse_study(text, calibrated); // what is written is a study
@@ -60,7 +60,7 @@ int calibrate_command(const CommonOptions& options, CalibrationRequest request, 
                                calibration_cost(found), calibrated);
         },
         [&] { return calibration_json(found).member("results", results).member("calibrated_study", calibrated); });
-    return exit_done;
+    return console.end(exit_done);
 }
 
 namespace {
@@ -107,7 +107,7 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
         AtomicFile::check(output);
     };
     together(options.ranks, [&] { request.start = start_study(options, request.measured, "diagnose", study); });
-    Console console(options.quiet || !options.leads());
+    Console console = options.console("diagnose");
     std::optional<Diagnosis> diagnosis = diagnose_measured(request, options, console);
     if (!options.leads()) // it has simulated its part of the campaigns
         return diagnosis ? exit_done : exit_interrupted;
@@ -116,7 +116,7 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
                          ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
                                request.cache->string() + "."
                          : "Interrupted before a simulated campaign was kept. The same command begins anew.");
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     diagnosis->command = command_of(options, request, study, output);
     if (diagnosis->extended_study) {
@@ -128,7 +128,7 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
         options, [&] { return diagnosis_text(*diagnosis); }, [&] { return diagnosis_json(*diagnosis); });
     std::fflush(stdout); // before the line on standard error
     console.note(fmt::format("Diagnosis: {}. A page of it: stylobate report {}", output, output));
-    return exit_done;
+    return console.end(exit_done);
 }
 
 } // namespace stylobate

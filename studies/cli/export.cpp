@@ -255,11 +255,14 @@ std::optional<fs::path> export_motion(const CommonOptions& options, const std::s
     const Results results(file, options.set);
     const std::uint64_t realization = realization_of(results, wanted);
     const fs::path to = place_of(options, file, wanted, fmt::format("_realization_{}.{}", realization, format));
-    Console console(options.quiet);
+    Console console = options.console("export");
     console.begin(); // from here on an interrupt leaves no file
-    if (write_motion(results, options.isa(), realization, wanted.title, format, to, console))
+    if (write_motion(results, options.isa(), realization, wanted.title, format, to, console)) {
+        console.end(exit_done);
         return to;
+    }
     console.warn(fmt::format("interrupted: '{}' was not written", to.string()));
+    console.end(exit_interrupted);
     return std::nullopt;
 }
 

@@ -23,6 +23,7 @@
 #include "studies/results/study_facts.hpp"
 #include "studies/version.hpp"
 #include "studies/workflow/file_kind.hpp"
+#include "studies/workflow/machine_facts.hpp"
 
 #include <fmt/format.h>
 
@@ -460,10 +461,11 @@ int info_command(const CommonOptions& options, const std::optional<std::string>&
                                .member("gpus", Json::list(gpus.names))
                                .member("mpi", mpi.has_value())
                                .member("mpi_library", mpi.value_or(""))
+                               .member("machine", machine_json(machine_facts()))
                                .text());
         return exit_done;
     }
-    fmt::print("stylobate {}\n", code_version());
+    fmt::print("stylobate {}\n{}", code_version(), machine_text(machine_facts()));
     fmt::print("instruction sets: ");
     for (const Isa isa : usable)
         fmt::print("{} ", to_string(isa));

@@ -9,6 +9,7 @@
 #include "studies/results/kept_animations.hpp"
 #include "studies/usage/usage.hpp"
 #include "studies/version.hpp"
+#include "studies/workflow/bench/bench.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -77,6 +78,7 @@ public:
         add_new();
         add_schema();
         add_info();
+        add_bench();
         app_.footer(notes_text(help_column));
         add_texts();
         check_numbers(app_);
@@ -445,9 +447,25 @@ private:
         info->callback([this] { status_ = info_command(options_, asked_, all_, mpi_library()); });
     }
 
+    void add_bench()
+    {
+        auto* bench = app_.add_subcommand(
+            "bench", "measure the speed of this machine: the rows of the table of speeds, and whole ensembles of "
+                     "other structures, with one thread and with all; writes no file");
+        bench->add_option("--seconds", bench_.seconds, "time for all measurements; each is made once at least")
+            ->capture_default_str();
+        auto* rows = bench->add_flag("--markdown", markdown_,
+                                     "print the rows of the table of speeds alone, in Markdown: the best of the "
+                                     "repeats, as in README.md");
+        add_common(*bench, options_);
+        rows->excludes("--json");
+        bench->callback([this] { status_ = bench_command(options_, bench_.seconds, markdown_); });
+    }
+
     CLI::App app_{"Stylobate: ensembles of rocking and sliding multi-drum columns, in SIMD lockstep."};
     CommonOptions options_;
     CheckRequest check_;
+    BenchRequest bench_;
     DrawingOptions drawing_;
     VerifyChoice verify_;
     int status_ = exit_done;

@@ -26,23 +26,23 @@ int print_run(const CommonOptions& options, const RunReport& report)
 int run_command(const CommonOptions& options, const std::string& study, const std::optional<std::string>& results,
                 const std::optional<std::string>& shard, bool laws)
 {
-    Console console(options.quiet || !options.leads());
+    Console console = options.console("run");
     const RunReport report = run_study_file({study, options.set, results, shard, laws}, options, console);
     if (!options.leads())
         return report.complete ? exit_done : exit_interrupted;
-    return print_run(options, report);
+    return console.end(print_run(options, report), report.progress);
 }
 
 int merge_command(const CommonOptions& options, const std::vector<std::string>& files, const std::string& output,
                   bool partial)
 {
-    Console console(options.quiet);
+    Console console = options.console("merge");
     const auto report = merge_shards({files, output, partial, options.force, options.set}, options, console);
     if (!report) {
         say("Interrupted; nothing was written.\n");
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
-    return print_run(options, *report);
+    return console.end(print_run(options, *report), report->progress);
 }
 
 int report_command(const CommonOptions& options, PageRequest request, const std::optional<std::string>& output)
@@ -50,13 +50,13 @@ int report_command(const CommonOptions& options, PageRequest request, const std:
     request.output = output.value_or(beside(request.file, ".html").string());
     request.settings = options.set;
     request.force = options.force;
-    Console console(options.quiet);
+    Console console = options.console("report");
     if (!make_page(request, options, console)) {
         console.warn("interrupted: no page was written");
-        return exit_interrupted;
+        return console.end(exit_interrupted);
     }
     print_written(options, *request.output);
-    return exit_done;
+    return console.end(exit_done);
 }
 
 } // namespace stylobate

@@ -284,8 +284,8 @@ Html svg_image(const std::filesystem::path& svg, std::string_view alternative)
     const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (!in || bytes.empty())
         throw InputError(svg.string(), 0, "cannot be read");
-    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/svg+xml;base64," + base64(bytes) +
-                       "\">");
+    return Html::ready("<img alt=\"" + html_escaped(alternative) + "\" src=\"data:image/svg+xml;base64," +
+                       base64(bytes) + "\">");
 }
 
 } // namespace stylobate

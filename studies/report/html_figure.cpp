@@ -60,6 +60,19 @@ std::string figure_json(const Figure& figure, const FigurePanel& panel)
         .text();
 }
 
+constexpr FigureLook page_look{1, true};
+
+std::string drawing_of(const Figure& figure, FigurePanel& panel, double height)
+{
+    DrawingSheet sheet({static_cast<int>(width), 0}, page_look.letters());
+    const double top = 14 + panel.draw_legend(sheet, left, right, 4);
+    panel.draw(sheet, {left, top, right, top + height});
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" role=\"img\" "
+        "aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
+        width, top + height + panel.room_below(right - left), html_escaped(figure.title), sheet.elements());
+}
+
 } // namespace
 
 std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more)
@@ -76,18 +89,16 @@ std::string svg_rule(double x1, double y1, double x2, double y2, const char* loo
 
 Html figure_svg(const Figure& figure, double height)
 {
-    const FigureLook look{1, true};
-    DrawingSheet sheet({static_cast<int>(width), 0}, look.letters());
-    FigurePanel panel(figure, look);
-    const double legend = panel.draw_legend(sheet, left, right, 4);
-    const double top = 14 + legend;
-    panel.draw(sheet, {left, top, right, top + height});
-    Html html = Html::ready(fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" role=\"img\" "
-        "aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
-        width, top + height + panel.room_below(right - left), html_escaped(figure.title), sheet.elements()));
+    FigurePanel panel(figure, page_look);
+    Html html = Html::ready(drawing_of(figure, panel, height));
     html += data_script("class=\"figure-data\"", figure_json(figure, panel));
     return html;
+}
+
+std::string figure_drawing(const Figure& figure, double height)
+{
+    FigurePanel panel(figure, page_look);
+    return drawing_of(figure, panel, height);
 }
 
 Html bar_svg(double value, std::optional<double> mark, double most)

@@ -17,6 +17,9 @@ namespace stylobate {
 /// @param height of the plot alone [px]
 Html figure_svg(const Figure& figure, double height = 330);
 
+/// The same without the values for the script.
+std::string figure_drawing(const Figure& figure, double height = 330);
+
 /// A bar from 0 for a cell of a table, with a mark: how large a gain is, and how large chance makes it.
 /// @param most what the full width stands for, > 0
 Html bar_svg(double value, std::optional<double> mark, double most);

@@ -1,6 +1,7 @@
 #include "studies/results/result_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/plot_order.hpp"
@@ -8,6 +9,7 @@
 #include "studies/experiment/conventions.hpp"
 #include "studies/kinds/limit_text.hpp"
 #include "studies/report/html_figure.hpp"
+#include "studies/report/json.hpp"
 #include "studies/report/left_out.hpp"
 #include "studies/report/words.hpp"
 #include "studies/results/cells_data.hpp"
@@ -20,8 +22,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace stylobate {
 namespace {
@@ -65,19 +70,19 @@ public:
     {
         const std::optional<Answer> answer = kind_.answer();
         if (surface_) {
-            page_.answer(answer ? Html(answer->sentence) : counted_answer());
+            page_.answer(answer ? Html(answer->sentence) : overall());
             depends();
             kind_.map(writer_);
             answers();
             page_.contents();
         }
         page_.section("Summary");
-        if (answer && surface_) // the sentence stands above
+        if (answer && surface_) // its sentence stands above
             page_.paragraph(answer->more);
         else if (answer)
             page_.box("main", answer->sentence, answer->more);
         if (!kind_.summary(writer_))
-            summary(answer.has_value());
+            summary(answer.has_value() || surface_);
         if (!surface_)
             depends();
         studied();
@@ -123,10 +128,8 @@ private:
     }
 
     /// How many collapsed, with the interval.
-    Html counted_answer() const
+    Html overall() const
     {
-        if (rows_.size() == 1)
-            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
         const Share collapsed = counts_.share(LimitState::collapse);
         const std::optional<std::string> of = counted_words(study_);
         Html text = fmt::format("{} of {} valid realizations{}{} collapsed: ", collapsed.count, collapsed.trials,
@@ -136,25 +139,10 @@ private:
                                          : "");
         text += unbroken(percent_text(collapsed.probability));
         text += " (";
-        if (!std::isnan(collapsed.lower)) {
-            text += unbroken(interval_text(collapsed));
-            text += "; ";
-        }
+        if (!std::isnan(collapsed.lower))
+            text += unbroken(interval_text(collapsed) + "; ");
         text += describe_interval(counts_.interval()) + ").";
         return text;
-    }
-
-    /// The share that fell with its interval first.
-    std::string share_answer() const
-    {
-        const Share collapsed = counts_.share(LimitState::collapse);
-        if (rows_.size() == 1)
-            return fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
-        if (std::isnan(collapsed.lower))
-            return fmt::format("{} of the realizations collapsed: a share without an interval.",
-                               percent_text(collapsed.probability));
-        return fmt::format("{} of the realizations collapsed ({:g} % interval).", interval_text(collapsed),
-                           100 * interval_level);
     }
 
     /// On what the answer depends: the contact law, and what the model leaves out.
@@ -166,12 +154,21 @@ private:
         add_left_out(page_, study_.structure.dimensions);
     }
 
-    /// The share that fell. @param answered whether the page has opened with another answer
+    /// The share that fell. @param answered whether the page has opened with an answer
     void summary(bool answered)
     {
         const Share collapsed = counts_.share(LimitState::collapse);
-        const bool one = rows_.size() == 1;
-        Html text = one && !surface_ && !answered ? Html() : counted_answer();
+        const bool one = rows_.size() == 1, known = !std::isnan(collapsed.lower);
+        std::string sentence;
+        Html text;
+        if (one) {
+            sentence = fmt::format("Realization {} {}.", rows_[0].index, fate(rows_[0].outcome.state));
+        } else {
+            sentence = fmt::format("{} of the realizations collapsed ({}).",
+                                   known ? interval_text(collapsed) : percent_text(collapsed.probability),
+                                   known ? "95 % interval" : describe_interval(counts_.interval()));
+            text = overall();
+        }
         if (surface_)
             text += " The cells differ in their shaking, so this share also depends on the choice of cells; the "
                     "probability of each cell is given below.";
@@ -186,10 +183,10 @@ private:
         if (const std::optional<std::string> moving = counts_.moving_text())
             text += " " + (one ? std::string("It still moved at the end: its residual displacements are not known.")
                                : *moving);
-        if (answered || surface_)
+        if (answered)
             page_.paragraph(text);
         else
-            page_.box("main", share_answer(), text);
+            page_.box("main", sentence, text);
         if (!invalid_.empty()) {
             std::string list;
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)

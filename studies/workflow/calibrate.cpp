@@ -63,7 +63,7 @@ public:
     void progress(const Progress& p) override
     {
         planned_ = p.total;
-        outer_.counted(calibration_progress(stage_, p), p);
+        outer_.counted("parameter sets", calibration_progress(stage_, p), p);
     }
     void warn(const std::string& text) override { outer_.warn(text); }
     bool stop_requested() override { return outer_.stop_requested(); }

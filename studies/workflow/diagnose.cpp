@@ -35,7 +35,10 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
         check_cache(how);
     });
     observer.begin();
-    StopOnly quiet(observer); // no progress: the notes are the stages
+    how.campaigns = [&](const std::string& line, const Progress& p) {
+        observer.counted("simulated campaigns", line, p);
+    };
+    StopOnly quiet(observer); // no progress in realizations: the notes are the stages
     std::optional<Diagnosis> found = diagnose(
         campaign, study, how, [&](const std::string& line) { observer.note(line); }, quiet);
     if (found)

@@ -1,6 +1,7 @@
 #include "studies/workflow/past.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "studies/kinds/survival/survival_kind.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 #include "studies/results/results.hpp"
@@ -86,7 +87,8 @@ CombinedPast past_of_files(const std::vector<std::string>& files, const std::opt
 void draw_past(const CombinedPast& past, const std::filesystem::path& picture)
 {
     check_drawing(picture);
-    plot_curves(combined_figure(past), "Shaking that several structures exclude", picture);
+    write_figure(combined_figure(past), "Shaking that several structures exclude", "bands: 95 % intervals of the counts",
+                 picture);
 }
 
 std::vector<Table> tables_of(const CombinedPast& past)

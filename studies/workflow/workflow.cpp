@@ -41,27 +41,45 @@ RunOptions Machine::run_options() const
 
 std::string progress_line(const Progress& p)
 {
-    const std::string of = !p.open_end      ? fmt::format(" of {}", p.total)
-                           : p.expected > 0 ? fmt::format(" of about {}", std::max(p.expected, p.done))
-                                            : "";
-    std::string line = fmt::format("{}{} realizations", p.done, of);
+    const std::optional<std::uint64_t> end = p.end();
+    std::string line =
+        fmt::format("{}{} realizations", p.done, end ? fmt::format(" of {}{}", p.open_end ? "about " : "", *end) : "");
     if (p.rate > 0)
         line += ", " + rate_text(p.rate) + "/s";
-    const std::uint64_t end = p.open_end ? p.expected : p.total; // 0: unknown
-    if (p.rate > 0 && p.done < end)
-        line += fmt::format(", {}{} left", p.open_end ? "about " : "",
-                            duration_text(static_cast<double>(end - p.done) / p.rate));
-    if (const SimulatedTime& t = p.furthest; p.done == 0 && t.reached_s > 0) { // a realization takes long
-        line += fmt::format(", {:.3g} of at most {:.3g} s simulated", t.reached_s, t.latest_end_s);
-        if (p.seconds > 0 && p.total == 1)
-            line += fmt::format(", at most {} left", duration_text((t.latest_end_s / t.reached_s - 1) * p.seconds));
-    }
+    if (p.simulates_first())
+        line += fmt::format(", {:.3g} of at most {:.3g} s simulated", p.furthest.reached_s, p.furthest.latest_end_s);
+    if (const std::optional<double> left = p.seconds_left())
+        line += fmt::format(", {}{} left",
+                            p.simulates_first() ? "at most "
+                            : p.open_end        ? "about "
+                                                : "",
+                            duration_text(*left));
     if (!std::isnan(p.share))
         line += fmt::format(", {:.1f} % collapsed ({:.1f} to {:.1f})", 100 * p.share, 100 * p.share_lower,
                             100 * p.share_upper);
     if (p.invalid > 0)
         line += fmt::format(", {} invalid", p.invalid);
     return line;
+}
+
+Json& add_progress(Json& json, const Progress& p)
+{
+    json.member("done", p.done);
+    add_member(json, "total", p.end());
+    json.member("total_estimated", p.open_end && p.end())
+        .member("rate_per_s", p.rate > 0 ? p.rate : std::nan(""))
+        .member("seconds", p.seconds);
+    add_member(json, "seconds_left", p.seconds_left());
+    if (std::isnan(p.share))
+        json.member_as_is("estimate", "null");
+    else
+        json.member("estimate", Json::object()
+                                    .member("collapse_probability", p.share)
+                                    .member("lower", p.share_lower)
+                                    .member("upper", p.share_upper));
+    json.member("invalid", p.invalid);
+    return json.member("simulated_s", p.simulates_first() ? p.furthest.reached_s : std::nan(""))
+        .member("simulated_most_s", p.simulates_first() ? p.furthest.latest_end_s : std::nan(""));
 }
 
 } // namespace stylobate

@@ -4,6 +4,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/run/executor.hpp"
 #include "kernels/isa.hpp"
+#include "studies/report/json.hpp"
 
 #include <string>
 
@@ -33,11 +34,15 @@ public:
     virtual void note(const std::string&) {}
     /// The stage that begins, where the workflow has several.
     virtual void stage(const std::string&) {}
-    /// Progress of work that is not counted in realizations. @param line it in words
-    virtual void counted(const std::string& /*line*/, const Progress&) {}
+    /// Progress of work that is not counted in realizations. @param unit what is counted: "parameter sets"
+    /// @param line it in words
+    virtual void counted(const char* /*unit*/, const std::string& /*line*/, const Progress&) {}
 };
 
 /// "340 of 1000 realizations, 52/s, 13 s left, 12.0 % collapsed (9.1 to 15.4)".
 std::string progress_line(const Progress& progress);
+
+/// Adds the numbers of that line to an object, with units in their names; null where the line has none.
+Json& add_progress(Json& json, const Progress& progress);
 
 } // namespace stylobate

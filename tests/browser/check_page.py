@@ -56,6 +56,40 @@ class Single(Page):
         self.assertAlmostEqual(-float(re.findall(r"-?[\d.]+", turn)[2]), math.degrees(theta), delta=0.05)
 
 
+class Space(Page):
+    """A surface of a column in space."""
+
+    @classmethod
+    def make(cls):
+        stylobate("run", f"{Given.studies}/round_column.toml", "-o", cls.at("round.h5"),
+                  *settings(study__realizations=4, surface__frequency_hz="{from=1.0,to=2.0,count=2}",
+                            surface__pga_m_s2="{from=5.0,to=8.0,count=2}"))
+        stylobate("report", cls.at("round.h5"))
+
+    def test_letters_can_be_read_beside_the_map_and_on_a_phone(self):
+        for width, height in ((1400, 800), (420, 800)):
+            self.browser.size(width, height, phone=width < 500)
+            self.open("round.html")
+            self.browser.js("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            got = self.browser.js("document.documentElement.scrollWidth"), self.browser.js(LETTERS)
+            plan = self.browser.js('document.querySelectorAll(".plan text").length')
+            self.browser.size(1200, 1600)
+            self.assertLessEqual(got[0], width)
+            self.assertEqual(plan, 3)
+            self.assertEqual(got[1]["small"], [])
+
+    def test_a_browser_without_canvas_is_told(self):
+        added = self.browser.send("Page.addScriptToEvaluateOnNewDocument",
+                                  {"source": "HTMLCanvasElement.prototype.getContext = () => null;"})
+        try:
+            self.open("round.html")
+        finally:
+            self.browser.send("Page.removeScriptToEvaluateOnNewDocument", added)
+        self.assertIn("has no canvas", self.browser.js('document.querySelector(".of-player").textContent'))
+        self.browser.click('[data-cell="0"]')  # all other parts work
+        self.assertTrue(self.browser.js('document.querySelector(".cell-panel h3").textContent').startswith("Cell 0:"))
+
+
 class Fragility(Page):
     @classmethod
     def make(cls):

@@ -29,7 +29,7 @@ LETTERS = """(() => {
     let texts = 0;
     for (const element of document.querySelectorAll("body *")) {
       const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
-      if (!own || !element.checkVisibility({visibilityProperty: true}) || element.matches(".spoken, .unseen, option, title")) continue;
+      if (!own || !element.checkVisibility({visibilityProperty: true}) || element.matches(".spoken, option, title")) continue;
       ++texts;
       const matrix = element.ownerSVGElement ? element.getScreenCTM() : null, scale = matrix ? Math.hypot(matrix.a, matrix.b) : 1;
       const size = parseFloat(getComputedStyle(element).fontSize) * scale;

@@ -1,48 +1,12 @@
 #!/usr/bin/env bash
 # Makes the packages and uses them as their users do, in a bare Debian 12 of its own (debootstrap) without the sources, the
 # build and, at first, a compiler: check_packages.sh PROGRAM BUILD_FOLDER SOURCE_FOLDER. Prints the times and sizes.
-# Status 77 (skipped) where it is not run as root, or where debootstrap, lintian or a mirror of Debian is missing.
+# Status 77 (skipped) where bare_debian.sh or lintian says so.
 set -euo pipefail
 program=$1 build=$2 source=$3
-suite=bookworm
-
-skip() {
-    echo "skipped: $1"
-    exit 77
-}
-[[ $(id -u) -eq 0 ]] || skip "a bare Debian needs root"
-for tool in debootstrap lintian dpkg-shlibdeps unshare; do
-    command -v "$tool" >/dev/null || skip "$tool is not installed"
-done
-mirror=$(apt-get indextargets --format '$(REPO_URI)' "Codename: $suite" "Origin: Debian" "Created-By: Packages" | head -n 1)
-[[ -n $mirror ]] || skip "apt has no mirror of Debian 12 ($suite)"
+. "${BASH_SOURCE[0]%/*}/bare_debian.sh"
+need lintian dpkg-shlibdeps
 compgen -G "$build/python/stylobate/_core*.so" >/dev/null || skip "the build has no Python module"
-
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
-/usr/lib/apt/apt-helper download-file "${mirror%/}/dists/$suite/InRelease" "$work/InRelease" >/dev/null 2>&1 ||
-    skip "$mirror cannot be reached"
-root=$work/root
-unshare --mount --pid --fork true 2>/dev/null || skip "there are no namespaces here (unshare)"
-
-fail() {
-    echo "check_packages.sh: $1" >&2
-    exit 1
-}
-timed() { # LABEL COMMAND...
-    local begin=$EPOCHREALTIME
-    "${@:2}" >"$work/log" 2>&1 || {
-        cat "$work/log" >&2
-        fail "$1 failed, see above"
-    }
-    printf '%6.1f s  %s\n' "$(awk "BEGIN { print $EPOCHREALTIME - $begin }")" "$1"
-}
-in_root() { # COMMAND: as root; /proc is there, and gone with the command
-    unshare --mount --pid --fork bash -c "mount -t proc proc '$root/proc' && exec chroot '$root' /usr/bin/env -i \
-        PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive HOME=/tmp LC_ALL=C.UTF-8 bash -euc \"\$0\"" "$1"
-}
-as_user() { in_root "mkdir -p /tmp/user && chown nobody /tmp/user && cd /tmp/user && exec setpriv --reuid nobody \
-    --regid nogroup --clear-groups env HOME=/tmp/user bash -euc $(printf %q "$1")"; }
 
 timed "the packages are made from a build, lintian finds no error" \
     env STYLOBATE_BUILD="$build" "$source/scripts/package.sh" "$work/packages"
@@ -50,11 +14,9 @@ grep installed "$work/log" | sed "s|$work/packages/||"
 for package in "$work"/packages/*.deb; do
     dpkg-deb --extract "$package" "$work/content"
 done
-for folder in "$build" "$source"; do
-    ! grep -raF -e "$folder/" "$work/content" --files-with-matches || fail "these files name $folder"
-done
+names_no_place "$work/content" "$build" "$source"
 
-timed "a bare Debian 12 (debootstrap, minbase)" debootstrap --variant=minbase "$suite" "$root" "$mirror"
+bare_debian
 cp "$work"/packages/*.deb "$root/var/tmp"
 first=$EPOCHREALTIME
 timed "apt update" in_root "apt-get update"
@@ -68,7 +30,7 @@ timed "the first surface, 4096 realizations" as_user \
     "stylobate run /usr/share/stylobate/inputs/$study.toml -o column.h5 $reduced"
 head -n 1 "$work/log"
 timed "its page" as_user "stylobate report column.h5"
-printf '%6.1f s  from apt update to the page\n' "$(awk "BEGIN { print $EPOCHREALTIME - $first }")"
+since "$first" "from apt update to the page"
 timed "its picture, by librsvg" as_user "stylobate export column.h5 --to png"
 as_user "stylobate export column.h5 --to csv -o tables --quiet" >/dev/null
 "$program" run "$source/studies/inputs/$study.toml" -o "$work/column.h5" $reduced --quiet >/dev/null

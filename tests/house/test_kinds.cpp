@@ -20,7 +20,8 @@ const std::vector<std::string> files_of_kinds = {"ensemble/model/kind_settings.h
                                                  "ensemble/model/study_design.cpp",
                                                  "io/keys/",
                                                  "io/study/",
-                                                 "studies/reference/"}; // the keys as text
+                                                 "studies/reference/",                 // the keys as text
+                                                 "studies/workflow/bench/scenes.hpp"}; // studies that are timed
 
 /// Where a text names a kind of study or its settings; empty: nowhere.
 std::string kind_named_in(const std::string& text)

@@ -1,7 +1,7 @@
 /// Single precision in the ensemble: the same bits everywhere, outcomes that agree with double precision as well as
 /// double precision agrees with itself at another step, and refusals. `docs/precision.md` has the figures.
 
-#include "bench/scenes.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 

@@ -93,7 +93,7 @@ TEST_F(Verbs, Info)
     const Ended plain = run({"info"});
     EXPECT_EQ(plain.status, 0);
     EXPECT_EQ(plain.err, "");
-    for (const char* part : {"stylobate ", "instruction sets: scalar", "threads: ", "GPU", "MPI"})
+    for (const char* part : {"stylobate ", "processor: ", "instruction sets: scalar", "threads: ", "GPU", "MPI"})
         EXPECT_NE(plain.out.find(part), std::string::npos) << part;
 
     const JsonValue json = json_of(run({"info", "--json", "--threads", "3", "--simd", "scalar"}));
@@ -232,7 +232,7 @@ TEST_F(Verbs, HelpIsFoundByItsOtherNames)
     expect_refused(Words{"--hlep"}, {"--hlep is not an option", "Did you mean --help?"});
     expect_refused(Words{"--versoin"}, {"Did you mean --version?"});
     for (const char* verb : {"run", "check", "merge", "compare", "replay", "verify-file", "record", "calibrate",
-                             "diagnose", "risk", "past", "export", "report", "new", "schema", "info"}) {
+                             "diagnose", "risk", "past", "export", "report", "new", "schema", "info", "bench"}) {
         expect_refused(Words{verb, "--helpp"}, {"--helpp is not an option of " + std::string(verb),
                                                 "Did you mean --help?", "stylobate " + std::string(verb) + " --help"});
         expect_refused(Words{verb, "-help"}, {"-help is not an option of", "Did you mean --help?"});

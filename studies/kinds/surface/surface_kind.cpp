@@ -124,14 +124,16 @@ std::vector<double> unit_edges(const CellAxis& axis)
     return edges;
 }
 
-CellMap surface_map(const SurfaceTable& table)
+} // namespace
+
+CellMap surface_map(const SurfaceTable& table, const std::string& limit)
 {
     CellMap map;
-    map.title = fmt::format("Map of the probability of collapse, {} {} by {} values of PGA", table.rows().size(),
+    map.title = fmt::format("Map of the probability of {}, {} {} by {} values of PGA", limit, table.rows().size(),
                             table.row_quantity().plural, table.pga_m_s2.size());
     map.x_label = table.row_quantity().label;
     map.y_label = "PGA [m/s²]";
-    map.value_label = "probability of collapse";
+    map.value_label = "probability of " + limit;
     map.x = table.rows();
     map.y = table.pga_m_s2;
     map.x_edges = unit_edges(make_cell_axis(map.x, table.row_quantity().key));
@@ -140,6 +142,8 @@ CellMap surface_map(const SurfaceTable& table)
     map.contours = surface_contours(table);
     return map;
 }
+
+namespace {
 
 /// The probability over PGA at some frequencies or directions, with its intervals.
 Figure slice_figure(const SurfaceTable& table)

@@ -96,10 +96,9 @@ std::string calibration_cost(const Calibration& c)
 
 std::string calibration_progress(const std::string& stage, const Progress& p)
 {
-    return fmt::format(
-        "{}: {} of at most {} parameter sets{}", stage, p.done, p.total,
-        p.rate > 0 ? fmt::format(", at most {} left", duration_text(static_cast<double>(p.total - p.done) / p.rate))
-                   : "");
+    const std::optional<double> left = p.seconds_left();
+    return fmt::format("{}: {} of at most {} parameter sets{}", stage, p.done, p.total,
+                       left ? fmt::format(", at most {} left", duration_text(*left)) : "");
 }
 
 Json calibration_json(const Calibration& c)

@@ -7,6 +7,7 @@
 #include "studies/measured/diagnosis/prediction.hpp"
 #include "studies/measured/diagnosis/presentation.hpp"
 #include "studies/measured/diagnosis/window_evidence.hpp"
+#include "studies/report/words.hpp"
 #include "studies/version.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +27,12 @@ constexpr std::size_t most_wrong = 20;
 constexpr std::size_t most_features = 8;
 constexpr std::size_t most_candidates = 12;
 
-/// How long the rest takes, if it goes on as it did.
-std::string time_left(std::chrono::steady_clock::time_point begun, std::uint64_t done, std::uint64_t left)
+/// "simulated campaigns: 72 of 1100, about 40 s left"
+std::string campaigns_line(const Progress& p)
 {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
-    return fmt::format(", about {:.0f} s left", passed.count() / static_cast<double>(done) * static_cast<double>(left));
+    const std::optional<double> left = p.seconds_left();
+    return fmt::format("  simulated campaigns: {} of {}{}", p.done, p.total,
+                       left ? fmt::format(", about {} left", duration_text(*left)) : "");
 }
 
 /// The stages of a diagnosis in their order; each leaves what it found for those after it.
@@ -222,8 +224,11 @@ bool Pipeline::simulate_campaigns()
         [&](std::uint64_t done, std::uint64_t total) {
             if (!cached)
                 cached = done;
-            tell_(fmt::format("  simulated campaigns: {} of {}{}", done, total,
-                              done > *cached ? time_left(begun, done - *cached, total - done) : ""));
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
+            Progress progress{.done = done, .total = total, .seconds = passed.count()};
+            progress.rate = static_cast<double>(done - *cached) / std::max(passed.count(), 1e-9);
+            if (options_.campaigns)
+                options_.campaigns(campaigns_line(progress), progress);
         },
         observer_));
     count_ += ensemble_->ensemble.cost;

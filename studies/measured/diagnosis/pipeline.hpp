@@ -24,6 +24,8 @@ struct DiagnosisOptions {
     std::optional<std::filesystem::path> cache; ///< of the simulated campaigns; nullopt: none is kept
     DecisionRule rule;
     RunOptions run;
+    /// Told of the simulated campaigns, in words and counts; may be empty.
+    std::function<void(const std::string& line, const Progress&)> campaigns{};
 };
 
 /// Told what is being done, one line at a time.

@@ -68,8 +68,10 @@ class Cells {
     return times;
   }
 
-  /** What the map can show in colour: its name, what it is, its value in a cell (null: there is none), and the ends of
-      the scale. @param limit number of the limit state */
+  /**
+   * What the map can show in colour: its name, what it is, its value in a cell (null: there is none), and the ends of the
+   * scale. @param limit number of the limit state
+   */
   quantities(limit) {
     const d = this.data, words = d.limits[limit].words;
     const all = [

@@ -204,5 +204,5 @@ function outcomeBars(cells, cell, chosen, choose) {
         html("th", {scope: "row"}, words), html("td", {class: "of-bar"}, bar),
         html("td", {class: "r"}, shareText(probability, lower, upper))));
   });
-  return html("table", {class: "outcome-bars"}, html("caption", {class: "unseen"}, `Outcomes, ${cells.data.interval}`), body);
+  return html("table", {class: "outcome-bars"}, html("caption", {}, `In brackets: ${cells.data.interval}.`), body);
 }

@@ -164,7 +164,7 @@ class Instrument {
   factsOf(cell) {
     const {data} = this.cells, body = html("tbody");
     const row = (name, value) => body.append(html("tr", {}, html("td", {}, name), html("td", {}, value)));
-    for (const [name, value] of this.cells.facts(this.choice.limit, cell).slice(2)) row(name, html("span", {class: "n"}, value));
+    for (const [name, value] of this.cells.facts(this.choice.limit, cell).slice(4)) row(name, html("span", {class: "n"}, value));
     const first = data.first?.[cell], times = data.times?.[cell];
     if (first) row("fell first", first.map(([name, count]) => `${name}: ${count}`).join(", "));
     if (times)

@@ -16,7 +16,7 @@ function roseOf(counts, title) {
              svg("circle", {class: "grid", cx: middle, cy: middle, r: radius(most)}),
              svg("circle", {class: "grid", cx: middle, cy: middle, r: radius(most / 4)}),
              ...parts.filter((part) => part),
-             svg("text", {x: 182, y: 104, "font-size": 12}, "x"),
-             svg("text", {x: middle, y: 192, "font-size": 12, "text-anchor": "middle"}, "z"),
-             svg("text", {x: 4, y: 14, "font-size": 11}, `outer circle: ${most}`));
+             svg("text", {x: 182, y: 104, "font-size": 13}, "x"),
+             svg("text", {x: middle, y: 192, "font-size": 13, "text-anchor": "middle"}, "z"),
+             svg("text", {x: 4, y: 14, "font-size": 13}, `outer circle: ${most}`));
 }

@@ -45,6 +45,7 @@ class SpacePlayer extends Player {
     for (const factor of [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
       this.larger.append(html("option", {value: factor}, factor === 1 ? "plan to scale" : `displacements × ${factor}`));
     new ResizeObserver(() => this.fit()).observe(this.stage);
+    new ResizeObserver(() => this.bodies && this.buildPlan()).observe(this.plan);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
 
@@ -264,11 +265,13 @@ class SpacePlayer extends Player {
       d: orbit.map(([x, z], k) => `${k ? "L" : "M"}${this.onPlan(x, z).map((v) => v.toFixed(1)).join(" ")}`).join("")}));
     this.dots = told.map((block, i) => svg("circle", {class: "now", r: 3, "data-block": block, style: `fill:${colours[i]}`}));
     const metre = scale * this.store.px_m, length = roundLength(90 / metre), bar = length * metre;
+    const letters = 12 * side / (this.plan.clientWidth || side); // as large on every screen
     this.plan.replaceChildren(...byHeight.map((block) => this.outlines[block]), ...lines, ...this.dots,
         svg("path", {class: "axes", d: "M10 10h24M10 10v24"}),
-        svg("text", {x: 39, y: 14, "font-size": 12}, "x"), svg("text", {x: 7, y: 46, "font-size": 12}, "z"),
+        svg("text", {x: 39, y: 8 + letters / 2, "font-size": letters}, "x"),
+        svg("text", {x: 7, y: 35 + letters, "font-size": letters}, "z"),
         svg("path", {class: "axes", d: `M${290 - bar} 284v6h${bar}v-6`}),
-        svg("text", {x: 284 - bar, y: 292, "font-size": 12, "text-anchor": "end"}, `${numberText(length)} m`));
+        svg("text", {x: 284 - bar, y: 292, "font-size": letters, "text-anchor": "end"}, `${numberText(length)} m`));
     this.plan.setAttribute("aria-label", `plan, with the orbits of ${told.map((b) => this.store.blocks[b]).join(", ")}`);
     this.keys.replaceChildren(...told.slice(0, 7).map((block, i) => html("span", {},
         html("span", {class: "swatch", style: `background:${colours[i]}`}), this.store.blocks[block])),

@@ -2,7 +2,7 @@
 /// none of them asks for.
 
 #include "bench/counted.hpp"
-#include "bench/scenes.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "kernels/planar/mechanisms/points.hpp"
 #include "kernels/planar/mechanisms/two_corner.hpp"

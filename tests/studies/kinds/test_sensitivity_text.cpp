@@ -1,6 +1,5 @@
 /// What is told and drawn of indices: columns that do not collide, too few samples, indices that are not determined.
 
-#include "io/plots/plot_estimates.hpp"
 #include "studies/kinds/sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>

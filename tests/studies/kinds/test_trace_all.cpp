@@ -1,6 +1,6 @@
 /// Realizations that are followed several at once have the trajectories and outcomes that each has alone.
 
-#include "bench/scenes.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/hand_over.hpp"
 #include "studies/experiment/trajectory.hpp"
 

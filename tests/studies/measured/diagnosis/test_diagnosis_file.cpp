@@ -99,10 +99,12 @@ TEST_F(DiagnosisFile, EveryFieldOfTheStructuresIsListed)
     EXPECT_EQ(want.cost, got.cost);
     // of the others the compiler counts the fields: one name too few or too many here is an error
     const Figure figure; // that of a diagnosis has its place besides
-    [[maybe_unused]] const auto& [title, caption, x_label, y_label, x_log, y_log, x_ticks, all_series] = figure;
+    [[maybe_unused]] const auto& [title, caption, x_label, y_label, x_log, y_log, x_ticks, all_series, x_range, y_range,
+                                  cells] = figure; // the last three: of no diagnosis
     EXPECT_EQ(listed<DiagnosisFigure>(), 9U);
     const FigureSeries series;
-    [[maybe_unused]] const auto& [name, kind, x, y, low, high, group, layer] = series; // the last two: of no diagnosis
+    [[maybe_unused]] const auto& [name, kind, x, y, low, high, group, layer, colour, dashed, weight, shown] =
+        series; // the last six: of no diagnosis
     EXPECT_EQ(listed<FigureSeries>(), 6U);
     const Diagnosis whole;
     [[maybe_unused]] const auto& [d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18,

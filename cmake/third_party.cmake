@@ -1,0 +1,17 @@
+# The notices, as Debian has them, of the libraries whose code is in the program: third_party_notices(RESULT package...)
+# of those that are headers alone, and of the packages that are named. As a script: -DOUTPUT=FILE -DPACKAGES=LIST.
+function(third_party_notices result)
+  set(notices "")
+  foreach(package libxsimd-dev libcli11-dev libeigen3-dev librandom123-dev libtomlplusplus-dev pybind11-dev ${ARGN})
+    if(EXISTS /usr/share/doc/${package}/copyright)
+      file(READ /usr/share/doc/${package}/copyright notice)
+      string(APPEND notices "==== ${package} ====\n\n${notice}\n")
+    endif()
+  endforeach()
+  set(${result} "${notices}" PARENT_SCOPE)
+endfunction()
+
+if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
+  third_party_notices(notices ${PACKAGES})
+  file(WRITE ${OUTPUT} "${notices}")
+endif()
