@@ -29,26 +29,45 @@ bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/// "1.2 to 3.4 %" with blanks at which no line breaks, anywhere in a text.
+constexpr std::string_view no_break = "&nbsp;";
+
+/// A text that ends with the lower limit of an interval: where a value stands before it ("61 % (58"), without a break
+/// between them.
+std::string joined_to_its_value(std::string_view text)
+{
+    const std::size_t end = text.find_last_not_of("0123456789.e+-∞");
+    const std::size_t number = end == std::string_view::npos ? 0 : end + 1;
+    std::string_view value = text.substr(0, number);
+    if (!value.ends_with(" ("))
+        return std::string(text);
+    value.remove_suffix(2);
+    const bool percent = value.ends_with(" %");
+    if (percent)
+        value.remove_suffix(2);
+    if (value.empty() || !is_digit(value.back()))
+        return std::string(text);
+    return fmt::format("{}{}{}({}", value, percent ? fmt::format("{}%", no_break) : "", no_break, text.substr(number));
+}
+
+/// "1.2 to 3.4 %" and "5 (4 to 6)" with blanks at which no line breaks, anywhere in a text.
 std::string unbroken_intervals(std::string_view text)
 {
-    constexpr std::string_view to = " to ", blank = "&nbsp;", endless = "∞";
+    constexpr std::string_view to = " to ", endless = "∞";
     std::string out;
     for (std::size_t at = text.find(to); at != std::string_view::npos; at = text.find(to)) {
         const std::string_view before = text.substr(0, at), after = text.substr(at + to.size());
         const std::size_t sign = after.starts_with('-') || after.starts_with('+') ? 1 : 0;
         const bool number = (sign < after.size() && is_digit(after[sign])) || after.substr(sign).starts_with(endless);
-        if (number && at > 0 && (is_digit(before.back()) || before.ends_with(endless))) {
-            out += fmt::format("{0}{1}to{1}", before, blank);
-            const std::size_t end = std::min(after.find_first_not_of("0123456789.e+-∞"), after.size());
-            text = after;
-            if (text.substr(end).starts_with(" %")) {
-                out += fmt::format("{}{}%", text.substr(0, end), blank);
-                text.remove_prefix(end + 2);
-            }
-        } else {
+        text = after;
+        if (!number || at == 0 || !(is_digit(before.back()) || before.ends_with(endless))) {
             out += fmt::format("{}{}", before, to);
-            text = after;
+            continue;
+        }
+        out += fmt::format("{0}{1}to{1}", joined_to_its_value(before), no_break);
+        const std::size_t end = std::min(after.find_first_not_of("0123456789.e+-∞"), after.size());
+        if (text.substr(end).starts_with(" %")) {
+            out += fmt::format("{}{}%", text.substr(0, end), no_break);
+            text.remove_prefix(end + 2);
         }
     }
     return out + std::string(text);

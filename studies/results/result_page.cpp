@@ -68,17 +68,19 @@ public:
 
     HtmlPage page()
     {
+        const std::optional<Answer> answer = kind_.answer();
         if (surface_) {
-            page_.answer(overall());
+            page_.answer(answer ? Html(answer->sentence) : overall());
             depends();
             kind_.map(writer_);
             answers();
             page_.contents();
         }
         page_.section("Summary");
-        const std::optional<Answer> answer = kind_.answer();
-        if (answer)
-            page_.box("answer", answer->sentence, answer->more);
+        if (answer && surface_) // its sentence stands above
+            page_.paragraph(answer->more);
+        else if (answer)
+            page_.box("main", answer->sentence, answer->more);
         if (!kind_.summary(writer_))
             summary(answer.has_value() || surface_);
         if (!surface_)
@@ -184,7 +186,7 @@ private:
         if (answered)
             page_.paragraph(text);
         else
-            page_.box("answer", sentence, text);
+            page_.box("main", sentence, text);
         if (!invalid_.empty()) {
             std::string list;
             for (std::size_t i = 0; i < std::min<std::size_t>(invalid_.size(), 10); ++i)

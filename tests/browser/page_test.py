@@ -45,7 +45,7 @@ BROKEN = """(() => {
     const walk = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
     for (let node; (node = walk.nextNode());) {
       if (!node.parentElement.checkVisibility() || node.parentElement.closest(".spoken, pre, option")) continue;
-      for (const found of node.textContent.matchAll(/[\\d.]+ % \\([\\d.]+ to [\\d.]+\\)|[\\d.]+( %)? to [\\d.]+ %/g)) {
+      for (const found of node.textContent.matchAll(/[\\d.]+\\s%\\s\\([\\d.]+\\sto\\s[\\d.]+\\)|[\\d.]+(\\s%)?\\sto\\s[\\d.]+\\s%/g)) {
         ++intervals;
         const range = document.createRange();
         range.setStart(node, found.index);

@@ -195,10 +195,10 @@ inline std::string read_bytes(const fs::path& file)
 /// A page, with ordinary blanks inside its intervals: no line breaks there.
 inline std::string read_page(const fs::path& file)
 {
+    constexpr std::string_view unbroken = "&nbsp;";
     std::string page = read_bytes(file);
-    for (const auto& [unbroken, plain] : {std::pair("&nbsp;to&nbsp;", " to "), {"&nbsp;%", " %"}})
-        for (std::size_t at = page.find(unbroken); at != std::string::npos; at = page.find(unbroken, at))
-            page.replace(at, std::string_view(unbroken).size(), plain);
+    for (std::size_t at = page.find(unbroken); at != std::string::npos; at = page.find(unbroken, at))
+        page.replace(at, unbroken.size(), " ");
     return page;
 }
 

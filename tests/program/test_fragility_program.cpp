@@ -141,7 +141,7 @@ TEST_F(FragilityProgram, CurvesSayWhatTheRowsSay)
     const std::string page = read_page(folder / "f.html");
     const std::string summary = page.substr(page.find(">1&ensp;Summary"), 1000);
     // the answer first, with its interval
-    const std::size_t answer = summary.find("<div class=\"box answer\"><strong>At PGV ");
+    const std::size_t answer = summary.find("<div class=\"box main\"><strong>At PGV ");
     EXPECT_NE(answer, std::string::npos) << summary;
     EXPECT_NE(summary.find("half of the structures fall", answer), std::string::npos) << summary;
     // each remark once, with the limit states that it concerns

@@ -58,13 +58,13 @@ std::string unknown_text(const VariantComparison& variant, const LimitComparison
     return unknown > 0 ? fmt::format(" ({} pairs left out: still moving at the end)", unknown) : std::string();
 }
 
-/// "dowels: probability of collapse -10.2 to +5.8 percentage points (95 % interval)"
+/// "dowels: the probability of collapse changes by -10.2 to +5.8 percentage points (95 % interval)"
 std::string answer_title(const Comparison& comparison, const VariantComparison& variant)
 {
     const LimitComparison& limit = variant.limits.front();
     if (limit.overall.counts.pairs() == 0)
         return variant.name;
-    return fmt::format("{}: probability of {} {} ({:g} % interval)", variant.name, limit.name,
+    return fmt::format("{}: the probability of {} changes by {} ({:g} % interval)", variant.name, limit.name,
                        points_text(limit.overall), 100 * comparison.level);
 }
 
@@ -119,14 +119,6 @@ public:
 private:
     void answers()
     {
-        std::string names;
-        for (const VariantComparison& variant : c_.variants)
-            names += (names.empty() ? "" : ", ") + variant.name;
-        page_.paragraph(
-            fmt::format("The question: does the structure of {} fare better with {}?", c_.base_name, names));
-        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
-            page_.paragraph(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
-        add_left_out_of(page_, c_.base_toml);
         for (const VariantComparison& variant : c_.variants) {
             if (variant.limits.empty())
                 continue;
@@ -139,6 +131,9 @@ private:
             if (const std::optional<std::string> harm = harm_text(c_, variant))
                 page_.note(variant.name + ": " + *harm);
         }
+        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
+            page_.note(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
+        add_left_out_of(page_, c_.base_toml);
     }
 
     /// Draws it, or says why not.

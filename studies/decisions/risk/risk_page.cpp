@@ -41,7 +41,7 @@ Figure hazard_figure(const Risk& risk, const StateRisk& s)
     figure.y_label = "exceeded [1/year]";
     figure.x_log = figure.y_log = true;
     const HazardCurve best = best_curve(risk.hazard);
-    FigureSeries line{"hazard", SeriesKind::line, grid_over(s), {}, {}, {}};
+    FigureSeries line{"", SeriesKind::line, grid_over(s), {}, {}, {}};
     for (const double im : line.x)
         line.y.push_back(best.frequency(std::log(im)));
     if (!risk.hazard.fractiles.empty()) {
@@ -99,8 +99,7 @@ Figure parts_figure(const Risk& risk, const StateRisk& s)
     // by the values: limits may be far beyond, and are in the table
     if (most > 0)
         figure.y_range = {0, 1.05 * std::max(most, std::min(upper, 2.5 * most))};
-    const std::string name = fmt::format("{}, {:g} %", s.state, 100 * risk.level);
-    FigureSeries steps{name, SeriesKind::line, {}, {}, {}, {}, name}, points = steps;
+    FigureSeries steps{"", SeriesKind::line, {}, {}, {}, {}, ""}, points = steps;
     points.kind = SeriesKind::points;
     for (const FrequencyPart& part : s.estimate.parts) {
         if (part.from == 0 || std::isinf(part.to))
@@ -226,7 +225,7 @@ HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optiona
                   fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
                               hazard_text(risk.hazard), risk.code_version));
     page.section("The answer");
-    page.box(risk.principal().determined ? "answer" : "warn", risk_answer_title(risk), risk_answer(risk));
+    page.box(risk.principal().determined ? "main" : "warn", risk_answer_title(risk), risk_answer(risk));
     page.paragraph(risk_grounds(risk));
     if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
         page.paragraph("Conventions: " + *conventions + ".");

@@ -77,6 +77,8 @@ Figure exclusion_figure(const Survival& s)
     for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
         figure.series.push_back(likelihood_series(e == 0 ? "1 event" : fmt::format("{} events", e + 1),
                                                   s.axes.intensity, s.past->by_events[e]));
+    for (std::size_t e = 1; e < figure.series.size(); ++e)
+        figure.series[e].shown = false; // the bands of several hide each other
     figure.series.push_back(threshold_series(s.axes.intensity, s.past->by_events.front()));
     return figure;
 }

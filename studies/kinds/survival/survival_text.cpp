@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <sstream>
 
 namespace stylobate {
 
@@ -432,6 +434,27 @@ Json survival_json(const Survival& s)
     return json;
 }
 
+namespace {
+
+/// With a capital and a full stop.
+std::string sentence(std::string text)
+{
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text + ".";
+}
+
+/// The lines of `posterior_words`, each a sentence.
+std::vector<Html> posterior_items(const PastPosterior& posterior, const PastAxes& axes, double level)
+{
+    std::vector<Html> items;
+    std::istringstream lines(posterior_words(posterior, axes, level));
+    for (std::string line; std::getline(lines, line);)
+        items.emplace_back(sentence(line.substr(line.find_first_not_of(' '))));
+    return items;
+}
+
+} // namespace
+
 Answer survival_answer(const Survival& s)
 {
     if (!s.judged())
@@ -446,7 +469,7 @@ void survival_section(const Survival& s, PageWriter& writer)
 {
     HtmlPage& page = writer.page;
     page.section("The past of the structure");
-    page.paragraph(agreeing_words(s) + ".");
+    page.paragraph(sentence(agreeing_words(s)));
     writer.picture(
         s.state_measured ? "The share of the realizations that end in the observed state, for each number of events. "
                            "Lines: probability of standing 5, 50 and 95 %."
@@ -460,18 +483,20 @@ void survival_section(const Survival& s, PageWriter& writer)
         page.heading("Excluded shaking");
         std::vector<Html> items;
         for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
-            items.emplace_back(events_word(e + 1) + ": " +
-                               exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes) + ".");
+            items.emplace_back(
+                sentence(events_word(e + 1) + ": " + exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes)));
         if (s.alike)
             items.emplace_back(alike_words(s.built, s.standing_alike) + ", 1 event: " +
                                exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes) + ".");
-        items.emplace_back(threshold_words(s.past->by_events.front().rule, s.level) + ".");
+        items.emplace_back(sentence(threshold_words(s.past->by_events.front().rule, s.level)));
         for (const std::string& line : coverage_words(s.coverage, s.axes))
             items.emplace_back("Simulated monuments: " + line + ".");
         page.list(items);
-        page.figure(figure_svg(exclusion_figure(s)),
-                    "The likelihood over the PGA, as a part of its largest value; bands: 95 % intervals of the counts. "
-                    "The threshold is the ratio below which a PGA is excluded.");
+        page.figure(
+            figure_svg(exclusion_figure(s)),
+            "The likelihood over the PGA, as a part of its largest value; bands: 95 % intervals of the counts. "
+            "The threshold is the ratio below which a PGA is excluded. The legend switches the numbers of events "
+            "on and off.");
         HtmlTable table{"rlr",
                         {"frequency [Hz]", "PGA [m/s²]", "probability [%]"},
                         {},
@@ -484,23 +509,24 @@ void survival_section(const Survival& s, PageWriter& writer)
         if (!table.rows.empty())
             page.table(table);
         page.heading("The most probable past");
-        page.block(posterior_words(s.past->posterior, s.axes, s.level));
-        if (s.alike)
-            page.block("  " + alike_words(s.built, s.standing_alike) + ":\n" +
-                       posterior_words(s.alike->posterior, s.axes, s.level));
+        page.list(posterior_items(s.past->posterior, s.axes, s.level));
+        if (s.alike) {
+            page.paragraph(sentence(alike_words(s.built, s.standing_alike)));
+            page.list(posterior_items(s.alike->posterior, s.axes, s.level));
+        }
     }
     if (s.monuments) {
         page.heading("Test on simulated monuments");
         std::vector<Html> items;
         for (const std::string& line : monument_words(*s.monuments, s.level, s.axes.events > 1))
-            items.emplace_back(line + ".");
+            items.emplace_back(sentence(line));
         page.list(items);
     }
     if (s.rates) {
         page.heading("The rates of the hazard curve");
         std::vector<Html> items;
         for (const std::string& line : rates_words(s))
-            items.emplace_back(line + ".");
+            items.emplace_back(sentence(line));
         page.list(items);
         page.figure(figure_svg(rates_figure(s)), "Density of the factor on all rates, before and after.");
     }

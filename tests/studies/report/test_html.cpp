@@ -104,7 +104,9 @@ TEST(Html, NoLineBreaksInsideAnInterval)
     EXPECT_EQ(Html("1.2 to 3.4 % of 5 to ten").markup, "1.2&nbsp;to&nbsp;3.4&nbsp;% of 5 to ten");
     EXPECT_EQ(Html("(-5 to +3) and 2e-05 to ∞; to 7").markup, "(-5&nbsp;to&nbsp;+3) and 2e-05&nbsp;to&nbsp;∞; to 7");
     EXPECT_EQ(Html("from 1 to 2 to 3").markup, "from 1&nbsp;to&nbsp;2&nbsp;to&nbsp;3");
-    EXPECT_EQ(Html("goes to 3").markup, "goes to 3");
+    EXPECT_EQ(Html("a 61 % (58 to 64), 2e-05 (1e-05 to 3e-05)").markup,
+              "a 61&nbsp;%&nbsp;(58&nbsp;to&nbsp;64), 2e-05&nbsp;(1e-05&nbsp;to&nbsp;3e-05)");
+    EXPECT_EQ(Html("goes to 3 (1 of 2)").markup, "goes to 3 (1 of 2)");
     EXPECT_EQ(code("1 to 2").markup, "<code>1 to 2</code>") << "what is copied";
 }
 
@@ -376,7 +378,7 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
     }
     EXPECT_EQ(count_of(page, "<figure>"), 4U); // three curves, and the ends of the windows in motion
     for (const char* words :
-         {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81 (0.7&nbsp;to&nbsp;0.95)",
+         {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81&nbsp;(0.7&nbsp;to&nbsp;0.95)",
           "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1&nbsp;to&nbsp;8 Hz",
           "18364758544493064720", "stylobate diagnose &#39;col&quot;umn &amp; co.h5&#39;"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
@@ -513,7 +515,7 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
     for (const char* part : {"Calibration: campaign &quot;7&quot; &lt;b&gt;.h5",
                              "These data determine 1 of 2 fitted parameters.",
                              "it predicts them better than the start study",
-                             "+75.0 (+20.5&nbsp;to&nbsp;+129.5)",
+                             "+75.0&nbsp;(+20.5&nbsp;to&nbsp;+129.5)",
                              "nothing slides &lt;here&gt; &amp; there",
                              "1.2e+07",
                              ">effective</span>",
