@@ -2,7 +2,7 @@
 
 #include "library/inside.hpp"
 #include "studies/kinds/surface/surface_kind.hpp"
-#include "studies/report/figure.hpp"
+#include "io/plots/figure.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 
