@@ -112,16 +112,15 @@ TEST(LibraryFigure, TablesOfAResultAreThoseOfItsFile)
         const api::Table& table = result.tables().front();
         EXPECT_EQ(table.name, "sensitivity");
         ASSERT_EQ(table.columns.size(), stored.columns().size());
-        for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            EXPECT_EQ(table.columns[i].name, stored.columns()[i].name);
-            EXPECT_EQ(fmt::format("{}", table.columns[i].shape), fmt::format("{}", stored.columns()[i].shape));
+        for (const Table::Column& want : stored.columns()) {
+            const api::Column& column = table.column(want.name);
+            EXPECT_EQ(fmt::format("{}", column.shape), fmt::format("{}", want.shape)) << want.name;
             std::visit( // as text, because NaN does not equal itself
                 [&](const auto& values) {
                     using Values = std::remove_cvref_t<decltype(values)>;
-                    EXPECT_EQ(fmt::format("{}", values),
-                              fmt::format("{}", std::get<Values>(stored.columns()[i].values)));
+                    EXPECT_EQ(fmt::format("{}", values), fmt::format("{}", std::get<Values>(want.values))) << want.name;
                 },
-                table.columns[i].values);
+                column.values);
         }
     }
     fs::remove(file);
