@@ -1,9 +1,11 @@
 #pragma once
 /// The cells of a surface as data for the script of its page.
 
+#include "studies/experiment/limit_state.hpp"
 #include "studies/results/results.hpp"
 
 #include <string>
+#include <vector>
 
 namespace stylobate {
 

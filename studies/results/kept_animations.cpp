@@ -55,15 +55,12 @@ Choice choose_by_cells(const std::vector<ResultRow>& trials, std::size_t cells, 
     Choice choice;
     choice.cells = static_cast<std::size_t>(std::ranges::count_if(all, &Fates::mixed));
     const RunOrder order(cells);
+    // what fell comes first: where the budget is too small for all, each mixed cell has one rather than some have both
     for (std::uint64_t k = 0; k < each; ++k)
-        for (std::uint64_t place = 0; place < cells; ++place) {
-            const Fates& cell = all[order.index(place)];
-            if (!cell.mixed())
-                continue;
-            for (const std::vector<std::uint64_t>* of : {&cell.fell, &cell.stood})
-                if (k < of->size())
-                    choice.indices.push_back((*of)[k]);
-        }
+        for (const auto of : {&Fates::fell, &Fates::stood})
+            for (std::uint64_t place = 0; place < cells; ++place)
+                if (const Fates& cell = all[order.index(place)]; cell.mixed() && k < (cell.*of).size())
+                    choice.indices.push_back((cell.*of)[k]);
     for (std::uint64_t place = 0; place < cells; ++place)
         if (const Fates& cell = all[order.index(place)]; !cell.mixed())
             for (const std::vector<std::uint64_t>* of : {&cell.fell, &cell.stood})

@@ -38,9 +38,10 @@ struct KeptAnimations {
 };
 
 /// Those that the file keeps as trajectories, and those that are run again: of a surface by cells, of other studies
-/// over all realizations. Cells have their turns in an order that spreads them over the surface, so that a budget that
-/// is too small leaves gaps that are small. The choice does not depend on the threads; where the time is up it depends
-/// on the machine, which the words state.
+/// over all realizations. Of a surface those that fell in cells with both fates come first, then those that did not,
+/// then one of each other cell. Cells have their turns in an order that spreads them over the surface, so that a budget
+/// that is too small leaves gaps that are small. The choice does not depend on the threads; where the time is up it
+/// depends on the machine, which the words state.
 /// @pre the run is complete
 /// @param observer hears of the progress, and may stop it: what is returned then is not complete
 /// @throws InputError if they are wanted and cannot be had: the study has no realizations that can be run again, the

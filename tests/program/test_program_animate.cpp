@@ -150,6 +150,9 @@ TEST_F(Animate, TheChoiceDoesNotDependOnThreadsAndTheBudgetLeavesOut)
     const std::set<Key> in_all = kept(all), in_some = kept(some);
     EXPECT_GE(in_some.size(), 1U);
     EXPECT_LT(in_some.size(), in_all.size());
+    const ResultReader reader(folder / "surface.h5"); // what fell in mixed cells comes first
+    for (const auto& [cell, index] : in_some)
+        EXPECT_EQ(reader.row(index).outcome.state, State::collapsed);
     EXPECT_TRUE(std::includes(in_all.begin(), in_all.end(), in_some.begin(), in_some.end()));
     EXPECT_EQ(page_of("surface.h5", {"--animate-mb", fmt::format("{:.6f}", mb), "--threads", "2"}), some);
     EXPECT_NE(some.find("The budget is used up"), std::string::npos);

@@ -129,5 +129,28 @@ TEST(Animation, StageHoldsTheStructure)
     }
 }
 
+TEST(Animation, AscendingTimesReadBackToHalfAQuantum)
+{
+    const double quantum_s = 0.003;
+    const std::vector<double> times_s = {0, 0.001, 0.4, 0.4, 0.4, 0.41, 3, 1000};
+    std::vector<double> read;
+    std::uint64_t sum = 0, value = 0;
+    int shift = 0;
+    for (const unsigned byte : decoded_base64(ascending_text(times_s, quantum_s))) {
+        value |= static_cast<std::uint64_t>(byte & 127) << shift;
+        shift += 7;
+        if (byte < 128) {
+            sum += value;
+            read.push_back(static_cast<double>(sum) * quantum_s);
+            value = 0;
+            shift = 0;
+        }
+    }
+    ASSERT_EQ(read.size(), times_s.size());
+    for (std::size_t i = 0; i < read.size(); ++i)
+        EXPECT_NEAR(read[i], times_s[i], quantum_s / 2 + 1e-12);
+    EXPECT_EQ(ascending_text({}, quantum_s), "");
+}
+
 } // namespace
 } // namespace stylobate

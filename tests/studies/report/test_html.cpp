@@ -132,6 +132,22 @@ TEST(Html, DataCannotEndTheirElement)
     expect_balanced(text);
 }
 
+TEST(Html, ContentsStandWhereThePagePutsThem)
+{
+    HtmlPage page("title", "subtitle");
+    page.answer("answer");
+    page.contents();
+    page.section("one");
+    const std::string html = page.text();
+    const std::size_t answer = html.find("answer</p>"), contents = html.find("<nav"), section = html.find("<h2");
+    EXPECT_LT(answer, contents);
+    EXPECT_LT(contents, section);
+    EXPECT_NE(section, std::string::npos);
+    HtmlPage usual("title", "subtitle");
+    usual.section("one");
+    EXPECT_LT(usual.text().find("<nav"), usual.text().find("<h2"));
+}
+
 TEST(HtmlFigure, GivesItsValuesToTheScript)
 {
     Figure figure;
@@ -194,6 +210,15 @@ TEST(HtmlMap, PutsCellsWhereTheyLie)
     EXPECT_NEAR(first[3], 2 * above[3], 0.6);
     EXPECT_NEAR(above[1] - top[1], top[3], 0.6); // the larger value of y is above
     EXPECT_LT(top[1], first[1]);
+    // the frame that the script takes is the one that the cells fill
+    std::array<double, 4> frame{};
+    const std::size_t at = svg.find("data-frame=");
+    ASSERT_EQ(
+        std::sscanf(svg.c_str() + at, "data-frame=\"%lf %lf %lf %lf\"", &frame[0], &frame[1], &frame[2], &frame[3]), 4);
+    EXPECT_NEAR(frame[0], first[0], 0.1);
+    EXPECT_NEAR(frame[1], top[1], 0.1);
+    EXPECT_NEAR(frame[2], first[2] + right[2], 1.1); // cells overlap by half a pixel
+    EXPECT_NEAR(frame[3], first[3] + above[3] + top[3], 1.6);
 }
 
 TEST(HtmlFigure, PutsPointsWhereTheAxesSay)
