@@ -50,7 +50,8 @@ TEST(LibraryFigure, StandsAlone)
     expect_alone(svg);
     EXPECT_NE(svg.find("drum &amp; capital"), std::string::npos);
     EXPECT_NE(svg.find("&lt;/svg&gt;&lt;script&gt;"), std::string::npos);
-    EXPECT_EQ(count(svg, "<circle"), 1U);
+    EXPECT_EQ(count(svg, "<g data-series=\"[01]\">"), 2U);
+    EXPECT_EQ(count(svg, "Z\" style=\"fill:#d55e00"), 1U) << "one point";
     EXPECT_NE(svg.find("#1f5673"), std::string::npos) << "the first colour of pages, on paper";
 }
 
