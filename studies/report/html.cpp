@@ -162,7 +162,7 @@ void HtmlPage::note(const Html& text)
 
 void HtmlPage::box(const std::string& tone, const std::string& title, const Html& text)
 {
-    body_ += fmt::format("<div class=\"box {}\"><strong>{}</strong><p>{}</p></div>\n", tone, html_escaped(title),
+    body_ += fmt::format("<div class=\"box {}\"><strong>{}</strong><p>{}</p></div>\n", tone, Html(title).markup,
                          text.markup);
 }
 
@@ -186,7 +186,7 @@ void HtmlPage::table(const HtmlTable& table)
 {
     body_ += "<div class=\"wide\"><table>\n";
     if (!table.caption.empty())
-        body_ += "<caption>" + html_escaped(table.caption) + "</caption>\n";
+        body_ += "<caption>" + Html(table.caption).markup + "</caption>\n";
     if (!table.head.empty())
         body_ += "<thead>" + cells(table, table.head, "th") + "</thead>\n";
     body_ += "<tbody>\n";
