@@ -223,7 +223,7 @@ std::optional<Page> report(const std::filesystem::path& file, const ReportOption
                                                                machine_of(options), teller);
         if (!page)
             return {};
-        return Page{std::move(page->html), std::move(page->warnings)};
+        return Page{std::move(page->text), std::move(page->warnings)};
     });
 }
 

@@ -1,8 +1,9 @@
 #include "stylobate/figure.hpp"
 
+#include "io/plots/figure.hpp"
+#include "io/plots/plot_structure.hpp"
 #include "library/inside.hpp"
 #include "studies/kinds/surface/surface_kind.hpp"
-#include "studies/report/figure.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 
@@ -53,6 +54,14 @@ std::string on_paper(std::string drawing)
     for (const auto& [name, colour] : paper_colours())
         replace_every(drawing, "var(" + name + ")", colour);
     return drawing;
+}
+
+/// Without the first line of a document, to stand within another one.
+std::string structure_of(const inner::Study& study)
+{
+    const std::string drawing =
+        translated([&] { return inner::structure_sheet(study, study.title.value_or("")).svg(); });
+    return drawing.substr(drawing.find("<svg"));
 }
 
 inner::SeriesKind inner_kind(SeriesKind kind)
@@ -107,6 +116,16 @@ std::string svg(const Surface& surface)
             throw inner::InputError("a surface with arrays that do not fit its axes");
         return on_paper(inner::map_svg(inner::surface_map(table, surface.limit_state)).markup);
     });
+}
+
+std::string svg(const Study& study)
+{
+    return structure_of(Inside::of(study).study);
+}
+
+std::string svg(const Check& check)
+{
+    return structure_of(Inside::of(check).report.study);
 }
 
 } // namespace stylobate::api

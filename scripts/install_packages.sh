@@ -22,6 +22,7 @@ for_tests=(
     pybind11-dev python3-dev python3-numpy              # the Python module
     python3-pytest python3-pandas python3-xarray        # its tests, and those of labels in results files
     python3-h5netcdf python3-matplotlib python3-pil
+    python3-nbclient python3-nbformat python3-ipykernel # its example notebook, run by Jupyter
     chromium python3-h5py                               # pages of reports in a browser
     mkdocs mkdocs-material                              # the site of docs/
     libopenmpi-dev openmpi-bin iproute2                 # several processes (`run --mpi`), on several hosts

@@ -1,6 +1,8 @@
 #pragma once
 /// Figures as SVG, for notebooks and for pages of other programs.
 
+#include "stylobate/check.hpp"
+#include "stylobate/study.hpp"
 #include "stylobate/surface.hpp"
 #include "stylobate/trajectory.hpp"
 
@@ -46,6 +48,10 @@ std::string svg(const Figure& figure);
 /// are grey.
 /// @throws InputError if an axis is empty or not ascending, or if an array does not fit the axes
 std::string svg(const Surface& surface);
+
+/// The structure of a study to scale with its dimensions, nothing drawn at random, as `Check::draw` draws it.
+std::string svg(const Study& study);
+std::string svg(const Check& check);
 
 /// The structure at a time, as `write_svg` draws it.
 /// @throws InputError if the arrays do not fit each other

@@ -267,10 +267,10 @@ void draw_in_blocks(const Drawing& d, DrawingSheet& sheet)
 
 } // namespace
 
-void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file)
+DrawingSheet structure_sheet(const Study& study, const std::string& title)
 {
     if (study.structure.spatial())
-        return plot_structure_in_space(study, title, file);
+        return structure_sheet_in_space(study, title);
     Drawing d = make_drawing(study);
     DrawingSheet sheet(scale(d));
     draw_blocks(d, sheet);
@@ -280,10 +280,14 @@ void plot_structure(const Study& study, const std::string& title, const std::fil
     draw_tops(d, sheet);
     if (d.alike)
         draw_list(d, sheet);
-    sheet.write(title,
-                fmt::format("{} · depth {} · friction {:.3g} · {} in all", d.count_words(),
-                            d.length(study.structure.depth_m), study.contact.friction, d.whole_mass()),
-                file);
+    sheet.heading(title, fmt::format("{} · depth {} · friction {:.3g} · {} in all", d.count_words(),
+                                     d.length(study.structure.depth_m), study.contact.friction, d.whole_mass()));
+    return sheet;
+}
+
+void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file)
+{
+    structure_sheet(study, title).write(file);
 }
 
 } // namespace stylobate

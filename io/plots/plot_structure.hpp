@@ -2,6 +2,7 @@
 /// The drawing of a structure: to scale, with its dimensions.
 
 #include "ensemble/model/study.hpp"
+#include "io/plots/sheet.hpp"
 
 #include <filesystem>
 #include <string>
@@ -19,5 +20,8 @@ namespace stylobate {
 /// @param title of the picture
 /// @throws InputError as `lay_out`, or if the picture cannot be written
 void plot_structure(const Study& study, const std::string& title, const std::filesystem::path& file);
+
+/// What `plot_structure` draws, with its heading. @throws InputError as `lay_out`
+DrawingSheet structure_sheet(const Study& study, const std::string& title);
 
 } // namespace stylobate

@@ -242,7 +242,7 @@ std::vector<std::string> block_list(const SpaceDrawing& d)
 
 } // namespace
 
-void plot_structure_in_space(const Study& study, const std::string& title, const std::filesystem::path& file)
+DrawingSheet structure_sheet_in_space(const Study& study, const std::string& title)
 {
     SpaceDrawing d = drawing_of(study);
     const double below = place_views(d);
@@ -282,10 +282,9 @@ void plot_structure_in_space(const Study& study, const std::string& title, const
         sheet.text(words, 120, y, DrawingSheet::fitting(words, sheet_width - 240, 22.6), TextAt::left);
         y += line;
     }
-    sheet.write(title,
-                fmt::format("{} · friction {:.3g} · {} in all · x to the right, z towards the viewer", d.count_words(),
-                            study.contact.friction, d.whole_mass()),
-                file);
+    sheet.heading(title, fmt::format("{} · friction {:.3g} · {} in all · x to the right, z towards the viewer",
+                                     d.count_words(), study.contact.friction, d.whole_mass()));
+    return sheet;
 }
 
 } // namespace stylobate

@@ -243,14 +243,18 @@ double DrawingSheet::heading(std::string_view title, std::string_view subtitle)
     return 160 * unit;
 }
 
+std::string DrawingSheet::svg() const
+{
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
+                       "Verdana, sans-serif\" font-size=\"{2}\">\n<rect width=\"{0}\" height=\"{1}\" "
+                       "style=\"fill:#ffffff\"/>\n{3}</svg>\n",
+                       size_.width, size_.height, px(letters_), elements_);
+}
+
 void DrawingSheet::write(const std::filesystem::path& file) const
 {
-    write_picture(fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                              "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
-                              "Verdana, sans-serif\" font-size=\"{2}\">\n<rect width=\"{0}\" height=\"{1}\" "
-                              "style=\"fill:#ffffff\"/>\n{3}</svg>\n",
-                              size_.width, size_.height, px(letters_), elements_),
-                  size_, file);
+    write_picture(svg(), size_, file);
 }
 
 void DrawingSheet::write(std::string_view title, std::string_view subtitle, const std::filesystem::path& file) const

@@ -73,6 +73,8 @@ public:
     /// A picture as it is. @throws InputError as `write_picture`
     void write(const std::filesystem::path& file) const;
 
+    /// The whole sheet as a document of SVG.
+    std::string svg() const;
     /// What is on the sheet, as elements of SVG.
     const std::string& elements() const { return elements_; }
     /// Where the texts on the sheet lie, by `text_width`.

@@ -25,6 +25,8 @@ void add_figure(py::module_& module)
                    &F::x_log, "y_log", &F::y_log, "x_ticks", &F::x_ticks, "series", &F::series);
     module.def("svg", py::overload_cast<const sb::Figure&>(&sb::svg), "figure"_a);
     module.def("svg", py::overload_cast<const sb::Surface&>(&sb::svg), "surface"_a);
+    module.def("svg", py::overload_cast<const sb::Study&>(&sb::svg), "study"_a);
+    module.def("svg", py::overload_cast<const sb::Check&>(&sb::svg), "check"_a);
     module.def("svg", py::overload_cast<const sb::Trajectory&, double>(&sb::svg), "trajectory"_a, "time_s"_a);
 }
 

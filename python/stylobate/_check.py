@@ -55,6 +55,7 @@ class Check(Finding):
         time = "" if self.time is None else f", {words(self.time.range_s)} s"
         shown = View(f"A study of kind {self.kind}: {most}{self.realizations} realizations of {self.free_blocks} free "
                      f"blocks{time}")
+        shown.figure(_core.svg(self._core), caption="The structure, nothing drawn at random")
         shown.facts([("contact form", self.form), ("cells", self.cells), ("time step [s]", self.step_s),
                      ("memory [MB]", self.memory_bytes / 1e6), ("results file [MB]", self.file_bytes / 1e6)])
         shown.table(("weak spot", "why", "remedy"),

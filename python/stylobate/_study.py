@@ -98,6 +98,7 @@ class Study(Shown):
 
     def _view(self):
         shown = View(f"A study of kind {self.kind}: {self.realizations} realizations, seed {self.seed}")
+        shown.figure(_core.svg(self._core), caption="The structure, nothing drawn at random")
         return shown.facts(self._core.summary()).more("The study with every default (TOML)", self.text)
 
     def __repr__(self):

@@ -4,6 +4,7 @@ import ast
 import inspect
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -66,6 +67,20 @@ def test_everything_that_is_written_in_python_is_described():
         if inspect.isclass(thing):
             for member in members(thing):
                 assert getattr(thing, member).__doc__, f"{name}.{member}"
+
+
+def test_the_documentation_has_every_public_name():
+    page = (SOURCES / "docs" / "python.md").read_text()
+    code = " ".join(re.findall(r"```.*?```|`[^`]*`", page, re.S))
+    named = set(re.findall(r"\w+", code))
+    tree = ast.parse((pathlib.Path(stylobate.__file__).parent / "__init__.pyi").read_text())
+    for stub in tree.body:
+        if isinstance(stub, ast.FunctionDef):
+            assert {stub.name, *names_of(stub)} <= named, stub.name
+        elif isinstance(stub, ast.ClassDef):
+            of = {node.name for node in stub.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")}
+            of |= {node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)}
+            assert {stub.name} | of <= named, f"{stub.name}: {of - named}"
 
 
 @pytest.fixture

@@ -80,7 +80,7 @@ def test_a_surface_and_its_realizations(small_surface):
     assert f"{share.count} of {share.trials}" in checked(share)[1]
     replay = result.replay(17)
     assert figures(replay) == 5 and replay.outcome["state"] in checked(replay)[1]  # four snapshots, displacements
-    assert small_surface.kind in checked(small_surface)[1]
+    assert small_surface.kind in checked(small_surface)[1] and figures(small_surface) == 1
 
 
 def test_a_structure_in_space():
@@ -144,6 +144,7 @@ def test_a_past(folder):
 def test_a_check_and_what_it_has(small_surface):
     check = small_surface.check(pilot=16, trial_seconds=0.2, law_seconds=0)
     said = checked(check)[1]
+    assert figures(check) == 1 and "drum" in said
     for spot in check.weak_spots:
         assert spot.remedy in said
         checked(spot)

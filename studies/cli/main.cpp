@@ -372,7 +372,9 @@ private:
             ->add_option("FILE", report_.file,
                          "results file, comparison, diagnosis, calibration or risk estimate (HDF5)")
             ->required();
-        add_word(*report, "-o,--output", output_, "the page, .html (default: the file's name with that extension)");
+        add_word(*report, "-o,--output", output_,
+                 "the page, .html, or its texts and tables as Markdown, .md, or JSON, .json (default: the file's name "
+                 "with .html)");
         add_word(*report, "--title", report_.title, "title of the page (default: study.title, or the file's name)");
         report
             ->add_option(

@@ -10,7 +10,7 @@
 #include "io/store/result_store.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/kinds/rounds.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "ensemble/model/study.hpp"
 #include "io/tables/table.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <cstddef>

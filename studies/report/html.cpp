@@ -2,7 +2,6 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/utf8.hpp"
-#include "studies/version.hpp"
 
 #include <fmt/format.h>
 
@@ -12,17 +11,6 @@
 
 namespace stylobate {
 namespace {
-
-std::string cells(const HtmlTable& table, const std::vector<Html>& row, const char* tag)
-{
-    std::string out = "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const char align = i < table.align.size() ? table.align[i] : 'l';
-        out += fmt::format("<{0}{1}>{2}</{0}>", tag, align == 'l' ? "" : fmt::format(" class=\"{}\"", align),
-                           row[i].markup);
-    }
-    return out + "</tr>\n";
-}
 
 bool is_digit(char c)
 {
@@ -77,21 +65,7 @@ std::string unbroken_intervals(std::string_view text)
 
 std::string html_escaped(std::string_view text)
 {
-    std::string out;
-    for (const char c : replaced_text(text))
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else if (c == '\'')
-            out += "&#39;";
-        else
-            out += c;
-    return out;
+    return xml_escaped(text);
 }
 
 Html unbroken(std::string_view text)
@@ -122,133 +96,6 @@ Html& Html::operator+=(const Html& more)
 {
     markup += more.markup;
     return *this;
-}
-
-HtmlPage::HtmlPage(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle))
-{
-}
-
-void HtmlPage::section(const std::string& title)
-{
-    ++sections_;
-    contents_ += fmt::format("<a href=\"#s{0}\">{0}&nbsp;{1}</a> ", sections_, html_escaped(title));
-    body_ += fmt::format("<h2 id=\"s{0}\">{0}&ensp;{1}</h2>\n", sections_, html_escaped(title));
-}
-
-void HtmlPage::heading(const std::string& title)
-{
-    body_ += "<h3>" + html_escaped(title) + "</h3>\n";
-}
-
-void HtmlPage::contents()
-{
-    contents_at_ = body_.size();
-}
-
-void HtmlPage::answer(const Html& sentence)
-{
-    body_ += "<p class=\"answer\">" + sentence.markup + "</p>\n";
-}
-
-void HtmlPage::paragraph(const Html& text)
-{
-    body_ += "<p>" + text.markup + "</p>\n";
-}
-
-void HtmlPage::note(const Html& text)
-{
-    body_ += "<p class=\"note\">" + text.markup + "</p>\n";
-}
-
-void HtmlPage::box(const std::string& tone, const std::string& title, const Html& text)
-{
-    body_ += fmt::format("<div class=\"box {}\"><strong>{}</strong><p>{}</p></div>\n", tone, Html(title).markup,
-                         text.markup);
-}
-
-void HtmlPage::list(const std::vector<Html>& items)
-{
-    body_ += "<ul>\n";
-    for (const Html& item : items)
-        body_ += "<li>" + item.markup + "</li>\n";
-    body_ += "</ul>\n";
-}
-
-void HtmlPage::facts(const std::vector<std::pair<std::string, Html>>& facts)
-{
-    body_ += "<table class=\"facts\">\n";
-    for (const auto& [name, what] : facts)
-        body_ += "<tr><td>" + html_escaped(name) + "</td><td>" + what.markup + "</td></tr>\n";
-    body_ += "</table>\n";
-}
-
-void HtmlPage::table(const HtmlTable& table)
-{
-    body_ += "<div class=\"wide\"><table>\n";
-    if (!table.caption.empty())
-        body_ += "<caption>" + Html(table.caption).markup + "</caption>\n";
-    if (!table.head.empty())
-        body_ += "<thead>" + cells(table, table.head, "th") + "</thead>\n";
-    body_ += "<tbody>\n";
-    for (const std::vector<Html>& row : table.rows)
-        body_ += cells(table, row, "td");
-    body_ += "</tbody></table></div>\n";
-}
-
-void HtmlPage::block(std::string_view text)
-{
-    body_ += "<pre>" + html_escaped(text) + "</pre>\n";
-}
-
-void HtmlPage::figure(const Html& picture, const Html& caption)
-{
-    body_ += "<figure>" + picture.markup;
-    if (!caption.markup.empty())
-        body_ += "<figcaption>" + caption.markup + "</figcaption>";
-    body_ += "</figure>\n";
-}
-
-void HtmlPage::details(const Html& sentence, const std::function<void()>& more)
-{
-    body_ += "<details><summary>" + sentence.markup + "</summary>\n";
-    more();
-    body_ += "</details>\n";
-}
-
-void HtmlPage::part(std::string_view name, const std::function<void()>& more)
-{
-    body_ += fmt::format("<div class=\"{}\">\n", html_escaped(name));
-    more();
-    body_ += "</div>\n";
-}
-
-void HtmlPage::data(std::string_view id, std::string_view json)
-{
-    body_ += data_script(fmt::format("id=\"{}\"", html_escaped(id)), json).markup + "\n";
-}
-
-void HtmlPage::player()
-{
-    body_ += "<div data-player=\"\"></div>\n";
-}
-
-std::string HtmlPage::text() const
-{
-    const std::string_view body = body_;
-    // the browser itself sees to it that nothing is loaded from elsewhere
-    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-                       "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-                       "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<main>\n"
-                       "<header><h1>{0}</h1><p>{2}</p></header>\n"
-                       "<noscript><p class=\"note\">This browser runs no scripts: the page shows its pictures and "
-                       "tables, but no values under the pointer and no animations.</p></noscript>\n"
-                       "{3}<nav aria-label=\"contents\">{4}</nav>\n{5}"
-                       "<footer>Generated by stylobate {6}.</footer>\n</main>\n"
-                       "<script>\n\"use strict\";\n{{\n{7}}}\n</script>\n</body>\n</html>\n",
-                       html_escaped(title_), page_style(), html_escaped(subtitle_), body.substr(0, contents_at_),
-                       contents_, body.substr(contents_at_), html_escaped(code_version()), page_script());
 }
 
 Html data_script(std::string_view attributes, std::string_view json)

@@ -1,6 +1,5 @@
 #pragma once
-/// Self-contained pages of HTML: nothing is loaded from elsewhere, they can be printed, and what needs their script is
-/// not needed to read them.
+/// Markup of the pages, and what a page has besides its document: style, scripts, pictures.
 
 #include <filesystem>
 #include <functional>
@@ -43,46 +42,6 @@ struct HtmlTable {
     std::string caption;
 };
 
-class HtmlPage {
-public:
-    HtmlPage(std::string title, std::string subtitle);
-
-    /// A numbered section; the contents at the top of the page lead to it.
-    void section(const std::string& title);
-    void heading(const std::string& title);
-    /// Puts the contents here instead of the top of the page.
-    void contents();
-    /// The answer of the page in one sentence.
-    void answer(const Html& sentence);
-    void paragraph(const Html& text);
-    /// Smaller.
-    void note(const Html& text);
-    /// What must not be missed. @param tone "good", "warn" or "bad"
-    void box(const std::string& tone, const std::string& title, const Html& text);
-    void list(const std::vector<Html>& items);
-    /// Names and what they are, in two columns.
-    void facts(const std::vector<std::pair<std::string, Html>>& facts);
-    void table(const HtmlTable& table);
-    /// Text as it is, its lines kept.
-    void block(std::string_view text);
-    void figure(const Html& picture, const Html& caption);
-    /// A sentence below which more opens. @param more puts it into the page
-    void details(const Html& sentence, const std::function<void()>& more);
-    /// What belongs together for the style and the script. @param name a class   @param more puts it into the page
-    void part(std::string_view name, const std::function<void()>& more);
-    /// Data for the script (`data_script`).
-    void data(std::string_view id, std::string_view json);
-    /// Where the script puts the player of the animations.
-    void player();
-
-    std::string text() const;
-
-private:
-    std::string title_, subtitle_, contents_, body_;
-    int sections_ = 0;
-    std::size_t contents_at_ = 0; ///< of the body
-};
-
 /// A picture inside the page.
 /// @throws InputError if the file cannot be read
 Html svg_image(const std::filesystem::path& svg, std::string_view alternative);
@@ -101,13 +60,5 @@ std::string_view page_script();
 
 /// What scripts/space.sh has written into docs/space.md (Markdown), which the build embeds too.
 std::string_view space_evidence();
-
-/// A page and its pictures.
-struct PageWriter {
-    HtmlPage& page;
-    /// Puts a picture into the page, or a note why it could not be drawn. The function draws an SVG.
-    std::function<void(const std::string& caption, const std::function<void(const std::filesystem::path& svg)>& draw)>
-        picture;
-};
 
 } // namespace stylobate

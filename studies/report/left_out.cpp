@@ -86,7 +86,7 @@ HtmlTable left_out_evidence()
     return table;
 }
 
-void add_left_out(HtmlPage& page, int dimensions)
+void add_left_out(Document& page, int dimensions)
 {
     page.details(left_out_text(dimensions), [&] {
         page.table(left_out_evidence());
@@ -95,7 +95,7 @@ void add_left_out(HtmlPage& page, int dimensions)
     });
 }
 
-void add_left_out_of(HtmlPage& page, const std::string& study_toml)
+void add_left_out_of(Document& page, const std::string& study_toml)
 {
     if (const std::optional<int> dimensions = dimensions_of(study_toml))
         add_left_out(page, *dimensions);

@@ -3,7 +3,7 @@
 /// docs/space.md measures what the plane leaves out; the pages carry its table.
 
 #include "ensemble/model/study.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 
 #include <optional>
 #include <string>
@@ -18,9 +18,9 @@ std::string left_out_text(const Study& study);
 std::optional<std::string> left_out_text_of(const std::string& study_toml);
 
 /// Puts the sentence into a page; the measured table opens below it.
-void add_left_out(HtmlPage& page, int dimensions);
+void add_left_out(Document& page, int dimensions);
 /// Of the study whose text a file has; nothing where this version cannot read it.
-void add_left_out_of(HtmlPage& page, const std::string& study_toml);
+void add_left_out_of(Document& page, const std::string& study_toml);
 
 /// The table of docs/space.md: shares of collapsed realizations in the plane and in space, in %.
 HtmlTable left_out_evidence();

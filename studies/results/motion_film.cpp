@@ -286,12 +286,12 @@ std::string motion_page(const TracedMotion& motion, const Results& results, std:
     if (results.reader().has(index))
         animation.motion = motion_words(results, results.reader().row(index)).value_or("");
     kept.list.push_back(std::move(animation));
-    HtmlPage page(title.value_or(realization_title(results, index)),
+    Document page(title.value_or(realization_title(results, index)),
                   fmt::format("Computed by stylobate {}.", results.header().code_version));
     page.data("animations", animations_json(kept, results.study()));
     page.player();
     add_left_out(page, results.study().structure.dimensions);
-    return page.text();
+    return html_of(page);
 }
 
 } // namespace

@@ -66,7 +66,7 @@ public:
             invalid_count_ = invalid_.size();
     }
 
-    HtmlPage page()
+    Document page()
     {
         const std::optional<Answer> answer = kind_.answer();
         if (surface_) {
@@ -476,7 +476,7 @@ private:
     const Kind& kind_;
     const std::vector<ResultRow>& rows_;
     const LimitCounts& counts_;
-    HtmlPage page_;
+    Document page_;
     PageWriter writer_;
     const bool surface_;
     std::vector<const ResultRow*> valid_;
@@ -487,7 +487,7 @@ private:
 
 } // namespace
 
-HtmlPage result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
+Document result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
                      const KeptAnimations& animations, const std::optional<LawBand>& laws,
                      std::vector<std::string>& warnings)
 {

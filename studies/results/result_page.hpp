@@ -3,7 +3,7 @@
 
 #include "kernels/isa.hpp"
 #include "studies/kinds/law_band.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/results/kept_animations.hpp"
 #include "studies/results/results.hpp"
 
@@ -22,7 +22,7 @@ namespace stylobate {
 /// @param laws over contact laws; none: the page states which command measures it
 /// @param warnings receives a line for each picture that could not be drawn
 /// @throws InputError if the run is not complete
-HtmlPage result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
+Document result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
                      const KeptAnimations& animations, const std::optional<LawBand>& laws,
                      std::vector<std::string>& warnings);
 

@@ -87,8 +87,8 @@ CombinedPast past_of_files(const std::vector<std::string>& files, const std::opt
 void draw_past(const CombinedPast& past, const std::filesystem::path& picture)
 {
     check_drawing(picture);
-    write_figure(combined_figure(past), "Shaking that several structures exclude", "bands: 95 % intervals of the counts",
-                 picture);
+    write_figure(combined_figure(past), "Shaking that several structures exclude",
+                 "bands: 95 % intervals of the counts", picture);
 }
 
 std::vector<Table> tables_of(const CombinedPast& past)

@@ -23,16 +23,6 @@ namespace stylobate {
 
 namespace {
 
-/// A page is HTML: another ending of its name is refused.
-void check_ending(const std::string& output)
-{
-    const std::string ending = std::filesystem::path(output).extension().string();
-    if (!ending.empty() && ending != ".html" && ending != ".htm")
-        throw InputError(fmt::format(
-            "-o {}: a page is written as HTML only.\n  Give a name with .html; a browser can print it to PDF.",
-            output));
-}
-
 AnimationOptions animation_options(const PageRequest& request, const Machine& machine)
 {
     for (const auto& [option, value] :
@@ -62,6 +52,17 @@ void check_no_realizations(const PageRequest& request, const char* kind)
                         request.file, kind));
 }
 
+/// Without a file a page is asked for.
+bool is_page(const PageRequest& request)
+{
+    return !request.output || is_page_name(*request.output);
+}
+
+std::string written(const PageRequest& request, const Document& document)
+{
+    return request.output ? document_as(document, *request.output) : html_of(document);
+}
+
 MadePage page_of_results(const PageRequest& request, const Machine& machine, WorkObserver& observer)
 {
     const Results results(request.file, request.settings);
@@ -69,14 +70,21 @@ MadePage page_of_results(const PageRequest& request, const Machine& machine, Wor
     if (request.output)
         AtomicFile::check(*request.output); // refuses before realizations are run and pictures drawn
     MadePage page;
-    const KeptAnimations animations =
-        keep_animations(results, machine.isa(), animation_options(request, machine), observer);
+    AnimationOptions options = animation_options(request, machine);
+    if (!is_page(request)) {
+        if (options.wanted)
+            throw InputError(fmt::format("-o {}: only a page (.html) shows realizations in motion.\n  Leave out "
+                                         "--animate, --animate-mb and --animate-seconds.",
+                                         *request.output));
+        options.each = 0;
+    }
+    const KeptAnimations animations = keep_animations(results, machine.isa(), options, observer);
     if (animations.warning)
         page.warnings.push_back(*animations.warning);
     if (!observer.stop_requested())
-        page.html = result_page(results, machine.isa(), request.title, animations,
-                                law_band_beside(request.file, results.study(), results.header()), page.warnings)
-                        .text();
+        page.text = written(request, result_page(results, machine.isa(), request.title, animations,
+                                                 law_band_beside(request.file, results.study(), results.header()),
+                                                 page.warnings));
     return page;
 }
 
@@ -88,30 +96,30 @@ std::optional<MadePage> make_page(const PageRequest& request, const Machine& mac
     check_kind(file, "report");
     if (request.output) {
         check_output(file, *request.output, request.force);
-        check_ending(*request.output);
+        check_document_ending(*request.output);
     }
     observer.begin();
     MadePage page;
     const FileKind kind = recognise(file).kind;
     if (kind == FileKind::diagnosis) {
         check_no_realizations(request, "diagnosis");
-        page.html = diagnosis_page(read_diagnosis(file), file, request.title).text();
+        page.text = written(request, diagnosis_page(read_diagnosis(file), file, request.title));
     } else if (kind == FileKind::comparison) {
         check_no_realizations(request, "comparison");
-        page.html = comparison_page(read_comparison(file), file, request.title, page.warnings).text();
+        page.text = written(request, comparison_page(read_comparison(file), file, request.title, page.warnings));
     } else if (kind == FileKind::calibration) {
         check_no_realizations(request, "calibration");
-        page.html = calibration_page(read_calibration(file), file, request.title).text();
+        page.text = written(request, calibration_page(read_calibration(file), file, request.title));
     } else if (kind == FileKind::risk) {
         check_no_realizations(request, "risk estimate");
-        page.html = risk_page(read_any_risk(file), file, request.title).text();
+        page.text = written(request, risk_page(read_any_risk(file), file, request.title));
     } else {
         page = page_of_results(request, machine, observer);
     }
     if (observer.stop_requested())
         return std::nullopt;
     if (request.output)
-        write_whole(*request.output, page.html);
+        write_whole(*request.output, page.text);
     for (const std::string& warning : page.warnings)
         observer.warn(warning);
     return page;

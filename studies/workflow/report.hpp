@@ -12,7 +12,7 @@ namespace stylobate {
 
 struct PageRequest {
     std::string file;
-    std::optional<std::string> output{};     ///< the page; none: it is not written
+    std::optional<std::string> output{};     ///< .html, .md or .json; none: the page, not written
     std::optional<std::string> title{};      ///< nullopt: by the study or the file
     std::vector<std::string> settings{};     ///< only the present path of the study's record
     std::optional<std::uint64_t> animate{};  ///< N that fell and N that stood, of each cell
@@ -21,9 +21,9 @@ struct PageRequest {
     bool force = false;                      ///< replace a page that is there
 };
 
-/// A page with all that it needs in it, and what could not be shown.
+/// A page with all that it needs in it, or the same document as Markdown or JSON; and what could not be shown.
 struct MadePage {
-    std::string html;
+    std::string text;
     std::vector<std::string> warnings;
 };
 

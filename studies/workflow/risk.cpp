@@ -237,7 +237,7 @@ Json risk_json(const AnyRisk& risk)
     return std::visit([](const auto& one) { return risk_json(one); }, risk);
 }
 
-HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title)
+Document risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title)
 {
     return std::visit([&](const auto& one) { return risk_page(one, file, title); }, risk);
 }

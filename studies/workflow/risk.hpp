@@ -3,7 +3,7 @@
 
 #include "io/tables/table.hpp"
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 #include "studies/workflow/workflow.hpp"
 
@@ -49,7 +49,7 @@ std::vector<Table> tables_of(const AnyRisk& risk);
 std::vector<std::pair<std::string, std::string>> risk_csv(const AnyRisk& risk);
 std::string risk_text(const AnyRisk& risk);
 Json risk_json(const AnyRisk& risk);
-HtmlPage risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title);
+Document risk_page(const AnyRisk& risk, const std::string& file, const std::optional<std::string>& title);
 /// @param state nullopt: the principal one   @param title nullopt: the usual one
 void plot_risk(const AnyRisk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,
                const std::filesystem::path& picture);

@@ -78,12 +78,22 @@ TEST(LibraryFigure, AMapHasACellForEachOfTheSurface)
 
 TEST(LibraryFigure, AStructureIsWhatTheFileHas)
 {
-    const api::Study study = api::Study::from_file(inputs + "small_scale_column.toml", small_surface);
+    api::Study study = api::Study::from_file(inputs + "small_scale_column.toml", small_surface);
     const api::Trajectory trajectory = api::replay(api::Experiment(study), 1);
     const fs::path file = fs::path(testing::TempDir()) / "library_figure.svg";
     api::write_svg(trajectory, 0.5, file);
     std::ifstream in(file);
     EXPECT_EQ(api::svg(trajectory, 0.5), std::string(std::istreambuf_iterator<char>(in), {}));
+    study.set("study.title=\"<script> & column\"");
+    const auto check = api::check(study, {.trial_seconds = 0});
+    ASSERT_TRUE(check);
+    check->draw(file);
+    std::ifstream of_check(file);
+    const std::string drawn{std::istreambuf_iterator<char>(of_check), {}};
+    EXPECT_EQ(api::svg(study), drawn.substr(drawn.find('\n') + 1));
+    EXPECT_EQ(api::svg(*check), api::svg(study));
+    EXPECT_NE(api::svg(study).find("&lt;script&gt; &amp; column"), std::string::npos);
+    expect_alone(api::svg(study));
     fs::remove(file);
 }
 
@@ -102,16 +112,15 @@ TEST(LibraryFigure, TablesOfAResultAreThoseOfItsFile)
         const api::Table& table = result.tables().front();
         EXPECT_EQ(table.name, "sensitivity");
         ASSERT_EQ(table.columns.size(), stored.columns().size());
-        for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            EXPECT_EQ(table.columns[i].name, stored.columns()[i].name);
-            EXPECT_EQ(fmt::format("{}", table.columns[i].shape), fmt::format("{}", stored.columns()[i].shape));
+        for (const Table::Column& want : stored.columns()) {
+            const api::Column& column = table.column(want.name);
+            EXPECT_EQ(fmt::format("{}", column.shape), fmt::format("{}", want.shape)) << want.name;
             std::visit( // as text, because NaN does not equal itself
                 [&](const auto& values) {
                     using Values = std::remove_cvref_t<decltype(values)>;
-                    EXPECT_EQ(fmt::format("{}", values),
-                              fmt::format("{}", std::get<Values>(stored.columns()[i].values)));
+                    EXPECT_EQ(fmt::format("{}", values), fmt::format("{}", std::get<Values>(want.values))) << want.name;
                 },
-                table.columns[i].values);
+                column.values);
         }
     }
     fs::remove(file);

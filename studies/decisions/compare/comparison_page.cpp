@@ -90,7 +90,7 @@ public:
     {
     }
 
-    HtmlPage page()
+    Document page()
     {
         page_.section("The answer");
         answers();
@@ -387,12 +387,12 @@ private:
     const Comparison& c_;
     const std::string& file_;
     std::vector<std::string>& warnings_;
-    HtmlPage page_;
+    Document page_;
 };
 
 } // namespace
 
-HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
+Document comparison_page(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
                          std::vector<std::string>& warnings)
 {
     return ComparisonPage(comparison, file, title, warnings).page();

@@ -4,7 +4,7 @@
 
 #include "io/tables/table.hpp"
 #include "studies/decisions/compare/comparison.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>
@@ -59,7 +59,7 @@ std::vector<std::string> what_would_change_it(const Comparison& comparison, cons
 /// cannot be drawn the page has a message.
 /// @param file for names   @param title nullopt: by the base
 /// @param warnings receives a line for a picture that could not be drawn
-HtmlPage comparison_page(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
+Document comparison_page(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
                          std::vector<std::string>& warnings);
 
 /// Of a surface: maps of the difference, one for each variant, with the cells that are named worse or better in full

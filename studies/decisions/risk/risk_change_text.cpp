@@ -163,9 +163,9 @@ std::string change_title(const RiskChange& change, const VariantChange& variant)
 
 } // namespace
 
-HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
+Document risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
 {
-    HtmlPage page(title.value_or("Change of risk: " + change.title),
+    Document page(title.value_or("Change of risk: " + change.title),
                   fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,
                               hazard_text(change.hazard), change.code_version));
     page.section("The answer");

@@ -126,7 +126,7 @@ std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
     return figures;
 }
 
-void add_result(const Risk& risk, HtmlPage& page)
+void add_result(const Risk& risk, Document& page)
 {
     page.section("Result");
     HtmlTable table{"ll", {"limit state", "fragility"}, {}, ""};
@@ -156,7 +156,7 @@ void add_result(const Risk& risk, HtmlPage& page)
         100 * risk.level));
 }
 
-void add_parts(const Risk& risk, HtmlPage& page)
+void add_parts(const Risk& risk, Document& page)
 {
     page.section("Contributing intensities");
     const StateRisk& s = risk.principal();
@@ -196,7 +196,7 @@ void add_parts(const Risk& risk, HtmlPage& page)
                           bounds_text(s.estimate.bounds)));
 }
 
-void add_sequences(const SequenceRisk& s, HtmlPage& page)
+void add_sequences(const SequenceRisk& s, Document& page)
 {
     page.section("Damage carried from earthquake to earthquake");
     const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
@@ -219,9 +219,9 @@ void add_sequences(const SequenceRisk& s, HtmlPage& page)
 
 } // namespace
 
-HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title)
+Document risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title)
 {
-    HtmlPage page(title.value_or("Risk: " + risk.title),
+    Document page(title.value_or("Risk: " + risk.title),
                   fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
                               hazard_text(risk.hazard), risk.code_version));
     page.section("The answer");
@@ -351,7 +351,7 @@ Figure changes_figure(const RiskChange& change, const std::string& state)
 
 } // namespace
 
-void add_change_figures(const RiskChange& change, HtmlPage& page)
+void add_change_figures(const RiskChange& change, Document& page)
 {
     const StateChange& first = change.variants.front().principal();
     const Figure changes = changes_figure(change, first.state);

@@ -3,7 +3,7 @@
 /// come to, for a reader who decides about a monument.
 
 #include "studies/decisions/risk/risk.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>
@@ -72,10 +72,10 @@ Json risk_json(const RiskChange& change);
 std::string risk_change_answer(const RiskChange& change, const VariantChange& variant);
 
 /// @param file of the estimate, for its name   @param title instead of the comparison's; nullopt: that one
-HtmlPage risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title);
+Document risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title);
 
 /// What `plot_risk` draws, as figures of the page: the same values.
-void add_change_figures(const RiskChange& change, HtmlPage& page);
+void add_change_figures(const RiskChange& change, Document& page);
 
 /// Shares of the stripes of base and variants, and the change of the probability over the last of the years.
 /// @param state a limit state; nullopt: the principal one   @throws InputError if it is none, or is not determined
@@ -83,7 +83,7 @@ void plot_risk(const RiskChange& change, const std::optional<std::string>& state
                const std::optional<std::string>& title, const std::filesystem::path& picture);
 
 /// @param file of the estimate, for its name   @param title instead of the study's; nullopt: that one
-HtmlPage risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title);
+Document risk_page(const Risk& risk, const std::string& file, const std::optional<std::string>& title);
 
 /// @param state a limit state; nullopt: the principal one   @throws InputError if it is none, or if it cannot be drawn
 void plot_risk(const Risk& risk, const std::optional<std::string>& state, const std::optional<std::string>& title,

@@ -320,7 +320,7 @@ Json fragility_json(const Fragility& f)
 
 namespace {
 
-void sequence_section(const Fragility& f, HtmlPage& page)
+void sequence_section(const Fragility& f, Document& page)
 {
     if (!f.sequence.empty()) {
         page.heading("Sequences of shakings");
@@ -337,7 +337,7 @@ void sequence_section(const Fragility& f, HtmlPage& page)
 
 } // namespace
 
-void fragility_section(const Fragility& f, HtmlPage& page)
+void fragility_section(const Fragility& f, Document& page)
 {
     page.section("Fragility");
     page.paragraph(fmt::format(

@@ -4,7 +4,7 @@
 #include "io/plots/figure.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/kinds/kind.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>
@@ -35,7 +35,7 @@ Answer fragility_answer(const Fragility& fragility);
 Figure fragility_figure(const Fragility& fragility);
 
 /// The section of a result's page.
-void fragility_section(const Fragility& fragility, HtmlPage& page);
+void fragility_section(const Fragility& fragility, Document& page);
 
 /// Curves of all limit states of one kind each, with their bands, and the shares of the stripes with their bars.
 /// @param states names of limit states; without any: the peak's, and the collapse

@@ -235,7 +235,7 @@ std::optional<Answer> RareKind::answer() const
 bool RareKind::summary(PageWriter& writer) const
 {
     const RareTable& table = table_;
-    HtmlPage& page = writer.page;
+    Document& page = writer.page;
     HtmlTable levels{"rrrrr",
                      {"level", "above [m]", "conditional probability", "candidates taken", "chains that never moved"},
                      {},

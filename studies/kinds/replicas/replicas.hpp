@@ -7,7 +7,7 @@
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/store/result_store.hpp"
 #include "studies/kinds/replicas/discordance.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <array>
@@ -78,7 +78,7 @@ std::string replicas_text(const Replicas& replicas);
 Json replicas_json(const Replicas& replicas);
 
 /// The section of a result's page. @param verdicts, growth put these pictures into the page
-void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
+void replicas_section(const Replicas& replicas, Document& page, const std::function<void()>& verdicts,
                       const std::function<void()>& growth);
 
 /// `replicas.csv`: each cell and kind.

@@ -167,7 +167,7 @@ Json replicas_json(const Replicas& replicas)
         .member("growth", growths);
 }
 
-void replicas_section(const Replicas& replicas, HtmlPage& page, const std::function<void()>& verdicts,
+void replicas_section(const Replicas& replicas, Document& page, const std::function<void()>& verdicts,
                       const std::function<void()>& growth)
 {
     page.section("Predictability of the verdict");

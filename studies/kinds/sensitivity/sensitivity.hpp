@@ -15,7 +15,7 @@
 #include "io/plots/figure.hpp"
 #include "io/store/result_store.hpp"
 #include "io/tables/kind_tables.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <array>
@@ -68,7 +68,7 @@ Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome);
 /// @throws InputError if the table is empty, and as `write_picture` does
 void plot_sensitivity(const SensitivityTable& table, const std::string& title, const std::filesystem::path& file);
 /// A figure and a table for each outcome, with its remarks.
-void add_sensitivity(HtmlPage& page, const SensitivityTable& table);
+void add_sensitivity(Document& page, const SensitivityTable& table);
 
 /// What must be known of a table: factors without effect, outcomes that do not vary, rows left out.
 std::vector<std::string> sensitivity_remarks(const SensitivityTable& table);

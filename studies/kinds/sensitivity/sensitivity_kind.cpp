@@ -272,7 +272,7 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                   file);
 }
 
-void add_sensitivity(HtmlPage& page, const SensitivityTable& table)
+void add_sensitivity(Document& page, const SensitivityTable& table)
 {
     page.paragraph(explanation(table));
     const std::size_t n = table.factors.size();

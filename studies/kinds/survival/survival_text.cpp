@@ -467,7 +467,7 @@ Answer survival_answer(const Survival& s)
 
 void survival_section(const Survival& s, PageWriter& writer)
 {
-    HtmlPage& page = writer.page;
+    Document& page = writer.page;
     page.section("The past of the structure");
     page.paragraph(sentence(agreeing_words(s)));
     writer.picture(

@@ -5,7 +5,7 @@
 #include "io/tables/table.hpp"
 #include "studies/kinds/kind.hpp"
 #include "studies/kinds/survival/survival.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <filesystem>

@@ -186,7 +186,7 @@ public:
     {
     }
 
-    HtmlPage page()
+    Document page()
     {
         result();
         parameters();
@@ -416,12 +416,12 @@ private:
     const StoredCalibration& c_;
     const StoredForm& best_;
     const std::string unit_, file_;
-    HtmlPage page_;
+    Document page_;
 };
 
 } // namespace
 
-HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file,
+Document calibration_page(const StoredCalibration& calibration, const std::string& file,
                           const std::optional<std::string>& title)
 {
     return CalibrationPage(calibration, std::filesystem::path(file).filename().string(), title).page();

@@ -3,7 +3,7 @@
 
 #include "studies/measured/calibration/calibration.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
 #include <optional>
@@ -32,7 +32,7 @@ std::string calibrated_text(const Calibration& calibration, const std::string& m
 /// The parameters with their intervals, what is not determined and why, the contact forms, what it gains.
 /// @param file for names
 /// @param title of the page; nullopt: by what was measured
-HtmlPage calibration_page(const StoredCalibration& calibration, const std::string& file,
+Document calibration_page(const StoredCalibration& calibration, const std::string& file,
                           const std::optional<std::string>& title = std::nullopt);
 
 } // namespace stylobate

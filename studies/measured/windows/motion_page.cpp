@@ -390,7 +390,7 @@ Html motion_svg(const WindowMotions& motion, const MotionStage& stage)
 
 } // namespace
 
-void add_motion(HtmlPage& page, const WindowMotions& motion)
+void add_motion(Document& page, const WindowMotions& motion)
 {
     const MotionStage stage(motion);
     page.heading("Measured and simulated blocks in motion");

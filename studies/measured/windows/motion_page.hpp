@@ -6,7 +6,7 @@
 #include "io/store/result_store.hpp"
 #include "studies/measured/windows/window_motion.hpp"
 #include "studies/report/animation.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 
 #include <array>
 #include <cstddef>
@@ -75,7 +75,7 @@ private:
 /// Adds the player of the animations (windows.js), a picture of a moment of each window, and a table of their errors;
 /// the latter two need no script.
 /// @pre the motion has a window, and no fault
-void add_motion(HtmlPage& page, const WindowMotions& motion);
+void add_motion(Document& page, const WindowMotions& motion);
 
 /// Why there is none though windows were simulated. @param code_version that wrote the file
 std::string no_motion_words(const std::string& file, const std::string& code_version);

@@ -6,7 +6,7 @@
 #include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/measured/calibration/calibration_text.hpp"
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/html_map.hpp"
 #include "studies/report/json.hpp"
@@ -122,9 +122,9 @@ TEST(Html, Base64AsInRfc4648)
 
 TEST(Html, DataCannotEndTheirElement)
 {
-    HtmlPage page("t", "s");
+    Document page("t", "s");
     page.data("names", R"({"name": "</script><script>alert(1)</script><!--"})");
-    const std::string text = page.text();
+    const std::string text = html_of(page);
     EXPECT_NE(text.find(R"(<script type="application/json" id="names">{"name": "\u003c/script>\u003cscript>alert(1))"),
               std::string::npos);
     EXPECT_EQ(text.find("<!--"), std::string::npos);
@@ -353,7 +353,7 @@ pga_m_s2 = { from = 1, to = 9, count = 3 }
 
 TEST(DiagnosisPage, SaysWhatNatsAndSmallProbabilitiesMean)
 {
-    const std::string page = diagnosis_page(filled_diagnosis(), "diagnosis.h5").text();
+    const std::string page = html_of(diagnosis_page(filled_diagnosis(), "diagnosis.h5"));
     const std::size_t nats = page.find("the unit of log likelihood"), p = page.find("p is the p-value of the gain");
     const std::size_t table = page.find("gain [nats]");
     EXPECT_LT(nats, table);
@@ -363,7 +363,7 @@ TEST(DiagnosisPage, SaysWhatNatsAndSmallProbabilitiesMean)
 
 TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
 {
-    const std::string page = diagnosis_page(filled_diagnosis(), "folder/diagnosis.h5").text();
+    const std::string page = html_of(diagnosis_page(filled_diagnosis(), "folder/diagnosis.h5"));
     expect_self_contained(page);
     expect_balanced(page);
     EXPECT_NE(page.find("Seven drums &lt;script&gt;alert(1)&lt;/script&gt;, 1:10, é"), std::string::npos);
@@ -386,7 +386,7 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
 
 TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
 {
-    const std::string page = diagnosis_page(Diagnosis{}, "d.h5").text();
+    const std::string page = html_of(diagnosis_page(Diagnosis{}, "d.h5"));
     expect_self_contained(page);
     expect_balanced(page);
     EXPECT_NE(page.find("No cause identified"), std::string::npos);
@@ -396,7 +396,7 @@ TEST(DiagnosisPage, OfAnEmptyDiagnosisIsAPageToo)
 
 TEST(DiagnosisPage, OfNoneIsNotGreenAndShowsNoProbability)
 {
-    const std::string page = diagnosis_page(diagnosis_without_cause(), "d.h5").text();
+    const std::string page = html_of(diagnosis_page(diagnosis_without_cause(), "d.h5"));
     EXPECT_NE(page.find("<div class=\"box \"><strong>No cause identified; best candidate: friction of joint 0 x 0.63 "
                         "(p = 0.056)</strong>"),
               std::string::npos);
@@ -509,7 +509,7 @@ TEST(CalibrationFile, ReadsBackWhatWasWritten)
 
 TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
 {
-    const std::string page = calibration_page(stored_sample(sample_calibration()), "some/c.h5").text();
+    const std::string page = html_of(calibration_page(stored_sample(sample_calibration()), "some/c.h5"));
     expect_balanced(page);
     expect_self_contained(page);
     for (const char* part : {"Calibration: campaign &quot;7&quot; &lt;b&gt;.h5",
@@ -547,7 +547,7 @@ TEST(CalibrationPage, ShowsEveryPartAndEscapesIt)
     c.forms[0].held_out = {};
     c.notes.clear();
     c.motion.reset(); // as in a file of format version 3
-    const std::string plain = calibration_page(stored_sample(c), "c.h5").text();
+    const std::string plain = html_of(calibration_page(stored_sample(c), "c.h5"));
     expect_balanced(plain);
     for (const char* part : {"These data determine the fitted parameter.", "was not tested on held-out",
                              "--form all compares them", "All data could be used",

@@ -63,9 +63,9 @@ TEST(LeftOut, ThePagesHaveTheTableOfTheMeasuredPage)
         ASSERT_EQ(row.size(), table.head.size());
         EXPECT_NE(page.find("| " + row[0].markup + " | " + row[1].markup + " | "), std::string::npos);
     }
-    HtmlPage html("title", "");
+    Document html("title", "");
     add_left_out(html, 2);
-    const std::string text = html.text();
+    const std::string text = html_of(html);
     const std::size_t sentence = text.find("<summary>" + left_out_text(2) + "</summary>"),
                       share = text.find("in the plane, along x"), end = text.find("</details>");
     EXPECT_LT(sentence, share);

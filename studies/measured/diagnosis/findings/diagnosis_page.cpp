@@ -50,7 +50,7 @@ public:
     {
     }
 
-    HtmlPage page()
+    Document page()
     {
         verdict();
         wrong();
@@ -392,12 +392,12 @@ private:
 
     const Diagnosis& d_;
     const std::string file_;
-    HtmlPage page_;
+    Document page_;
 };
 
 } // namespace
 
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
+Document diagnosis_page(const Diagnosis& diagnosis, const std::string& file, const std::optional<std::string>& title)
 {
     return DiagnosisPage(diagnosis, std::filesystem::path(file).filename().string(), title).page();
 }

@@ -2,7 +2,7 @@
 /// A diagnosis in words, as JSON and as a page: texts that are common to its page, its text and its headings.
 
 #include "studies/measured/diagnosis/findings/diagnosis.hpp"
-#include "studies/report/html.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 #include "studies/report/words.hpp"
 
@@ -63,7 +63,7 @@ Json diagnosis_json(const Diagnosis& diagnosis);
 /// The verdict first, then what it rests on.
 /// @param file for names
 /// @param title of the page; nullopt: by the specimen
-HtmlPage diagnosis_page(const Diagnosis& diagnosis, const std::string& file,
+Document diagnosis_page(const Diagnosis& diagnosis, const std::string& file,
                         const std::optional<std::string>& title = std::nullopt);
 
 } // namespace stylobate

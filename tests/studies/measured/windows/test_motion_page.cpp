@@ -17,9 +17,9 @@ namespace {
 
 std::string page_of(const WindowMotions& motion)
 {
-    HtmlPage page("motion", "");
+    Document page("motion", "");
     add_motion(page, motion);
-    return page.text();
+    return html_of(page);
 }
 
 JsonValue animations_of(const std::string& page)
@@ -205,16 +205,16 @@ TEST(MotionPage, PicturesTheMomentOfTheLargestDifference)
 TEST(MotionPage, OfADiagnosisSaysWhyThereIsNone)
 {
     Diagnosis d = filled_diagnosis();
-    const std::string shown = diagnosis_page(d, "d.h5").text();
+    const std::string shown = html_of(diagnosis_page(d, "d.h5"));
     EXPECT_TRUE(animations_of(shown).has("list"));
     EXPECT_EQ(shown.find("not shown in motion"), std::string::npos);
     d.motion.reset(); // as a file of format version 2
-    const std::string none = diagnosis_page(d, "d.h5").text();
+    const std::string none = html_of(diagnosis_page(d, "d.h5"));
     EXPECT_FALSE(animations_of(none).has("list"));
     EXPECT_NE(none.find("not shown in motion: d.h5 was written by an earlier version"), std::string::npos);
     EXPECT_EQ(none.find("<div data-player"), std::string::npos);
     d.cost.window_simulations = 0;
-    EXPECT_EQ(diagnosis_page(d, "d.h5").text().find("not shown in motion"), std::string::npos);
+    EXPECT_EQ(html_of(diagnosis_page(d, "d.h5")).find("not shown in motion"), std::string::npos);
 }
 
 } // namespace
