@@ -23,7 +23,7 @@ std::string table_html(const HtmlTable& table)
 {
     std::string out = "<div class=\"wide\"><table>\n";
     if (!table.caption.empty())
-        out += "<caption>" + html_escaped(table.caption) + "</caption>\n";
+        out += "<caption>" + Html(table.caption).markup + "</caption>\n";
     if (!table.head.empty())
         out += "<thead>" + table_cells(table, table.head, "th") + "</thead>\n";
     out += "<tbody>\n";

@@ -52,11 +52,12 @@ std::optional<std::string> motion_words(const Results& results, const ResultRow&
     if (!design.motions || motion >= names.size())
         return std::nullopt;
     const MotionSetSpec& set = *design.motions;
+    const std::string name = names[motion].starts_with("motion ") ? names[motion] : "motion " + names[motion];
     if (set.method == FragilityMethod::cloud)
-        return fmt::format("motion {} at PGA {:.3g} m/s²", names[motion], row.pga_m_s2);
+        return fmt::format("{} at PGA {:.3g} m/s²", name, row.pga_m_s2);
     const std::string measure = measure_name(set.measure, set.period_s);
     const std::string unit = measure_unit(measure);
-    return fmt::format("motion {} at {} {:.3g} {}", names[motion], short_measure(measure),
+    return fmt::format("{} at {} {:.3g} {}", name, short_measure(measure),
                        set.intensity.value(static_cast<int>(row.cell % design.columns)),
                        unit == "m/s2" ? "m/s²" : unit);
 }

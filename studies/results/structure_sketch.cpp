@@ -348,11 +348,12 @@ Html structure_sketch(const Study& study, const Study* base)
 
 std::string sketch_caption(const Study& study)
 {
+    const Layout layout = lay_out(study.structure);
     std::string text = "The structure at rest, to scale";
     if (study.structure.spatial())
-        text += ", from the front, from above and, where it differs, from the side";
-    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
-    return text + (std::ranges::any_of(blocks, &PlacedBlock::fixed) ? "; fixed blocks are darker." : ".");
+        text += differs_from_the_side(layout) ? ", from the front, from the side and from above"
+                                              : ", from the front and from above";
+    return text + (std::ranges::any_of(layout.blocks, &PlacedBlock::fixed) ? "; fixed blocks are darker." : ".");
 }
 
 } // namespace stylobate

@@ -328,10 +328,10 @@ TEST_F(Compare, HasPicturesTablesAndAPage)
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg", "--limit", "slid"}).out,
               "col_comparison_slid.svg\n");
     const std::string slid = read_bytes(folder / "col_comparison_slid.svg"); // no damage: more of it is not worse
-    EXPECT_NE(slid.find("<text>more</text>"), std::string::npos);
-    EXPECT_EQ(slid.find("<text>worse"), std::string::npos);
+    EXPECT_NE(slid.find(">more</text>"), std::string::npos);
+    EXPECT_EQ(slid.find(">worse"), std::string::npos);
     EXPECT_EQ(run(Words{"export", "col_comparison.h5", "--to", "svg"}).status, 0);
-    EXPECT_NE(read_bytes(folder / "col_comparison_collapse.svg").find("<text>worse</text>"), std::string::npos);
+    EXPECT_NE(read_bytes(folder / "col_comparison_collapse.svg").find(">worse</text>"), std::string::npos);
     EXPECT_EQ(run(Words{"report", "col_comparison.h5"}).status, 0);
     const std::string page = read_page(folder / "col_comparison.html");
     for (const char* words : {"What changes", "Where it changes", "smoother", "same quantiles", "data:image/svg+xml"})

@@ -356,7 +356,7 @@ void fragility_section(const Fragility& f, Document& page)
                     "does not fit (p below 0.05), and where there is none, a line through the points is the best curve "
                     "that does not decrease.");
     const std::string unit = page_unit(f.measure);
-    HtmlTable table{"llrrrrr",
+    HtmlTable table{"lnrrrrr",
                     {"limit state", "name", "reached", unit.empty() ? "median" : "median [" + unit + "]", "95 %",
                      "dispersion", "95 %"},
                     {},

@@ -29,7 +29,7 @@ TEST(StudyDifference, HasOnlyTheKeysThatDiffer)
     EXPECT_EQ(keys[0].key, "contact.friction");
     EXPECT_EQ(keys[0].values, (std::vector<std::optional<std::string>>{"0.5", "0.4", "0.5"}));
     EXPECT_EQ(keys[1].key, "mechanisms.dowel.stiffness_n_m");
-    EXPECT_EQ(keys[1].values, (std::vector<std::optional<std::string>>{std::nullopt, "1e+08", std::nullopt}));
+    EXPECT_EQ(keys[1].values, (std::vector<std::optional<std::string>>{std::nullopt, "100000000", std::nullopt}));
     EXPECT_EQ(keys[2].key, "mechanisms.dowel.yield_n");
     EXPECT_TRUE(different_keys({plain_keys, plain_keys}).empty());
 }
