@@ -1,6 +1,7 @@
 """Runs of the program that are disturbed, and what is seen of them."""
 
 import hashlib
+import json
 import os
 import pathlib
 import shutil
@@ -66,11 +67,7 @@ class Laboratory:
     def __init__(self, program, inputs, folder):
         self.program, self.inputs = str(program), pathlib.Path(inputs)
         self.folder = pathlib.Path(folder)
-        self.simd = [
-            name
-            for name in ("scalar", "avx2", "avx512", "neon")
-            if self.call(["info"]).out.split("\n")[1].split("(")[0].find(name) >= 0
-        ]
+        self.simd = json.loads(self.call(["info", "--json"]).out)["simd"]
 
     def words(self, study, results, more=()):
         name, settings = STUDIES[study]
