@@ -62,7 +62,7 @@ public:
 
 private:
     std::string colour(std::size_t series) const;
-    Mark mark(std::size_t series) const { return static_cast<Mark>(colour_number(series) % marks); }
+    MarkShape mark(std::size_t series) const { return static_cast<MarkShape>(colour_number(series) % marks); }
     double number_width() const;
     bool slanted(double frame_width) const;
     void set_ranges();

@@ -50,22 +50,22 @@ std::string points_of(const std::vector<std::array<double, 2>>& points)
 }
 
 /// The corners of a mark about its middle, of a circle none.
-std::vector<std::array<double, 2>> corners_of(Mark shape)
+std::vector<std::array<double, 2>> corners_of(MarkShape shape)
 {
     switch (shape) {
-    case Mark::circle:
+    case MarkShape::circle:
         return {};
-    case Mark::square:
+    case MarkShape::square:
         return {{-0.88, -0.88}, {0.88, -0.88}, {0.88, 0.88}, {-0.88, 0.88}};
-    case Mark::triangle:
+    case MarkShape::triangle:
         return {{0, -1.2}, {1.1, 0.8}, {-1.1, 0.8}};
-    case Mark::diamond:
+    case MarkShape::diamond:
         return {{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}};
-    case Mark::wedge:
+    case MarkShape::wedge:
         return {{0, 1.2}, {-1.1, -0.8}, {1.1, -0.8}};
-    case Mark::pentagon:
+    case MarkShape::pentagon:
         return {{0, -1.15}, {1.09, -0.36}, {0.68, 0.93}, {-0.68, 0.93}, {-1.09, -0.36}};
-    case Mark::cross:
+    case MarkShape::cross:
         return {{-1.1, -0.5}, {-0.5, -1.1}, {0, -0.6}, {0.5, -1.1}, {1.1, -0.5}, {0.6, 0},
                 {1.1, 0.5},   {0.5, 1.1},   {0, 0.6},  {-0.5, 1.1}, {-1.1, 0.5}, {-0.6, 0}};
     }
@@ -111,7 +111,7 @@ void DrawingSheet::line(double x0, double y0, double x1, double y1, std::string_
     path({{x0, y0}, {x1, y1}}, colour, width);
 }
 
-void DrawingSheet::mark(Mark shape, double x, double y, double radius, std::string_view colour)
+void DrawingSheet::mark(MarkShape shape, double x, double y, double radius, std::string_view colour)
 {
     std::vector<std::array<double, 2>> corners = corners_of(shape);
     if (corners.empty()) {

@@ -16,7 +16,7 @@ namespace stylobate {
 enum class TextAt { left, center, right };
 
 /// Shapes of marks. Series that differ in colour differ in shape too.
-enum class Mark { circle, square, triangle, diamond, wedge, pentagon, cross };
+enum class MarkShape { circle, square, triangle, diamond, wedge, pentagon, cross };
 constexpr std::size_t marks = 7;
 
 /// Where a text lies [px].
@@ -43,7 +43,7 @@ public:
               std::string_view dashes = {});
     void line(double x0, double y0, double x1, double y1, std::string_view colour = "#303030", double width = 2);
     /// @param radius [px]
-    void mark(Mark shape, double x, double y, double radius, std::string_view colour);
+    void mark(MarkShape shape, double x, double y, double radius, std::string_view colour);
     /// @param font height of the type [px]   @param turned upwards, by a right angle, about its point
     /// @param colour "": the page's ink
     void text(std::string_view words, double x, double y, double font, TextAt at = TextAt::center,

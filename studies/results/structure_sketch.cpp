@@ -283,11 +283,13 @@ std::string views_in_space(const Layout& layout, const std::vector<Mark>& marks)
     for (const PlacedBlock& block : layout.blocks) {
         solids.push_back(solid_of(block));
         const std::vector<PlacedSolid> alone{solids.back()};
-        for (const ViewPoint& p : painted(alone, SolidView::front()).front().outline) {
+        const std::vector<SeenSolid> front = painted(alone, SolidView::front());
+        for (const ViewPoint& p : front.front().outline) {
             x.add(p.x, p.x);
             y.add(p.y, p.y);
         }
-        for (const ViewPoint& p : painted(alone, SolidView::side()).front().outline)
+        const std::vector<SeenSolid> side = painted(alone, SolidView::side());
+        for (const ViewPoint& p : side.front().outline)
             z.add(p.x, p.x);
     }
     const double scale = std::min(most_wide / std::max(x.length(), z.length()), most_high / y.length());
