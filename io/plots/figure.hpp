@@ -19,14 +19,14 @@ enum class SeriesKind {
 
 /// NaN in y, low or high leaves a gap.
 struct FigureSeries {
-    std::string name; ///< in the legend; "" where it is not listed there
+    std::string name; ///< under the pointer; "" where the legend does not list it
     SeriesKind kind = SeriesKind::line;
     std::vector<double> x;
     std::vector<double> y;    ///< as many as x; of a band: empty
     std::vector<double> low;  ///< as many as x, or empty
     std::vector<double> high; ///< as many as x, or empty
     // The file of a diagnosis does not keep these.
-    std::optional<std::string> group = {};  ///< has one colour and one entry of the legend; nullopt: the name
+    std::optional<std::string> group = {};  ///< has one colour and one entry of the legend, its own name; nullopt: that of the series
     std::optional<std::string> layer = {};  ///< what of its group it is ("fitted curve"); layers can be switched off
     std::optional<std::string> colour = {}; ///< "#rrggbb"; nullopt: that of its place in the list
     bool dashed = false;

@@ -232,7 +232,7 @@ double FigurePanel::draw_legend(DrawingSheet& sheet, double left, double right, 
                         [&](const FigureSeries& one) { return !one.name.empty() && group_of(one) == group_of(s); });
         if (s.name.empty() || later)
             continue;
-        const double length = 34 * unit + DrawingSheet::width(s.name, look_.letters()) + 14 * unit;
+        const double length = 34 * unit + DrawingSheet::width(group_of(s), look_.letters()) + 14 * unit;
         if (x > left && x + length > right) {
             x = left;
             y += 19 * unit;
@@ -247,7 +247,7 @@ double FigurePanel::draw_legend(DrawingSheet& sheet, double left, double right, 
         else
             sheet.rectangle(x, y - 5 * unit, x + 26 * unit, y + 5 * unit, colour(i), "",
                             s.kind == SeriesKind::bars ? 0.8 : 0.22);
-        sheet.text(s.name, x + 34 * unit, y, look_.letters(), TextAt::left, look_.ink());
+        sheet.text(group_of(s), x + 34 * unit, y, look_.letters(), TextAt::left, look_.ink());
         sheet.close();
         x += length;
     }

@@ -14,7 +14,7 @@ std::string tic_text(double value)
 {
     constexpr std::size_t room = 6;
     std::string text = fmt::format("{:.6g}", value), power = fmt::format("{:.5e}", value);
-    if (text.size() <= room)
+    if (text.size() <= room && text.find('e') == std::string::npos)
         return text;
     const std::size_t e = power.find('e');
     const int exponent = std::stoi(power.substr(e + 1));

@@ -35,7 +35,7 @@ Figure levels_figure(const RareTable& table)
     figure.y_log = true;
     for (std::size_t repeat = 0; repeat < table.repeats.size(); ++repeat) {
         RareChain chain = rare_chain(table, repeat);
-        figure.series.push_back({"repeats",
+        figure.series.push_back({fmt::format("repeat {}", repeat),
                                  SeriesKind::line,
                                  std::move(chain.threshold_m),
                                  std::move(chain.probability),
