@@ -134,18 +134,18 @@ TEST(Html, DataCannotEndTheirElement)
 
 TEST(Html, ContentsStandWhereThePagePutsThem)
 {
-    HtmlPage page("title", "subtitle");
+    Document page("title", "subtitle");
     page.answer("answer");
     page.contents();
     page.section("one");
-    const std::string html = page.text();
+    const std::string html = html_of(page);
     const std::size_t answer = html.find("answer</p>"), contents = html.find("<nav"), section = html.find("<h2");
     EXPECT_LT(answer, contents);
     EXPECT_LT(contents, section);
     EXPECT_NE(section, std::string::npos);
-    HtmlPage usual("title", "subtitle");
+    Document usual("title", "subtitle");
     usual.section("one");
-    EXPECT_LT(usual.text().find("<nav"), usual.text().find("<h2"));
+    EXPECT_LT(html_of(usual).find("<nav"), html_of(usual).find("<h2"));
 }
 
 TEST(HtmlFigure, GivesItsValuesToTheScript)
