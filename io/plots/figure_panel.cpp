@@ -241,9 +241,10 @@ double FigurePanel::draw_legend(DrawingSheet& sheet, double left, double right, 
         sheet.open(fmt::format("class=\"key\" data-group=\"{}\"", xml_escaped(group_of(s))));
         if (s.kind == SeriesKind::points)
             sheet.mark(mark(i), x + 13 * unit, y, 4 * unit, colour(i));
+        else if (s.kind == SeriesKind::line && s.dashed)
+            sheet.path({{x, y}, {x + 26 * unit, y}}, colour(i), 2 * unit, fmt::format("{} {}", 5 * unit, 4 * unit));
         else if (s.kind == SeriesKind::line)
-            sheet.path({{x, y}, {x + 26 * unit, y}}, colour(i), 2 * unit,
-                       s.dashed ? fmt::format("{} {}", 5 * unit, 4 * unit) : "");
+            sheet.line(x, y, x + 26 * unit, y, colour(i), 2 * unit);
         else
             sheet.rectangle(x, y - 5 * unit, x + 26 * unit, y + 5 * unit, colour(i), "",
                             s.kind == SeriesKind::bars ? 0.8 : 0.22);

@@ -108,7 +108,8 @@ void DrawingSheet::path(const std::vector<std::array<double, 2>>& points, std::s
 
 void DrawingSheet::line(double x0, double y0, double x1, double y1, std::string_view colour, double width)
 {
-    path({{x0, y0}, {x1, y1}}, colour, width);
+    elements_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" style=\"stroke:{};stroke-width:{}\"/>\n",
+                             px(x0), px(y0), px(x1), px(y1), colour, px(width));
 }
 
 void DrawingSheet::mark(MarkShape shape, double x, double y, double radius, std::string_view colour)

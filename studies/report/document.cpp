@@ -19,8 +19,134 @@ std::string ending_of_document(const std::filesystem::path& file)
     return ending.empty() || ending == ".htm" ? ".html" : ending;
 }
 
-/// A text of a page without its markup: words of the program in `, and no tags.
-std::string plain(const Html& html)
+/// A cell of a table in Markdown.
+std::string cell(const Html& html)
+{
+    std::string out;
+    for (const char c : plain_text(html))
+        out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+    return out;
+}
+
+std::string markdown_table(const HtmlTable& table)
+{
+    std::size_t columns = table.head.size();
+    for (const std::vector<Html>& row : table.rows)
+        columns = std::max(columns, row.size());
+    const auto line = [&](const std::vector<Html>& row) {
+        std::string out = "|";
+        for (std::size_t i = 0; i < columns; ++i)
+            out += fmt::format(" {} |", i < row.size() ? cell(row[i]) : "");
+        return out + "\n";
+    };
+    std::string out = table.caption.empty() ? "" : table.caption + ":\n\n";
+    out += line(table.head) + "|";
+    for (std::size_t i = 0; i < columns; ++i)
+        out += i < table.align.size() && table.align[i] == 'r' ? "---:|" : "---|";
+    out += "\n";
+    for (const std::vector<Html>& row : table.rows)
+        out += line(row);
+    return out + "\n";
+}
+
+std::string markdown_block(const DocumentBlock& b)
+{
+    std::string out;
+    switch (b.kind) {
+    case Kind::section:
+        return fmt::format("## {}\n\n", b.title);
+    case Kind::heading:
+        return fmt::format("### {}\n\n", b.title);
+    case Kind::answer:
+        return fmt::format("**{}**\n\n", plain_text(b.text));
+    case Kind::paragraph:
+    case Kind::note:
+    case Kind::fold:
+        return plain_text(b.text) + "\n\n";
+    case Kind::box:
+        return fmt::format("> **{}**\n>\n> {}\n\n", b.title, plain_text(b.text));
+    case Kind::list:
+        for (const Html& item : b.items)
+            out += fmt::format("- {}\n", plain_text(item));
+        return out + "\n";
+    case Kind::facts:
+        for (std::size_t i = 0; i + 1 < b.items.size(); i += 2)
+            out += fmt::format("- {}: {}\n", plain_text(b.items[i]), plain_text(b.items[i + 1]));
+        return out + "\n";
+    case Kind::table:
+        return markdown_table(b.table);
+    case Kind::preformed:
+        return fmt::format("```\n{}{}```\n\n", b.title, b.title.ends_with('\n') ? "" : "\n");
+    case Kind::figure:
+        return b.items.empty() || b.items[0].markup.empty() ? ""
+                                                            : fmt::format("Figure: {}\n\n", plain_text(b.items[0]));
+    case Kind::contents:
+    case Kind::part:
+    case Kind::end:
+    case Kind::data:
+    case Kind::player:
+        break;
+    }
+    return out;
+}
+
+Json text_list(const std::vector<Html>& texts)
+{
+    Json list = Json::list();
+    for (const Html& text : texts)
+        list.item(plain_text(text));
+    return list;
+}
+
+/// @returns nullopt of what has no words
+std::optional<Json> block_json(const DocumentBlock& b)
+{
+    Json json = Json::object();
+    switch (b.kind) {
+    case Kind::heading:
+        return json.member("kind", "heading").member("text", b.title);
+    case Kind::answer:
+    case Kind::paragraph:
+    case Kind::note:
+    case Kind::fold:
+        return json.member("kind", b.kind == Kind::answer ? "answer"
+                                   : b.kind == Kind::note ? "note"
+                                                          : "paragraph")
+            .member("text", plain_text(b.text));
+    case Kind::box:
+        return json.member("kind", "box")
+            .member("tone", b.tone)
+            .member("title", b.title)
+            .member("text", plain_text(b.text));
+    case Kind::list:
+        return json.member("kind", "list").member("items", text_list(b.items));
+    case Kind::facts: {
+        Json rows = Json::list();
+        for (std::size_t i = 0; i + 1 < b.items.size(); i += 2)
+            rows.item(text_list({b.items[i], b.items[i + 1]}));
+        return json.member("kind", "facts").member("rows", rows);
+    }
+    case Kind::table: {
+        Json rows = Json::list();
+        for (const std::vector<Html>& row : b.table.rows)
+            rows.item(text_list(row));
+        return json.member("kind", "table")
+            .member("caption", b.table.caption)
+            .member("head", text_list(b.table.head))
+            .member("rows", rows);
+    }
+    case Kind::preformed:
+        return json.member("kind", "preformed").member("text", b.title);
+    case Kind::figure:
+        return json.member("kind", "figure").member("caption", b.items.empty() ? "" : plain_text(b.items[0]));
+    default:
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+std::string plain_text(const Html& html)
 {
     std::string out;
     std::string_view rest = html.markup;
@@ -57,129 +183,6 @@ std::string plain(const Html& html)
     }
     return out;
 }
-
-/// A cell of a table in Markdown.
-std::string cell(const Html& html)
-{
-    std::string out;
-    for (const char c : plain(html))
-        out += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
-    return out;
-}
-
-std::string markdown_table(const HtmlTable& table)
-{
-    std::size_t columns = table.head.size();
-    for (const std::vector<Html>& row : table.rows)
-        columns = std::max(columns, row.size());
-    const auto line = [&](const std::vector<Html>& row) {
-        std::string out = "|";
-        for (std::size_t i = 0; i < columns; ++i)
-            out += fmt::format(" {} |", i < row.size() ? cell(row[i]) : "");
-        return out + "\n";
-    };
-    std::string out = table.caption.empty() ? "" : table.caption + ":\n\n";
-    out += line(table.head) + "|";
-    for (std::size_t i = 0; i < columns; ++i)
-        out += i < table.align.size() && table.align[i] == 'r' ? "---:|" : "---|";
-    out += "\n";
-    for (const std::vector<Html>& row : table.rows)
-        out += line(row);
-    return out + "\n";
-}
-
-std::string markdown_block(const DocumentBlock& b)
-{
-    std::string out;
-    switch (b.kind) {
-    case Kind::section:
-        return fmt::format("## {}\n\n", b.title);
-    case Kind::heading:
-        return fmt::format("### {}\n\n", b.title);
-    case Kind::answer:
-        return fmt::format("**{}**\n\n", plain(b.text));
-    case Kind::paragraph:
-    case Kind::note:
-    case Kind::fold:
-        return plain(b.text) + "\n\n";
-    case Kind::box:
-        return fmt::format("> **{}**\n>\n> {}\n\n", b.title, plain(b.text));
-    case Kind::list:
-        for (const Html& item : b.items)
-            out += fmt::format("- {}\n", plain(item));
-        return out + "\n";
-    case Kind::facts:
-        for (std::size_t i = 0; i + 1 < b.items.size(); i += 2)
-            out += fmt::format("- {}: {}\n", plain(b.items[i]), plain(b.items[i + 1]));
-        return out + "\n";
-    case Kind::table:
-        return markdown_table(b.table);
-    case Kind::preformed:
-        return fmt::format("```\n{}{}```\n\n", b.title, b.title.ends_with('\n') ? "" : "\n");
-    case Kind::figure:
-        return b.items.empty() || b.items[0].markup.empty() ? "" : fmt::format("Figure: {}\n\n", plain(b.items[0]));
-    case Kind::contents:
-    case Kind::part:
-    case Kind::end:
-    case Kind::data:
-    case Kind::player:
-        break;
-    }
-    return out;
-}
-
-Json text_list(const std::vector<Html>& texts)
-{
-    Json list = Json::list();
-    for (const Html& text : texts)
-        list.item(plain(text));
-    return list;
-}
-
-/// @returns nullopt of what has no words
-std::optional<Json> block_json(const DocumentBlock& b)
-{
-    Json json = Json::object();
-    switch (b.kind) {
-    case Kind::heading:
-        return json.member("kind", "heading").member("text", b.title);
-    case Kind::answer:
-    case Kind::paragraph:
-    case Kind::note:
-    case Kind::fold:
-        return json.member("kind", b.kind == Kind::answer ? "answer"
-                                   : b.kind == Kind::note ? "note"
-                                                          : "paragraph")
-            .member("text", plain(b.text));
-    case Kind::box:
-        return json.member("kind", "box").member("tone", b.tone).member("title", b.title).member("text", plain(b.text));
-    case Kind::list:
-        return json.member("kind", "list").member("items", text_list(b.items));
-    case Kind::facts: {
-        Json rows = Json::list();
-        for (std::size_t i = 0; i + 1 < b.items.size(); i += 2)
-            rows.item(text_list({b.items[i], b.items[i + 1]}));
-        return json.member("kind", "facts").member("rows", rows);
-    }
-    case Kind::table: {
-        Json rows = Json::list();
-        for (const std::vector<Html>& row : b.table.rows)
-            rows.item(text_list(row));
-        return json.member("kind", "table")
-            .member("caption", b.table.caption)
-            .member("head", text_list(b.table.head))
-            .member("rows", rows);
-    }
-    case Kind::preformed:
-        return json.member("kind", "preformed").member("text", b.title);
-    case Kind::figure:
-        return json.member("kind", "figure").member("caption", b.items.empty() ? "" : plain(b.items[0]));
-    default:
-        return std::nullopt;
-    }
-}
-
-} // namespace
 
 Document::Document(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle))
 {

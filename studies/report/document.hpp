@@ -84,6 +84,9 @@ private:
     std::vector<DocumentBlock> blocks_;
 };
 
+/// A text of a page without its markup: words of the program stand in `, blanks that do not break are blanks.
+std::string plain_text(const Html& html);
+
 /// A page: nothing is loaded from elsewhere, it can be printed, and what needs its script is not needed to read it.
 std::string html_of(const Document& document);
 

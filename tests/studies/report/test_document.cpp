@@ -24,7 +24,7 @@ Document some_document()
     document.list({"one", "two"});
     document.box("warn", "Doubtful", "few motions");
     document.figure(Html::ready("<svg><text>a word of a drawing</text></svg>"), "What it shows.");
-    document.details("More", [&] { document.block("key = 1\n<b>"); });
+    document.details("More", [&] { document.block("key = 1\n<b>\n"); });
     document.data("cells", R"({"a":1})");
     document.player();
     return document;
@@ -60,9 +60,9 @@ TEST(Documents, AreJson)
     EXPECT_EQ(json["sections"][0]["blocks"][0]["text"], "61 % of them fell (58 to 64 %).");
     const nlohmann::json& blocks = json["sections"][1]["blocks"];
     EXPECT_EQ(json["sections"][1]["title"], "Results");
-    EXPECT_EQ(blocks[1]["head"], (nlohmann::json{"name", "value"}));
-    EXPECT_EQ(blocks[1]["rows"], (nlohmann::json{{"x|y", "1.5"}, {"better", "2"}}));
-    EXPECT_EQ(blocks[2]["rows"][1], (nlohmann::json{"Depth", "1 m"}));
+    EXPECT_EQ(blocks[1]["head"], nlohmann::json::parse(R"(["name", "value"])"));
+    EXPECT_EQ(blocks[1]["rows"], nlohmann::json::parse(R"([["x|y", "1.5"], ["better", "2"]])"));
+    EXPECT_EQ(blocks[2]["rows"][1], nlohmann::json::parse(R"(["Depth", "1 m"])"));
     EXPECT_EQ(blocks.back()["text"], "key = 1\n<b>\n");
 }
 
