@@ -12,7 +12,7 @@ namespace stylobate::api {
 
 struct ReportOptions {
     std::optional<std::string> title = {};      ///< nullopt: by the study or the file
-    std::optional<std::uint64_t> animate = {};  ///< N that fell and N that stood, of each cell; none: one of each
+    std::optional<std::uint64_t> animate = {};  ///< N that fell and N that stood, of each cell that has both; none: one
     std::optional<double> animate_mb = {};      ///< of all animations together [1e6 bytes]; none: 3
     std::optional<double> animate_seconds = {}; ///< for running realizations again; none: 120
     std::vector<std::string> settings = {};     ///< only the present path of a record: "excitation.file=PATH"

@@ -379,8 +379,8 @@ private:
         report
             ->add_option(
                 "--animate", report_.animate,
-                "realizations in motion: N that fell and N that stood, of each cell of a surface that has both "
-                "(default: 1; 0: none)")
+                "realizations in motion: N that fell and N that stood, of each cell of a surface that has both, and "
+                "one of each other cell (default: 1; 0: none)")
             ->check(CLI::Range(0LL, 1000LL));
         report
             ->add_option(
