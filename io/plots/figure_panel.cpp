@@ -329,6 +329,10 @@ void FigurePanel::draw(DrawingSheet& sheet, const PlotFrame& frame, bool x_label
         // a cell reaches under its neighbours, which are drawn after it, so that no light comes between them
         sheet.rectangle(x_.px(cell.left), y_.px(cell.low), std::min(x_.px(cell.right) + 0.5 * look_.unit, frame.right),
                         std::max(y_.px(cell.high) - 0.5 * look_.unit, frame.top), cell.colour);
+    if (!look_.page) // no band lies on another's line; on a page a series with its band is one group, to be switched
+        for (std::size_t i = 0; i < figure_.series.size(); ++i)
+            if (const FigureSeries& s = figure_.series[i]; s.kind == SeriesKind::line && has_values(s))
+                draw_band(sheet, s, colour(i));
     for (const SeriesKind kind :
          {SeriesKind::spans, SeriesKind::band, SeriesKind::bars, SeriesKind::line, SeriesKind::points})
         for (std::size_t i = 0; i < figure_.series.size(); ++i)
@@ -350,7 +354,7 @@ void FigurePanel::draw_series(DrawingSheet& sheet, std::size_t i) const
 {
     const FigureSeries& s = figure_.series[i];
     const std::string tone = colour(i);
-    if (s.kind == SeriesKind::band || (s.kind == SeriesKind::line && has_values(s)))
+    if (s.kind == SeriesKind::band || (look_.page && s.kind == SeriesKind::line && has_values(s)))
         draw_band(sheet, s, tone);
     if (s.kind == SeriesKind::band || !has_values(s))
         return;
