@@ -13,54 +13,21 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace stylobate {
 
-struct SoftWide {
-    using Register = double __attribute__((vector_size(16)));
+/// Which realizations of a register are meant.
+struct SoftMask {
     using Bits = std::int64_t __attribute__((vector_size(16)));
-
-    /// Which realizations of a register are meant.
-    struct Mask {
-        Bits v;
-        friend STYLOBATE_INLINE Mask operator&(Mask m, Mask n) { return {m.v & n.v}; }
-        friend STYLOBATE_INLINE Mask operator|(Mask m, Mask n) { return {m.v | n.v}; }
-        STYLOBATE_INLINE Mask operator!() const { return {~v}; }
-    };
-
-    Register v;
-
-    SoftWide() = default;
-    STYLOBATE_INLINE SoftWide(double all) : v{all, all} {}
-    STYLOBATE_INLINE SoftWide(Register r) : v(r) {}
-
-    friend STYLOBATE_INLINE SoftWide operator+(SoftWide a, SoftWide b) { return a.v + b.v; }
-    friend STYLOBATE_INLINE SoftWide operator-(SoftWide a, SoftWide b) { return a.v - b.v; }
-    friend STYLOBATE_INLINE SoftWide operator*(SoftWide a, SoftWide b) { return a.v * b.v; }
-    friend STYLOBATE_INLINE SoftWide operator/(SoftWide a, SoftWide b) { return a.v / b.v; }
-    friend STYLOBATE_INLINE Mask operator<(SoftWide a, SoftWide b) { return {a.v < b.v}; }
-    friend STYLOBATE_INLINE Mask operator>(SoftWide a, SoftWide b) { return {a.v > b.v}; }
-    friend STYLOBATE_INLINE Mask operator<=(SoftWide a, SoftWide b) { return {a.v <= b.v}; }
-    friend STYLOBATE_INLINE Mask operator>=(SoftWide a, SoftWide b) { return {a.v >= b.v}; }
-    friend STYLOBATE_INLINE Mask operator!=(SoftWide a, SoftWide b) { return {a.v != b.v}; }
-};
-
-template <>
-struct Lanes<SoftWide> {
-    using Number = double;
-    static constexpr int count = 2;
-    STYLOBATE_INLINE static SoftWide load(const double* from)
-    {
-        return *reinterpret_cast<const SoftWide::Register*>(from);
-    }
-    STYLOBATE_INLINE static void store(double* to, SoftWide value)
-    {
-        *reinterpret_cast<SoftWide::Register*>(to) = value.v;
-    }
+    Bits v;
+    friend STYLOBATE_INLINE SoftMask operator&(SoftMask m, SoftMask n) { return {m.v & n.v}; }
+    friend STYLOBATE_INLINE SoftMask operator|(SoftMask m, SoftMask n) { return {m.v | n.v}; }
+    STYLOBATE_INLINE SoftMask operator!() const { return {~v}; }
 };
 
 /// True if any realization of the register is meant.
-STYLOBATE_INLINE bool any(SoftWide::Mask mask)
+STYLOBATE_INLINE bool any(SoftMask mask)
 {
 #if defined(__wasm_simd128__)
     return __builtin_wasm_any_true_v128(reinterpret_cast<signed char __attribute__((vector_size(16)))>(mask.v));
@@ -69,82 +36,45 @@ STYLOBATE_INLINE bool any(SoftWide::Mask mask)
 #endif
 }
 
-STYLOBATE_INLINE SoftWide select(SoftWide::Mask mask, SoftWide yes, SoftWide no)
-{
-    using Bits = SoftWide::Bits;
-    return reinterpret_cast<SoftWide::Register>((mask.v & reinterpret_cast<Bits>(yes.v)) |
-                                                (~mask.v & reinterpret_cast<Bits>(no.v)));
-}
-STYLOBATE_INLINE SoftWide min_of(SoftWide a, SoftWide b)
-{
-    return select(a < b, a, b);
-}
-STYLOBATE_INLINE SoftWide max_of(SoftWide a, SoftWide b)
-{
-    return select(a > b, a, b);
-}
-STYLOBATE_INLINE SoftWide abs_of(SoftWide a)
-{
-    constexpr std::int64_t all_but_sign = ~(std::int64_t{1} << 63);
-    return reinterpret_cast<SoftWide::Register>(reinterpret_cast<SoftWide::Bits>(a.v) & all_but_sign);
-}
-STYLOBATE_INLINE SoftWide sqrt_of(SoftWide a)
-{
-#if defined(__wasm_simd128__)
-    return __builtin_wasm_sqrt_f64x2(a.v);
-#else
-    return SoftWide::Register{std::sqrt(a.v[0]), std::sqrt(a.v[1])};
-#endif
-}
-STYLOBATE_INLINE SoftWide round_of(SoftWide a)
-{
-#if defined(__wasm_simd128__)
-    return __builtin_wasm_nearest_f64x2(a.v);
-#else
-    return SoftWide::Register{std::nearbyint(a.v[0]), std::nearbyint(a.v[1])};
-#endif
-}
-STYLOBATE_INLINE SoftWide turn_sign(SoftWide a, SoftWide sign)
-{
-    constexpr std::int64_t sign_bit = std::int64_t{1} << 63;
-    return reinterpret_cast<SoftWide::Register>(reinterpret_cast<SoftWide::Bits>(a.v) ^
-                                                (reinterpret_cast<SoftWide::Bits>(sign.v) & sign_bit));
-}
-STYLOBATE_INLINE SoftWide power_of_two(SoftWide k)
-{
-    const SoftWide moved = k + SoftWide(0x1p52 + 1023);
-    return reinterpret_cast<SoftWide::Register>(reinterpret_cast<SoftWide::Bits>(moved.v) << 52);
-}
-STYLOBATE_INLINE SoftWide exponent_of(SoftWide a)
-{
-    const SoftWide::Bits biased = reinterpret_cast<SoftWide::Bits>(a.v) >> 52; // it is positive
-    const SoftWide::Bits whole = reinterpret_cast<SoftWide::Bits>(SoftWide(0x1p52).v);
-    return SoftWide(reinterpret_cast<SoftWide::Register>(biased | whole)) - SoftWide(0x1p52 + 1023);
-}
+namespace soft {
 
-namespace detail {
+using Register = double __attribute__((vector_size(16)));
+using Bits = SoftMask::Bits;
 
-/// The C library's.
-STYLOBATE_APART inline SoftWide::Register library_fma(SoftWide::Register a, SoftWide::Register b, SoftWide::Register c)
+constexpr std::int64_t sign_bit = std::numeric_limits<std::int64_t>::min();
+
+STYLOBATE_INLINE Bits to_bits(Register a)
 {
-    return SoftWide::Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+    return reinterpret_cast<Bits>(a);
 }
-
+STYLOBATE_INLINE Register from_bits(Bits a)
+{
+    return reinterpret_cast<Register>(a);
+}
+STYLOBATE_INLINE Register all(double a)
+{
+    return Register{a, a};
+}
+STYLOBATE_INLINE Register absolute(Register a)
+{
+    return from_bits(to_bits(a) & ~sign_bit);
+}
 /// The 26 leading bits, rounded.
-STYLOBATE_INLINE SoftWide::Register leading(SoftWide::Register a)
+STYLOBATE_INLINE Register leading(Register a)
 {
     constexpr std::int64_t half = std::int64_t{1} << 26, rest = 2 * half - 1;
-    return reinterpret_cast<SoftWide::Register>((reinterpret_cast<SoftWide::Bits>(a) + half) & ~rest);
+    return from_bits((to_bits(a) + half) & ~rest);
 }
 
-} // namespace detail
-
-STYLOBATE_INLINE SoftWide fma(SoftWide of_a, SoftWide of_b, SoftWide of_c)
+/// The C library's.
+STYLOBATE_APART inline Register library_fma(Register a, Register b, Register c)
 {
-    using Register = SoftWide::Register;
-    using Bits = SoftWide::Bits;
-    const Register a = of_a.v, b = of_b.v, c = of_c.v;
-    const Register a_high = detail::leading(a), a_low = a - a_high, b_high = detail::leading(b), b_low = b - b_high;
+    return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+}
+
+STYLOBATE_INLINE Register multiply_add(Register a, Register b, Register c)
+{
+    const Register a_high = leading(a), a_low = a - a_high, b_high = leading(b), b_low = b - b_high;
     const Register p = a * b;
     const Register e = (((p - a_high * b_high) - a_high * b_low) - a_low * b_high) - a_low * b_low;
     const Register s = p + c, of_s = s - p;
@@ -153,24 +83,129 @@ STYLOBATE_INLINE SoftWide fma(SoftWide of_a, SoftWide of_b, SoftWide of_c)
     // without an error of the product the correction is exact, and the nearer end gives the result
     constexpr double below = 1 - 0x1p-52, above = 1 + 0x1p-52;
     constexpr std::int64_t flip = std::bit_cast<std::int64_t>(below) ^ std::bit_cast<std::int64_t>(above);
-    const Bits far = reinterpret_cast<Bits>(Register{below, below}) ^ ((e != 0.0) & flip);
+    const Bits far = to_bits(Register{below, below}) ^ ((e != 0.0) & flip);
     const Register near_end = s - correction * below;
-    const Register far_end = s - correction * reinterpret_cast<Register>(far);
+    const Register far_end = s - correction * from_bits(far);
     constexpr double least = 0x1p-900;
-    const Register size = abs_of(SoftWide(p)).v;
+    const Register size = absolute(p);
     const Bits unsure = (near_end != far_end) | ((size < least) & (a != 0.0) & (b != 0.0));
-    if (any(SoftWide::Mask{unsure})) [[unlikely]]
-        return detail::library_fma(a, b, c);
+    if (any(SoftMask{unsure})) [[unlikely]]
+        return library_fma(a, b, c);
     return near_end;
 }
 
-STYLOBATE_INLINE SoftWide fnma(SoftWide a, SoftWide b, SoftWide c)
+STYLOBATE_APART inline Register called_multiply_add(Register a, Register b, Register c)
 {
-    return fma(SoftWide(-a.v), b, c);
+    return multiply_add(a, b, c);
 }
-STYLOBATE_INLINE SoftWide fms(SoftWide a, SoftWide b, SoftWide c)
+
+} // namespace soft
+
+/// @tparam called whether a multiply-add is a call: slower, with a tenth of the code
+template <bool called>
+struct SoftWideBy {
+    using Register = soft::Register;
+    using Mask = SoftMask;
+    Register v;
+
+    SoftWideBy() = default;
+    STYLOBATE_INLINE SoftWideBy(double all) : v(soft::all(all)) {}
+    STYLOBATE_INLINE SoftWideBy(Register r) : v(r) {}
+
+    friend STYLOBATE_INLINE SoftWideBy operator+(SoftWideBy a, SoftWideBy b) { return a.v + b.v; }
+    friend STYLOBATE_INLINE SoftWideBy operator-(SoftWideBy a, SoftWideBy b) { return a.v - b.v; }
+    friend STYLOBATE_INLINE SoftWideBy operator*(SoftWideBy a, SoftWideBy b) { return a.v * b.v; }
+    friend STYLOBATE_INLINE SoftWideBy operator/(SoftWideBy a, SoftWideBy b) { return a.v / b.v; }
+    friend STYLOBATE_INLINE Mask operator<(SoftWideBy a, SoftWideBy b) { return {a.v < b.v}; }
+    friend STYLOBATE_INLINE Mask operator>(SoftWideBy a, SoftWideBy b) { return {a.v > b.v}; }
+    friend STYLOBATE_INLINE Mask operator<=(SoftWideBy a, SoftWideBy b) { return {a.v <= b.v}; }
+    friend STYLOBATE_INLINE Mask operator>=(SoftWideBy a, SoftWideBy b) { return {a.v >= b.v}; }
+    friend STYLOBATE_INLINE Mask operator!=(SoftWideBy a, SoftWideBy b) { return {a.v != b.v}; }
+};
+using SoftWide = SoftWideBy<false>;
+
+template <bool called>
+struct Lanes<SoftWideBy<called>> {
+    using Number = double;
+    static constexpr int count = 2;
+    STYLOBATE_INLINE static SoftWideBy<called> load(const double* from)
+    {
+        return *reinterpret_cast<const soft::Register*>(from);
+    }
+    STYLOBATE_INLINE static void store(double* to, SoftWideBy<called> value)
+    {
+        *reinterpret_cast<soft::Register*>(to) = value.v;
+    }
+};
+
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> fma(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
 {
-    return fma(a, b, SoftWide(-c.v));
+    return called ? soft::called_multiply_add(a.v, b.v, c.v) : soft::multiply_add(a.v, b.v, c.v);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> fnma(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
+{
+    return fma(SoftWideBy<called>(-a.v), b, c);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> fms(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
+{
+    return fma(a, b, SoftWideBy<called>(-c.v));
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> select(SoftMask mask, SoftWideBy<called> yes, SoftWideBy<called> no)
+{
+    return soft::from_bits((mask.v & soft::to_bits(yes.v)) | (~mask.v & soft::to_bits(no.v)));
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> min_of(SoftWideBy<called> a, SoftWideBy<called> b)
+{
+    return select(a < b, a, b);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> max_of(SoftWideBy<called> a, SoftWideBy<called> b)
+{
+    return select(a > b, a, b);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> abs_of(SoftWideBy<called> a)
+{
+    return soft::absolute(a.v);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> sqrt_of(SoftWideBy<called> a)
+{
+#if defined(__wasm_simd128__)
+    return __builtin_wasm_sqrt_f64x2(a.v);
+#else
+    return soft::Register{std::sqrt(a.v[0]), std::sqrt(a.v[1])};
+#endif
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> round_of(SoftWideBy<called> a)
+{
+#if defined(__wasm_simd128__)
+    return __builtin_wasm_nearest_f64x2(a.v);
+#else
+    return soft::Register{std::nearbyint(a.v[0]), std::nearbyint(a.v[1])};
+#endif
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> turn_sign(SoftWideBy<called> a, SoftWideBy<called> sign)
+{
+    return soft::from_bits(soft::to_bits(a.v) ^ (soft::to_bits(sign.v) & soft::sign_bit));
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> power_of_two(SoftWideBy<called> k)
+{
+    return soft::from_bits(soft::to_bits(k.v + (0x1p52 + 1023)) << 52);
+}
+template <bool called>
+STYLOBATE_INLINE SoftWideBy<called> exponent_of(SoftWideBy<called> a)
+{
+    const soft::Bits biased = soft::to_bits(a.v) >> 52; // it is positive
+    return soft::from_bits(biased | soft::to_bits(soft::all(0x1p52))) - (0x1p52 + 1023);
 }
 
 } // namespace stylobate

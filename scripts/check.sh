@@ -63,7 +63,7 @@ gate_tidy() {
         git diff --name-only HEAD -- '*.cpp'
         git log -n 200 --name-only --format= -- '*.cpp'
         sources '*.cpp'
-    } | awk '!seen[$0]++' | grep -vE '^bench/peers/|^tests/bench/test_peers|^examples/|^tests/fuzz/fuzzer' | while read -r file; do
+    } | awk '!seen[$0]++' | grep -vE '^bench/peers/|^web/|^tests/bench/test_peers|^examples/|^tests/fuzz/fuzzer' | while read -r file; do
         [[ -f $file ]] && echo "$file"
     done)
     total=${#files[@]}

@@ -5,6 +5,9 @@ source/ and its place in the repository; so do the files that these link to. A l
 (`report.md`) is named by the title of the page instead. Texts become pages, other files pages with
 their content, pictures are copied, and a folder is its README. The links follow. A link to a file that does not exist
 stays as it is, and mkdocs reports it.
+
+Where scripts/web.sh has built the page of the browser, it becomes web/index.html of the site, and docs/browser.md links
+to it.
 """
 
 import pathlib
@@ -19,6 +22,9 @@ IMAGE = re.compile(r"(<img [^>]*?src=\")([^\"]+)(\")")  # pictures side by side 
 FENCE = re.compile(r"^\s*(```|~~~)")
 PICTURES = {".png", ".svg", ".gif", ".jpg"}
 LANGUAGES = {".hpp": "cpp", ".cpp": "cpp", ".cu": "cpp", ".cuh": "cpp", ".py": "python", ".sh": "bash", ".toml": "toml"}
+
+WEB_PAGE = "build/web/index.html"
+WEB_LINK = "<!-- link to the page -->"
 
 _staged = None  # the folder of what is added to docs/, for as long as mkdocs runs
 _root = None
@@ -119,12 +125,16 @@ def on_files(files, config):
             place.write_bytes((_root / path).read_bytes())
         if not files.get_file_from_path(place_of(path)):
             files.append(File(place_of(path), _staged.name, config["site_dir"], config["use_directory_urls"]))
+    if (_root / WEB_PAGE).is_file():
+        files.append(File("web/index.html", str(_root / "build"), config["site_dir"], config["use_directory_urls"]))
     return files
 
 
 def on_page_markdown(markdown, page, config, files):
     if page.file.src_uri.startswith("source/"):
         return markdown
+    if (_root / WEB_PAGE).is_file():
+        markdown = markdown.replace(WEB_LINK, "[Open the page](web/index.html)")
     return links_followed(markdown, "docs/" + page.file.src_uri)[0]
 
 

@@ -216,6 +216,8 @@ std::optional<std::string> key_text(const Key& key, const Value& value)
         return toml_quoted(word_for(key.names, value));
     else if constexpr (std::is_same_v<Value, int>)
         return std::to_string(value);
+    else if constexpr (std::is_unsigned_v<Value> && !std::is_same_v<Value, bool>)
+        return toml_text(std::uint64_t{value});
     else if constexpr (requires { value.empty(); })
         return value.empty() ? std::nullopt : std::optional(toml_text(value));
     else

@@ -59,6 +59,13 @@ private:
 
 } // namespace
 
+bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block)
+{
+    return std::none_of(blocks.begin(), blocks.end(), [&](const PlacedBlock& other) {
+        return other.column >= 0 && other.column == blocks[block].column && other.y_m > blocks[block].y_m;
+    });
+}
+
 AnimationStage animation_stage(const std::vector<PlacedBlock>& blocks)
 {
     double left = std::numeric_limits<double>::infinity(), right = -left, top = 0;

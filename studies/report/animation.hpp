@@ -15,6 +15,9 @@ namespace stylobate {
 
 struct PlacedBlock;
 
+/// Whether no block of its column is above a block; an epistyle is one.
+bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block);
+
 /// The drawing that trajectories are quantised for: the structure in the frame of its base, with room on all sides.
 struct AnimationStage {
     double px_m = 1;       ///< pixels per metre

@@ -7,6 +7,7 @@
 #include "studies/experiment/limit_state.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
+#include "studies/report/animation.hpp"
 
 #include <fmt/format.h>
 
@@ -83,13 +84,6 @@ std::string realization_title(const Results& results, std::uint64_t index)
         return title;
     const std::string shaking = shaking_words(results, results.reader().row(index));
     return shaking.empty() ? title : title + ": " + shaking;
-}
-
-bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block)
-{
-    return std::none_of(blocks.begin(), blocks.end(), [&](const PlacedBlock& other) {
-        return other.column >= 0 && other.column == blocks[block].column && other.y_m > blocks[block].y_m;
-    });
 }
 
 TracedMotion traced_motion(const Results& results, Isa isa, std::uint64_t index)

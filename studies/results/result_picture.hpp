@@ -17,8 +17,6 @@
 
 namespace stylobate {
 
-struct PlacedBlock;
-
 /// A realization over time, wherever it comes from; its number is that of the trajectory.
 struct TracedMotion {
     Trajectory trajectory;
@@ -38,9 +36,6 @@ std::optional<std::string> motion_words(const Results& results, const ResultRow&
 std::string shaking_words(const Results& results, const ResultRow& row);
 /// "column, realization 7: motion pulse_3 at PGV 0.8 m/s".
 std::string realization_title(const Results& results, std::uint64_t index);
-
-/// Whether no block of its column is above a block; an epistyle is one.
-bool is_top(const std::vector<PlacedBlock>& blocks, std::size_t block);
 
 /// One realization over time.
 /// @param title nullopt: from the results, the realization and its outcome

@@ -134,7 +134,7 @@ const std::set<std::string> not_in_kernels = {"iostream", "fstream", "sstream", 
                                               "mutex",    "future",  "memory",  "map",    "filesystem"};
 
 const std::set<std::string> folders = {"kernels", "ensemble", "io",       "studies", "library",
-                                       "include", "bench",    "examples", "tests",   "python"};
+                                       "include", "bench",    "examples", "tests",   "python", "web"};
 
 constexpr long most_lines = 600;
 constexpr std::size_t most_rooms = 45; ///< that one picture shows
@@ -378,7 +378,7 @@ TEST(House, NoTextNamesAMachine)
 TEST(House, EveryFolderSaysWhatItIs)
 {
     for (const char* folder : {"", "kernels", "ensemble", "io", "studies", "studies/inputs",
-                               "studies/evidence/verification", "library", "examples", "bench", "tests"})
+                               "studies/evidence/verification", "library", "examples", "bench", "tests", "web"})
         EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
 }
 
