@@ -375,6 +375,8 @@ private:
         add_word(*report, "-o,--output", output_,
                  "the page, .html, or its texts and tables as Markdown, .md, or JSON, .json (default: the file's name "
                  "with .html)");
+        add_word(*report, "--web", report_.web,
+                 "address of the page of docs/browser.md (scripts/web.sh): the page links to it with its study");
         add_word(*report, "--title", report_.title, "title of the page (default: study.title, or the file's name)");
         report
             ->add_option(

@@ -125,6 +125,15 @@ std::string base64(std::string_view bytes)
     return out;
 }
 
+std::string base64url(std::string_view bytes)
+{
+    std::string out = base64(bytes);
+    std::replace(out.begin(), out.end(), '+', '-');
+    std::replace(out.begin(), out.end(), '/', '_');
+    out.resize(std::min(out.find('='), out.size()));
+    return out;
+}
+
 Html svg_image(const std::filesystem::path& svg, std::string_view alternative)
 {
     std::ifstream in(svg, std::ios::binary);

@@ -52,6 +52,8 @@ Html data_script(std::string_view attributes, std::string_view json);
 
 /// RFC 4648.
 std::string base64(std::string_view bytes);
+/// The same with the letters of addresses and without padding (RFC 4648, section 5).
+std::string base64url(std::string_view bytes);
 
 /// The style of a page, and all its scripts one after the other, to stand in one block of braces: the files of
 /// `studies/report/page`, which the build embeds into the program.

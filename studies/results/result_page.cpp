@@ -43,8 +43,9 @@ std::string interval_text(const Share& share)
 class ResultPage {
 public:
     ResultPage(const Results& results, Isa isa, const std::optional<std::string>& title,
-               const KeptAnimations& animations, const std::optional<LawBand>& laws, std::vector<std::string>& warnings)
-        : results_(results), isa_(isa), animations_(animations), laws_(laws), reader_(results.reader()),
+               const KeptAnimations& animations, const std::optional<LawBand>& laws,
+               const std::optional<std::string>& web, std::vector<std::string>& warnings)
+        : results_(results), isa_(isa), animations_(animations), laws_(laws), web_(web), reader_(results.reader()),
           header_(results.header()), warnings_(warnings), study_(results.study()), kind_(results.concluded()),
           rows_(results.trials()), counts_(kind_.counts()),
           page_(title.value_or("Results: " + results.title()), subtitle(header_)),
@@ -427,6 +428,10 @@ private:
                                    "realization, bitwise identical\n",
                                    name);
         page_.block(commands);
+        if (web_)
+            page_.paragraph(Html::ready(fmt::format("<a href=\"{}#study={}\">Open the study in the browser</a>, "
+                                                    "without a program.",
+                                                    html_escaped(*web_), base64url(header_.study_toml))));
         page_.details("The study with all defaults", [&] { page_.block(header_.study_toml); });
     }
 
@@ -469,6 +474,7 @@ private:
     const Isa isa_;
     const KeptAnimations& animations_;
     const std::optional<LawBand>& laws_;
+    const std::optional<std::string>& web_;
     const ResultReader& reader_;
     const ResultHeader& header_;
     std::vector<std::string>& warnings_;
@@ -489,9 +495,9 @@ private:
 
 Document result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
                      const KeptAnimations& animations, const std::optional<LawBand>& laws,
-                     std::vector<std::string>& warnings)
+                     const std::optional<std::string>& web, std::vector<std::string>& warnings)
 {
-    return ResultPage(results, isa, title, animations, laws, warnings).page();
+    return ResultPage(results, isa, title, animations, laws, web, warnings).page();
 }
 
 } // namespace stylobate

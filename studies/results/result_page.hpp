@@ -20,10 +20,12 @@ namespace stylobate {
 /// @param title of the page; nullopt: by the study or the file
 /// @param animations of `keep_animations`
 /// @param laws over contact laws; none: the page states which command measures it
+/// @param web address of the page that computes a study in the browser (docs/browser.md), to which the page links;
+/// nullopt: none
 /// @param warnings receives a line for each picture that could not be drawn
 /// @throws InputError if the run is not complete
 Document result_page(const Results& results, Isa isa, const std::optional<std::string>& title,
                      const KeptAnimations& animations, const std::optional<LawBand>& laws,
-                     std::vector<std::string>& warnings);
+                     const std::optional<std::string>& web, std::vector<std::string>& warnings);
 
 } // namespace stylobate

@@ -42,6 +42,9 @@ AnimationOptions animation_options(const PageRequest& request, const Machine& ma
 void check_no_realizations(const PageRequest& request, const char* kind)
 {
     check_no_settings(request.settings, request.file);
+    if (request.web)
+        throw InputError(
+            fmt::format("--web: {} is a {}, whose page has no study to open in the browser", request.file, kind));
     if (request.animate || request.animate_mb || request.animate_seconds)
         throw InputError(
             fmt::format("--animate{}: {} is a {} and contains no realizations to choose from; its page has "
@@ -84,7 +87,7 @@ MadePage page_of_results(const PageRequest& request, const Machine& machine, Wor
     if (!observer.stop_requested())
         page.text = written(request, result_page(results, machine.isa(), request.title, animations,
                                                  law_band_beside(request.file, results.study(), results.header()),
-                                                 page.warnings));
+                                                 request.web, page.warnings));
     return page;
 }
 

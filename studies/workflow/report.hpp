@@ -14,6 +14,7 @@ struct PageRequest {
     std::string file;
     std::optional<std::string> output{};     ///< .html, .md or .json; none: the page, not written
     std::optional<std::string> title{};      ///< nullopt: by the study or the file
+    std::optional<std::string> web{};        ///< address of the page that computes studies in the browser, to be linked
     std::vector<std::string> settings{};     ///< only the present path of the study's record
     std::optional<std::uint64_t> animate{};  ///< N that fell and N that stood, of each cell
     std::optional<double> animate_mb{};      ///< of all animations together [1e6 bytes]

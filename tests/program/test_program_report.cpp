@@ -73,6 +73,23 @@ TEST_F(Report, OfASingleRealizationAndOfAReplay)
     EXPECT_EQ(facts.substr(0, facts.find("</details>")).find("2 from"), std::string::npos) << facts;
 }
 
+TEST_F(Report, LinksToThePageOfTheBrowser)
+{
+    expect_done({"run", rocking_report_study, "-o", "one.h5", "--quiet"});
+    expect_done({"report", "one.h5", "--quiet"});
+    EXPECT_EQ(page("one.html").find("#study="), std::string::npos);
+    expect_done({"report", "one.h5", "--quiet", "--force", "--web", "https://example.org/a&b/"});
+    const std::string html = page("one.html");
+    const std::string link = "<a href=\"https://example.org/a&amp;b/#study=";
+    const std::size_t at = html.find(link);
+    ASSERT_NE(at, std::string::npos);
+    const std::string study = html.substr(at + link.size(), html.find('"', at + link.size()) - at - link.size());
+    EXPECT_GT(study.size(), 500U);
+    EXPECT_EQ(study.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"),
+              std::string::npos);
+    EXPECT_TRUE(study.starts_with("W3N0dWR5XQ")) << study.substr(0, 20); // "[study]"
+}
+
 TEST_F(Report, OfADiagnosis)
 {
     write_diagnosis(filled_diagnosis(), folder / "diagnosis.h5");
