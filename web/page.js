@@ -6,6 +6,7 @@ const part = (id) => document.getElementById(id);
 class Growth {
   constructor(figure) {
     this.figure = figure;
+    this.waiting = null; ///< the drawing that is due
     this.clear(1);
   }
 
@@ -21,7 +22,10 @@ class Growth {
     const last = this.points.at(-1);
     if (last && of <= last.of) return;
     this.points.push({of, share, lower, upper});
-    this.draw();
+    this.waiting ??= requestAnimationFrame(() => {
+      this.waiting = null;
+      this.draw();
+    });
   }
 
   draw() {

@@ -49,7 +49,8 @@ std::span<const std::size_t> AgreeingStates::between(const Order& order, double 
                                         [&](std::size_t r, double limit) { return value(r) < limit; });
     const auto end =
         std::upper_bound(begin, order.states.end(), to, [&](double limit, std::size_t r) { return limit < value(r); });
-    return {begin, end};
+    return std::span(order.states)
+        .subspan(static_cast<std::size_t>(begin - order.states.begin()), static_cast<std::size_t>(end - begin));
 }
 
 void AgreeingStates::each(const std::vector<double>& seen, const std::function<void(std::size_t)>& f) const
