@@ -30,7 +30,7 @@ std::string colonnade(const std::string& columns, const std::string& epistyles, 
 Study portal_study(const std::string& structure, const std::string& excitation = "kind = \"none\"\nduration_s = 1\n",
                    const std::string& contact = "")
 {
-    return parse_study("[study]\nkind = \"single\"\n" + structure +
+    return parse_study("[study]\nkind = \"single\"\nrealizations = 20\n" + structure +
                            "[contact]\nnormal_stiffness_n_m3 = 1e9\nfriction = 0.7\n" + contact + "[excitation]\n" +
                            excitation,
                        "portal.toml");
