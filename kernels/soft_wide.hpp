@@ -6,8 +6,8 @@
 /// "The Art of Computer Programming", volume 2, 4.2.2), so that the exact result is s - (t + e). Of t + e only the
 /// rounded value is known. The exact value is within 2^-52 of it, relatively; where both ends of that interval round to
 /// the same number, this is the result (the rounding test of Ziv, ACM Transactions on Mathematical Software 17 (1991)
-/// 410). All other cases, also those in which a part of the product may underflow or overflow, are rare and left to the
-/// C library, whose `fma` must be exact (a test compares it). The combination is an own derivation.
+/// 410). All other cases, also those in which a part of the product may underflow or overflow, are rare; the C
+/// library's `fma` has them, which must be exact. The combination is an own derivation.
 
 #include "kernels/real.hpp"
 
@@ -66,13 +66,12 @@ STYLOBATE_INLINE Register leading(Register a)
     return from_bits((to_bits(a) + half) & ~rest);
 }
 
-/// The C library's.
-STYLOBATE_APART inline Register library_fma(Register a, Register b, Register c)
-{
-    return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
-}
-
-STYLOBATE_INLINE Register multiply_add(Register a, Register b, Register c)
+/// A multiply-add, and where it is not known to be rounded correctly.
+struct Tried {
+    Register value;
+    Bits unsure;
+};
+STYLOBATE_INLINE Tried try_multiply_add(Register a, Register b, Register c)
 {
     const Register a_high = leading(a), a_low = a - a_high, b_high = leading(b), b_low = b - b_high;
     const Register p = a * b;
@@ -80,29 +79,48 @@ STYLOBATE_INLINE Register multiply_add(Register a, Register b, Register c)
     const Register s = p + c, of_s = s - p;
     const Register t = ((s - of_s) - p) + (of_s - c); // of two zeros +0, so that s - t keeps the sign of s
     const Register correction = t + e;
-    // without an error of the product the correction is exact, and the nearer end gives the result
-    constexpr double below = 1 - 0x1p-52, above = 1 + 0x1p-52;
-    constexpr std::int64_t flip = std::bit_cast<std::int64_t>(below) ^ std::bit_cast<std::int64_t>(above);
-    const Bits far = to_bits(Register{below, below}) ^ ((e != 0.0) & flip);
-    const Register near_end = s - correction * below;
-    const Register far_end = s - correction * from_bits(far);
+    // it is exact where one of the two is zero
+    const Bits inexact = (t != 0.0) & (e != 0.0);
+    const Register margin = correction * from_bits(inexact & to_bits(all(0x1p-52)));
+    const Register near_end = s - (correction - margin), far_end = s - (correction + margin);
     constexpr double least = 0x1p-900;
     const Register size = absolute(p);
     const Bits unsure = (near_end != far_end) | ((size < least) & (a != 0.0) & (b != 0.0));
-    if (any(SoftMask{unsure})) [[unlikely]]
-        return library_fma(a, b, c);
-    return near_end;
+    return {near_end, unsure};
 }
 
-STYLOBATE_APART inline Register called_multiply_add(Register a, Register b, Register c)
-{
-    return multiply_add(a, b, c);
-}
+/// Unsure ones are left to the C library. A function that is called: there would be too much code otherwise.
+struct ByLibrary {
+    STYLOBATE_APART static Register library(Register a, Register b, Register c)
+    {
+        return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+    }
+    STYLOBATE_APART static Register multiply_add(Register a, Register b, Register c)
+    {
+        const Tried tried = try_multiply_add(a, b, c);
+        if (any(SoftMask{tried.unsure})) [[unlikely]]
+            return library(a, b, c);
+        return tried.value;
+    }
+};
+
+/// Unsure ones are noted, and have any bits: all that was computed since the note was cleared is then to be done again
+/// by the library. Nothing branches, and nothing has to be kept beside calls.
+struct Noted {
+    inline static Bits unsure{}; ///< of one thread
+    static bool any_unsure() { return any(SoftMask{unsure}); }
+    STYLOBATE_INLINE static Register multiply_add(Register a, Register b, Register c)
+    {
+        const Tried tried = try_multiply_add(a, b, c);
+        unsure |= tried.unsure;
+        return tried.value;
+    }
+};
 
 } // namespace soft
 
-/// @tparam called whether a multiply-add is a call: slower, with a tenth of the code
-template <bool called>
+/// @tparam Method of multiply-adds
+template <class Method>
 struct SoftWideBy {
     using Register = soft::Register;
     using Mask = SoftMask;
@@ -122,59 +140,59 @@ struct SoftWideBy {
     friend STYLOBATE_INLINE Mask operator>=(SoftWideBy a, SoftWideBy b) { return {a.v >= b.v}; }
     friend STYLOBATE_INLINE Mask operator!=(SoftWideBy a, SoftWideBy b) { return {a.v != b.v}; }
 };
-using SoftWide = SoftWideBy<false>;
+using SoftWide = SoftWideBy<soft::ByLibrary>;
 
-template <bool called>
-struct Lanes<SoftWideBy<called>> {
+template <class Method>
+struct Lanes<SoftWideBy<Method>> {
     using Number = double;
     static constexpr int count = 2;
-    STYLOBATE_INLINE static SoftWideBy<called> load(const double* from)
+    STYLOBATE_INLINE static SoftWideBy<Method> load(const double* from)
     {
         return *reinterpret_cast<const soft::Register*>(from);
     }
-    STYLOBATE_INLINE static void store(double* to, SoftWideBy<called> value)
+    STYLOBATE_INLINE static void store(double* to, SoftWideBy<Method> value)
     {
         *reinterpret_cast<soft::Register*>(to) = value.v;
     }
 };
 
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> fma(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> fma(SoftWideBy<Method> a, SoftWideBy<Method> b, SoftWideBy<Method> c)
 {
-    return called ? soft::called_multiply_add(a.v, b.v, c.v) : soft::multiply_add(a.v, b.v, c.v);
+    return Method::multiply_add(a.v, b.v, c.v);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> fnma(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> fnma(SoftWideBy<Method> a, SoftWideBy<Method> b, SoftWideBy<Method> c)
 {
-    return fma(SoftWideBy<called>(-a.v), b, c);
+    return fma(SoftWideBy<Method>(-a.v), b, c);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> fms(SoftWideBy<called> a, SoftWideBy<called> b, SoftWideBy<called> c)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> fms(SoftWideBy<Method> a, SoftWideBy<Method> b, SoftWideBy<Method> c)
 {
-    return fma(a, b, SoftWideBy<called>(-c.v));
+    return fma(a, b, SoftWideBy<Method>(-c.v));
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> select(SoftMask mask, SoftWideBy<called> yes, SoftWideBy<called> no)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> select(SoftMask mask, SoftWideBy<Method> yes, SoftWideBy<Method> no)
 {
     return soft::from_bits((mask.v & soft::to_bits(yes.v)) | (~mask.v & soft::to_bits(no.v)));
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> min_of(SoftWideBy<called> a, SoftWideBy<called> b)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> min_of(SoftWideBy<Method> a, SoftWideBy<Method> b)
 {
     return select(a < b, a, b);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> max_of(SoftWideBy<called> a, SoftWideBy<called> b)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> max_of(SoftWideBy<Method> a, SoftWideBy<Method> b)
 {
     return select(a > b, a, b);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> abs_of(SoftWideBy<called> a)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> abs_of(SoftWideBy<Method> a)
 {
     return soft::absolute(a.v);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> sqrt_of(SoftWideBy<called> a)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> sqrt_of(SoftWideBy<Method> a)
 {
 #if defined(__wasm_simd128__)
     return __builtin_wasm_sqrt_f64x2(a.v);
@@ -182,8 +200,8 @@ STYLOBATE_INLINE SoftWideBy<called> sqrt_of(SoftWideBy<called> a)
     return soft::Register{std::sqrt(a.v[0]), std::sqrt(a.v[1])};
 #endif
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> round_of(SoftWideBy<called> a)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> round_of(SoftWideBy<Method> a)
 {
 #if defined(__wasm_simd128__)
     return __builtin_wasm_nearest_f64x2(a.v);
@@ -191,18 +209,18 @@ STYLOBATE_INLINE SoftWideBy<called> round_of(SoftWideBy<called> a)
     return soft::Register{std::nearbyint(a.v[0]), std::nearbyint(a.v[1])};
 #endif
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> turn_sign(SoftWideBy<called> a, SoftWideBy<called> sign)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> turn_sign(SoftWideBy<Method> a, SoftWideBy<Method> sign)
 {
     return soft::from_bits(soft::to_bits(a.v) ^ (soft::to_bits(sign.v) & soft::sign_bit));
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> power_of_two(SoftWideBy<called> k)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> power_of_two(SoftWideBy<Method> k)
 {
     return soft::from_bits(soft::to_bits(k.v + (0x1p52 + 1023)) << 52);
 }
-template <bool called>
-STYLOBATE_INLINE SoftWideBy<called> exponent_of(SoftWideBy<called> a)
+template <class Method>
+STYLOBATE_INLINE SoftWideBy<Method> exponent_of(SoftWideBy<Method> a)
 {
     const soft::Bits biased = soft::to_bits(a.v) >> 52; // it is positive
     return soft::from_bits(biased | soft::to_bits(soft::all(0x1p52))) - (0x1p52 + 1023);

@@ -29,7 +29,7 @@ cmake -S web -B build/web/engine -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOO
 cmake --build build/web/engine --parallel "$(nproc)"
 
 version=$(sed -n 's/^project(stylobate VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
-python3 web/assemble.py build/web/engine/stylobate.js build/web/engine/stylobate.wasm "$version" build/web/index.html
+python3 web/assemble.py build/web/engine/stylobate.{js,wasm} build/web/engine/fused.wasm "$version" build/web/index.html
 if [[ -n $site ]]; then
     mkdir -p "$site/web"
     cp build/web/index.html "$site/web/index.html"

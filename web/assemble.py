@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the page: style, scripts and the packed engine in one file, which needs nothing beside it.
 
-    assemble.py ENGINE_JS ENGINE_WASM VERSION OUTPUT
+    assemble.py ENGINE_JS ENGINE_WASM FUSED_WASM VERSION OUTPUT
 """
 
 import base64
@@ -21,11 +21,15 @@ def joined(files):
     return "\n".join(file.read_text() for file in files)
 
 
-def main(glue, wasm, version, output):
-    packed = gzip.compress(pathlib.Path(wasm).read_bytes(), 9, mtime=0)
+def packed(wasm):
+    return base64.b64encode(gzip.compress(pathlib.Path(wasm).read_bytes(), 9, mtime=0)).decode()
+
+
+def main(glue, wasm, fused, version, output):
     parts = {
         "STYLE": joined(STYLES),
-        "ENGINE": base64.b64encode(packed).decode(),
+        "ENGINE": packed(wasm),
+        "FUSED": packed(fused),
         "GLUE": pathlib.Path(glue).read_text(),
         "WORKER": (WEB / "worker.js").read_text(),
         "SCRIPTS": joined(SCRIPTS),
@@ -46,6 +50,6 @@ def main(glue, wasm, version, output):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 6:
         sys.exit(__doc__)
     main(*sys.argv[1:])

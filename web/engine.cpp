@@ -6,6 +6,7 @@
 #include "ensemble/run/executor.hpp"
 #include "io/records/record.hpp"
 #include "io/study/study_file.hpp"
+#include "kernels/fused_steps.hpp"
 #include "studies/experiment/loaded_study.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
@@ -27,12 +28,19 @@
 EM_JS(void, deliver, (double place, double index, int state, const double* numbers, int count),
       { Module.deliver(place, index, state, HEAPF64.slice(numbers >> 3, (numbers >> 3) + count)); });
 
+// The steps of the module of fused.cpp.
+EM_JS(void, step_planar, (const void* topology, const void* bundle, int first, int last),
+      { Module.fused.fused_planar(topology, bundle, first, last); });
+EM_JS(void, step_spatial, (const void* topology, const void* bundle, int first, int last),
+      { Module.fused.fused_spatial(topology, bundle, first, last); });
+
 namespace stylobate {
 namespace {
 
 const char* const study_name = "study.toml"; ///< as messages and the page call it
 
 std::optional<LoadedStudy> opened;
+std::optional<Experiment> shown; ///< the same, with falls to the ground where the model has them
 Progress tallied;
 DoneSet done;
 std::string reply; ///< the last text that was returned
@@ -98,6 +106,17 @@ using namespace stylobate;
 
 extern "C" {
 
+/// From now on the steps are those of `Module.fused`.
+EMSCRIPTEN_KEEPALIVE void use_fused()
+{
+    fused_steps.planar = [](const Topology* topology, const Bundle* bundle, int first, int last) {
+        step_planar(topology, bundle, first, last);
+    };
+    fused_steps.spatial = [](const spatial::Topology* topology, const spatial::Bundle* bundle, int first, int last) {
+        step_spatial(topology, bundle, first, last);
+    };
+}
+
 /// Reads a study, with the records that lie in the file system of the instance.
 /// @returns its description, or {"error": message}, the program's own
 EMSCRIPTEN_KEEPALIVE const char* open_study(const char* text)
@@ -107,6 +126,10 @@ EMSCRIPTEN_KEEPALIVE const char* open_study(const char* text)
         std::ofstream(study_name, std::ios::binary) << text;
         opened.emplace(LoadedStudy::from_file(study_name, {}));
         check_kind(opened->study());
+        Study to_rest = opened->study();
+        if (!to_rest.structure.spatial())
+            to_rest.outcome.follow = Follow::rest;
+        shown.emplace(std::move(to_rest), opened->experiment().motions());
         tallied = {};
         tallied.total = opened->study().total();
         done = DoneSet(RunOrder(tallied.total));
@@ -187,12 +210,13 @@ EMSCRIPTEN_KEEPALIVE const char* count_outcome(double place, int state)
     });
 }
 
-/// One realization in motion, for the player of the program's pages, with its outcome.
+/// One realization in motion, for the player of the program's pages, with its state; in the plane until all that fell
+/// is at rest.
 EMSCRIPTEN_KEEPALIVE const char* trace_one(double index)
 {
     return answered([&] {
         const Study& study = opened->study();
-        const TracedRealization traced = trace(opened->experiment(), static_cast<std::uint64_t>(index), best_isa());
+        const TracedRealization traced = trace(*shown, static_cast<std::uint64_t>(index), best_isa());
         KeptAnimations kept = animations_for(study);
         Animation animation = animation_of(traced.trajectory, kept.stage, animation_stride(study));
         animation.index = traced.realization.index;

@@ -16,8 +16,8 @@ function whyNoEngine() {
 class EngineError extends Error {}
 
 class EngineWorker {
-  /** @param code of the worker, as a URL   @param module the compiled engine */
-  constructor(code, module) {
+  /** @param code of the worker, as a URL   @param modules the compiled engine and its fused steps, or null */
+  constructor(code, modules) {
     this.worker = new Worker(code);
     this.waiting = new Map();
     this.last = 0;
@@ -26,7 +26,7 @@ class EngineWorker {
       for (const {refuse} of this.waiting.values()) refuse(new EngineError(event.message));
       this.waiting.clear();
     };
-    this.ready = this.call("start", [module]);
+    this.ready = this.call("start", modules);
   }
 
   /** @param each called with each list of outcomes that come before the reply */
@@ -58,22 +58,29 @@ class EngineWorker {
 class Engine {
   static async load() {
     const text = (id) => document.getElementById(id).textContent;
-    const packed = Uint8Array.from(atob(text("engine-packed")), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+    const compiled = async (id) => {
+      const packed = Uint8Array.from(atob(text(id)), (letter) => letter.charCodeAt(0));
+      const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+      return WebAssembly.compile(await new Response(stream).arrayBuffer());
+    };
+    const module = await compiled("engine-packed");
+    const fused = await compiled("fused-packed").catch(() => null); // refused where there are no such instructions
     const code = URL.createObjectURL(new Blob([text("engine-glue"), text("engine-worker")], {type: "text/javascript"}));
-    return new Engine(code, module);
+    return new Engine(code, [module, fused]);
   }
 
-  constructor(code, module) {
+  /** @param modules as of `EngineWorker` */
+  constructor(code, modules) {
     this.code = code;
-    this.module = module;
+    this.modules = modules;
     this.files = new Map(); ///< records, by their names
-    this.desk = new EngineWorker(code, module);
+    this.desk = new EngineWorker(code, modules);
     this.crew = [];
   }
 
-  get ready() { return this.desk.ready; }
+  /** Whether steps have the processor's multiply-adds; known when it is ready. */
+  fused = false;
+  async ready() { this.fused = (await this.desk.ready).fused; }
 
   async addFile(name, bytes) {
     this.files.set(name, bytes);
@@ -89,7 +96,7 @@ class Engine {
 
   /** A worker that has the records, and has opened a study. */
   async worker(study) {
-    const worker = new EngineWorker(this.code, this.module);
+    const worker = new EngineWorker(this.code, this.modules);
     this.crew.push(worker);
     await worker.ready;
     for (const [name, bytes] of this.files) await worker.call("write_file", [name, bytes]);

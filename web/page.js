@@ -7,7 +7,6 @@ class Growth {
   constructor(figure) {
     this.figure = figure;
     this.waiting = null; ///< the drawing that is due
-    this.clear(1);
   }
 
   /** @param total the end of the axis */
@@ -149,7 +148,7 @@ class Page {
       this.player = playerOf(store, store.list);
       part("player").replaceChildren(this.player.element);
       part("shown").textContent = stateWords[state] ?? state;
-      this.player.toggle();
+      if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.player.toggle();
     });
   }
 
@@ -175,7 +174,8 @@ class Page {
       }
       this.seconds = (performance.now() - start) / 1000;
       part("rate").textContent += ` ${this.seconds.toFixed(1)} s, ${
-          (this.opened.facts.realizations / this.seconds).toFixed(1)} realizations per second.`;
+          (this.opened.facts.realizations / this.seconds).toFixed(1)} realizations per second, with ${
+          this.engine.fused ? "the processor's multiply-adds" : "multiply-adds computed from sums and products"}.`;
     });
   }
 
@@ -250,7 +250,7 @@ class Page {
     return;
   }
   const engine = await Engine.load();
-  await engine.ready;
+  await engine.ready();
   globalThis.page = new Page(engine);
   await globalThis.page.show();
   document.documentElement.dataset.alive = "yes";

@@ -10,12 +10,13 @@ const sliders = [
   {name: "friction", label: "Friction", from: 0.1, to: 1.2, value: 0.68, step: 0.01, unit: ""},
   {name: "damping", label: "Damping ratio", from: 0.01, to: 0.5, value: 0.1, log: true, unit: ""},
   {name: "frequency", label: "Frequency", from: 0.3, to: 15, value: 3, log: true, unit: "Hz"},
-  {name: "pga", label: "PGA", from: 0.5, to: 20, value: 4, step: 0.1, unit: "m/s²"},
+  {name: "pga", label: "PGA", from: 0.5, to: 20, value: 2.2, step: 0.1, unit: "m/s²"},
 ];
 
 /** A number with three digits, as TOML and people write it. */
 function shortNumber(value) {
-  return String(Number(value.toPrecision(3)));
+  const rounded = Number(value.toPrecision(3));
+  return rounded >= 1e5 ? rounded.toExponential().replace("+", "") : String(rounded);
 }
 
 /** The study's number (TOML): a real one has a point or an exponent. */
@@ -47,12 +48,12 @@ function studyText(s) {
     lines.push('kind = "record"', `file = ${JSON.stringify(s.record.file)}`);
     if (s.record.unit) lines.push(`unit = "${s.record.unit}"`);
     if (s.record.component) lines.push(`component = ${JSON.stringify(s.record.component)}`);
-    lines.push("baseline = true");
+    lines.push("baseline = true", `scale_to_pga_m_s2 = ${real(s.pga)}`);
   } else {
     lines.push('kind = "harmonic"', 'start = "smooth"', 'end = "smooth"', "ramp_cycles = 2", "cycles = 10");
-    lines.push(`frequency_hz = ${real(s.frequency)}`);
+    lines.push(`frequency_hz = ${real(s.frequency)}`, `pga_m_s2 = ${real(s.pga)}`);
   }
-  lines.push(`pga_m_s2 = ${real(s.pga)}`, "", "# What differs from one realization to the next.", "[perturbation]",
+  lines.push("", "# What differs from one realization to the next.", "[perturbation]",
              'friction = { distribution = "normal", cov = 0.10, min = 0.05, max = 2.0, per = "joint" }',
              'normal_stiffness = { distribution = "lognormal", sigma_ln = 0.7, per = "structure" }',
              `drum_width = { distribution = "normal", sd_m = ${real(0.004 * s.width)}, per = "block" }`,

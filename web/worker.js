@@ -17,10 +17,15 @@ const argumentTypes = {
   trace_one: ["number"],
 };
 
-async function start(module) {
+/** @param fusedModule of steps with the processor's multiply-adds; null: the browser has none */
+async function start(module, fusedModule) {
+  let memory = null;
   engine = await stylobateModule({
     instantiateWasm(imports, done) {
-      WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
+      WebAssembly.instantiate(module, imports).then((instance) => {
+        memory = instance.exports.memory;
+        done(instance, module);
+      });
       return {};
     },
     deliver(place, index, state, numbers) {
@@ -28,6 +33,28 @@ async function start(module) {
       if (batch.length === 8) sendBatch();
     },
   });
+  if (fusedModule) await addFused(fusedModule, memory);
+}
+
+/** Takes the steps of a module that shares the engine's memory, if its multiply-adds round once. */
+async function addFused(fusedModule, memory) {
+  const stackBytes = 1 << 18, room = engine._malloc(stackBytes);
+  const number = (value, mutable = false) => new WebAssembly.Global({value: "i32", mutable}, value);
+  const instance = await WebAssembly.instantiate(fusedModule, {env: {
+    memory,
+    __stack_pointer: number((room + stackBytes) & ~15, true),
+    __memory_base: number(0),
+    __table_base: number(0),
+    memcpy: (to, from, bytes) => {
+      new Uint8Array(memory.buffer).copyWithin(to, from, from + bytes);
+      return to;
+    },
+  }});
+  const cases = (room + 15) & ~15;
+  new Float64Array(memory.buffer, cases, 6).set([1 + 2 ** -30, 3, 1 - 2 ** -30, 1 / 3, -1, -1]);
+  if (!instance.exports.is_fused(cases)) return;
+  engine.fused = instance.exports;
+  engine.ccall("use_fused", null, [], []);
 }
 
 function answer({id, name, args}) {
@@ -43,8 +70,8 @@ function answer({id, name, args}) {
 
 onmessage = async ({data}) => {
   try {
-    if (data.name === "start") await start(data.args[0]);
-    postMessage({id: data.id, reply: data.name === "start" ? {} : answer(data)});
+    if (data.name === "start") await start(...data.args);
+    postMessage({id: data.id, reply: data.name === "start" ? {fused: Boolean(engine.fused)} : answer(data)});
   } catch (error) { // the engine itself has failed: not what it says of a study
     postMessage({id: data.id, reply: {error: `The engine failed: ${error.message ?? error}`}});
   }
