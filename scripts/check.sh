@@ -52,7 +52,7 @@ gate_headers() {
         -DFMT_SHARED '-DSTYLOBATE_SOURCE_DIR=""' '-DSTYLOBATE_DATA_DIR=""' '-DSTYLOBATE_PROGRAM=""' -mavx2 -mfma
         -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align -Wconversion -Werror
         -Wno-pragma-once-outside-header -Wno-unused-const-variable -Wno-unused-function)
-    sources '*.hpp' | grep -v '^bench/peers/' | xargs -P "$jobs" -n 1 clang++ "${flags[@]}"
+    sources '*.hpp' | grep -vE '^bench/peers/|^web/' | xargs -P "$jobs" -n 1 clang++ "${flags[@]}"
 }
 
 gate_tidy() {

@@ -133,8 +133,8 @@ const std::map<std::string, std::set<std::string>> library_folders = {
 const std::set<std::string> not_in_kernels = {"iostream", "fstream", "sstream", "cstdio", "stdio.h",   "thread",
                                               "mutex",    "future",  "memory",  "map",    "filesystem"};
 
-const std::set<std::string> folders = {"kernels", "ensemble", "io",       "studies", "library",
-                                       "include", "bench",    "examples", "tests",   "python", "web"};
+const std::set<std::string> folders = {"kernels", "ensemble", "io",    "studies", "library", "include",
+                                       "bench",   "examples", "tests", "python",  "web"};
 
 constexpr long most_lines = 600;
 constexpr std::size_t most_rooms = 45; ///< that one picture shows

@@ -132,7 +132,10 @@ TEST(SoftWide, WithoutTheLibraryItIsRightOrItIsNoted)
     const double third = 1.0 / 3;
     EXPECT_TRUE(sure(third, 0.1, 7.0)); // as nearly all of the engine's
     EXPECT_TRUE(sure(0.0, third, 0.0));
-    EXPECT_TRUE(sure(1.0, 1.0, 0x1p-53)); // a tie of an exact product
+    EXPECT_TRUE(sure(1.0, 1.0, 0x1p-53));              // a tie of an exact product
+    EXPECT_TRUE(sure(3.0, 0x1.833184b649a25p-5, 0.0)); // of an exact sum
+    EXPECT_TRUE(sure(third, 3.0, -1.0));               // the error of a product
+    EXPECT_FALSE(sure(1e-200, 1e-200, 1.0));           // it underflows
 }
 
 TEST(SoftWide, TiesAndSignedZerosAreThoseOfTheStandard)
