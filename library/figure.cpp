@@ -1,67 +1,24 @@
 #include "stylobate/figure.hpp"
 
-#include "io/plots/figure.hpp"
 #include "io/plots/plot_structure.hpp"
+#include "io/plots/plot_surface.hpp"
 #include "library/inside.hpp"
-#include "studies/kinds/surface/surface_kind.hpp"
-#include "studies/report/html_figure.hpp"
-#include "studies/report/html_map.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
 #include <utility>
 
 namespace stylobate::api {
 
 namespace {
 
-void replace_every(std::string& text, std::string_view what, std::string_view by)
-{
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-        text.replace(at, what.size(), by);
-}
+/// As wide as the place where it stands, at most as large as it is.
+constexpr char fits[] = "style=\"max-width:100%;height:auto\"";
+constexpr inner::FigureLook paper{1, false};
 
-/// The colours of paper by their names, "--ink": the first block of the style of a page.
-std::vector<std::pair<std::string, std::string>> paper_colours()
-{
-    std::vector<std::pair<std::string, std::string>> colours;
-    const std::string_view style = inner::page_style();
-    const std::size_t end = style.find('}', style.find(":root"));
-    for (std::size_t at = 0; (at = style.find("--", at)) < end;) {
-        const std::size_t colon = style.find(':', at), stop = style.find(';', at);
-        const std::size_t value = style.find_first_not_of(' ', colon + 1);
-        colours.emplace_back(style.substr(at, colon - at), style.substr(value, stop - value));
-        at = stop;
-    }
-    return colours;
-}
-
-/// What the style of a page gives to a drawing becomes a part of the drawing.
-std::string on_paper(std::string drawing)
-{
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> looks = {
-        {{"class=\"axis\"", "stroke=\"var(--axis)\""},
-         {"class=\"grid\"", "stroke=\"var(--grid)\""},
-         {"class=\"empty-cell\"", "fill=\"var(--line)\""},
-         {"class=\"on-colour\"", "fill=\"#000\""},
-         {"font-family=\"inherit\"",
-          "font-family=\"sans-serif\" fill=\"var(--ink)\" style=\"background:#fff;max-width:100%;height:auto\""}}};
-    for (const auto& [from, to] : looks)
-        replace_every(drawing, from, to);
-    for (const auto& [name, colour] : paper_colours())
-        replace_every(drawing, "var(" + name + ")", colour);
-    return drawing;
-}
-
-/// Without the first line of a document, to stand within another one.
 std::string structure_of(const inner::Study& study)
 {
-    const std::string drawing =
-        translated([&] { return inner::structure_sheet(study, study.title.value_or("")).svg(); });
-    return drawing.substr(drawing.find("<svg"));
+    return translated([&] { return inner::structure_sheet(study, study.title.value_or("")).element(); });
 }
 
 inner::SeriesKind inner_kind(SeriesKind kind)
@@ -96,7 +53,7 @@ std::string svg(const Figure& figure)
     drawn.x_ticks = figure.x_ticks;
     for (const FigureSeries& series : figure.series)
         drawn.series.push_back(inner_series(series));
-    return on_paper(inner::figure_drawing(drawn));
+    return inner::FigurePanel(drawn, paper).sheet(330).element(fits);
 }
 
 std::string svg(const Surface& surface)
@@ -114,7 +71,10 @@ std::string svg(const Surface& surface)
     return translated([&] {
         if (!inner::has_all_cells(table))
             throw inner::InputError("a surface with arrays that do not fit its axes");
-        return on_paper(inner::map_svg(inner::surface_map(table, surface.limit_state)).markup);
+        const inner::PictureSize size{640, 496};
+        inner::DrawingSheet sheet(size, paper.letters());
+        inner::draw_surface(sheet, paper, table, surface.limit_state, {12, 10, 1.0 * size.width, size.height - 2.0});
+        return sheet.element(fits);
     });
 }
 

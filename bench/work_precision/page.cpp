@@ -1,11 +1,12 @@
 #include "bench/work_precision/page.hpp"
 
-#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/structure/step_bound.hpp"
 #include "ensemble/run/executor.hpp"
+#include "io/plots/figure_file.hpp"
 #include "studies/evidence/verification/model.hpp"
 #include "studies/evidence/verification/rigid_block.hpp"
 #include "studies/evidence/verification/trials.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <limits>
 #include <stdexcept>

@@ -101,7 +101,8 @@ public:
 
     /// Draws the structure to scale with its dimensions, nothing drawn at random: .png, .svg or .pdf. A
     /// file that is there is replaced.
-    /// @throws InputError for another ending, if librsvg is missing (of .png and .pdf), or if the file cannot be written
+    /// @throws InputError for another ending, if librsvg is missing (of .png and .pdf), or if the file cannot be
+    /// written
     void draw(const std::filesystem::path& picture) const;
 
     Check(const Check&) = default;

@@ -26,7 +26,8 @@ struct FigureSeries {
     std::vector<double> low;  ///< as many as x, or empty
     std::vector<double> high; ///< as many as x, or empty
     // The file of a diagnosis does not keep these.
-    std::optional<std::string> group = {};  ///< has one colour and one entry of the legend, its own name; nullopt: that of the series
+    std::optional<std::string> group =
+        {}; ///< has one colour and one entry of the legend, its own name; nullopt: that of the series
     std::optional<std::string> layer = {};  ///< what of its group it is ("fitted curve"); layers can be switched off
     std::optional<std::string> colour = {}; ///< "#rrggbb"; nullopt: that of its place in the list
     bool dashed = false;
@@ -37,7 +38,7 @@ struct FigureSeries {
 /// A rectangle of one colour: a cell of a map.
 struct FigureCell {
     double left = 0, right = 0, low = 0, high = 0;
-    std::string colour; ///< "#rrggbb"
+    std::string colour; ///< "#rrggbb"; "": nothing is known there
 };
 
 /// A figure as data; who shows it draws it.

@@ -91,6 +91,12 @@ std::string FigureLook::series(std::size_t number) const
     return page ? fmt::format("var(--s{})", place) : std::string(series_colours[place]);
 }
 
+std::string FigureLook::cell(const std::string& colour) const
+{
+    return page && colour.empty() ? "class=\"empty-cell\""
+                                  : fmt::format("fill=\"{}\"", colour.empty() ? "#b8b8b8" : colour);
+}
+
 FigurePanel::FigurePanel(const Figure& figure, FigureLook look) : figure_(figure), look_(look)
 {
     side_by_side_ = bars_meet(figure);
@@ -325,10 +331,8 @@ void FigurePanel::draw(DrawingSheet& sheet, const PlotFrame& frame, bool x_label
     if (beyond) // a mark on the frame is whole
         sheet.clip(frame.left - 6 * look_.unit, frame.top - 6 * look_.unit, frame.right + 6 * look_.unit,
                    frame.bottom + 6 * look_.unit);
-    for (const FigureCell& cell : figure_.cells)
-        // a cell reaches under its neighbours, which are drawn after it, so that no light comes between them
-        sheet.rectangle(x_.px(cell.left), y_.px(cell.low), std::min(x_.px(cell.right) + 0.5 * look_.unit, frame.right),
-                        std::max(y_.px(cell.high) - 0.5 * look_.unit, frame.top), cell.colour);
+    if (!figure_.cells.empty())
+        draw_cells(sheet, frame);
     if (!look_.page) // no band lies on another's line; on a page a series with its band is one group, to be switched
         for (std::size_t i = 0; i < figure_.series.size(); ++i)
             if (const FigureSeries& s = figure_.series[i]; s.kind == SeriesKind::line && has_values(s))
@@ -348,6 +352,20 @@ void FigurePanel::draw(DrawingSheet& sheet, const PlotFrame& frame, bool x_label
     if (empty_)
         sheet.text("no data", (frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2, look_.letters(),
                    TextAt::center, look_.ink());
+}
+
+/// Each cell has its number, by which the script of a page finds it.
+void FigurePanel::draw_cells(DrawingSheet& sheet, const PlotFrame& frame) const
+{
+    const double seam = 0.5 * look_.unit; // a cell reaches under its neighbours: no light comes between them
+    sheet.open("shape-rendering=\"crispEdges\"");
+    for (std::size_t k = 0; k < figure_.cells.size(); ++k) {
+        const FigureCell& cell = figure_.cells[k];
+        sheet.cell(x_.px(cell.left), y_.px(cell.low), std::min(x_.px(cell.right) + seam, frame.right),
+                   std::max(y_.px(cell.high) - seam, frame.top),
+                   fmt::format("data-cell=\"{}\" {}", k, look_.cell(cell.colour)));
+    }
+    sheet.close();
 }
 
 void FigurePanel::draw_series(DrawingSheet& sheet, std::size_t i) const
@@ -465,18 +483,33 @@ void FigurePanel::draw_band(DrawingSheet& sheet, const FigureSeries& s, const st
     close();
 }
 
+DrawingSheet FigurePanel::sheet(double height)
+{
+    constexpr double width = 900;
+    constexpr double left = 86; // room for six digits and the label of the axis
+    constexpr double right = 884;
+    const double unit = look_.unit;
+    DrawingSheet sheet({static_cast<int>(width * unit), 0}, look_.letters());
+    const double top = 14 * unit + draw_legend(sheet, left * unit, right * unit, 4 * unit);
+    const double bottom = top + height * unit;
+    draw(sheet, {left * unit, top, right * unit, bottom});
+    sheet.set_height(static_cast<int>(std::ceil(bottom + room_below((right - left) * unit))));
+    return sheet;
+}
+
 void draw_colour_scale(DrawingSheet& sheet, const FigureLook& look, const PlotFrame& strip, PlotScale scale,
                        const std::string& label, const std::function<std::string(double value)>& colour)
 {
     scale.first_px = strip.bottom;
     scale.last_px = strip.top;
     constexpr int steps = 64;
+    sheet.open("class=\"scale\"");
     const double high = (strip.bottom - strip.top) / steps;
     for (int k = 0; k < steps; ++k) {
         const double part = (k + 0.5) / steps;
-        sheet.rectangle(strip.left, strip.bottom - k * high, strip.right,
-                        std::max(strip.bottom - (k + 1) * high - 0.5 * look.unit, strip.top),
-                        colour(scale.from + part * (scale.to - scale.from)));
+        sheet.cell(strip.left, strip.bottom - k * high, strip.right,
+                   std::max(strip.bottom - (k + 1) * high - 0.5 * look.unit, strip.top),
+                   look.cell(colour(scale.from + part * (scale.to - scale.from))));
     }
     double widest = 0;
     for (const PlotScale::Tic& tic : scale.tics()) {
@@ -485,77 +518,11 @@ void draw_colour_scale(DrawingSheet& sheet, const FigureLook& look, const PlotFr
         widest = std::max(widest, DrawingSheet::width(tic.text, look.letters()));
     }
     if (!label.empty())
-        sheet.text(label, strip.right + 20 * look.unit + widest, (strip.top + strip.bottom) / 2,
+        sheet.text(label, strip.right + 20 * look.unit + (look.page ? 1.45 : 1) * widest, // type grows on narrow screens
+                   (strip.top + strip.bottom) / 2,
                    DrawingSheet::fitting(label, strip.bottom - strip.top + 40 * look.unit, look.letters()),
                    TextAt::center, look.ink(), true);
-}
-
-void write_figure(const Figure& figure, const std::string& title, const std::string& subtitle,
-                  const std::filesystem::path& file, PictureSize size)
-{
-    const FigureLook look{size.width / 800.0, false};
-    DrawingSheet sheet(size, look.letters());
-    FigurePanel panel(figure, look);
-    PlotFrame frame;
-    frame.top = sheet.heading(title, subtitle);
-    frame.left = 20 * look.unit + panel.room_left();
-    frame.right = size.width - 24 * look.unit;
-    frame.top += panel.draw_legend(sheet, frame.left, frame.right, frame.top) + 8 * look.unit;
-    frame.bottom = size.height - 12 * look.unit - panel.room_below(frame.right - frame.left);
-    panel.draw(sheet, frame);
-    sheet.write(file);
-}
-
-namespace {
-
-/// The entries of a figure's legend.
-std::vector<std::string> names_of(const Figure& figure)
-{
-    std::vector<std::string> names;
-    for (const FigureSeries& s : figure.series)
-        if (!s.name.empty() && std::find(names.begin(), names.end(), s.name) == names.end())
-            names.push_back(s.name);
-    return names;
-}
-
-} // namespace
-
-void write_figures(const std::vector<Figure>& figures, std::size_t columns, const std::string& title,
-                   const std::string& subtitle, const std::filesystem::path& file, PictureSize size, double unit)
-{
-    const FigureLook look{unit > 0 ? unit : size.width / 900.0, false};
-    unit = look.unit;
-    const double margin = 16 * unit;
-    DrawingSheet sheet(size, look.letters());
-    double top = title.empty() ? 4 * unit : sheet.heading(title, subtitle);
-    const bool one_legend = std::all_of(figures.begin(), figures.end(), [&](const Figure& figure) {
-        return names_of(figure).empty() || names_of(figure) == names_of(figures.front());
-    });
-    if (one_legend && !figures.empty())
-        top += FigurePanel(figures.front(), look).draw_legend(sheet, 2 * margin, size.width - margin, top);
-    const std::size_t rows = (figures.size() + columns - 1) / columns;
-    const double wide = (size.width - 2 * margin) / static_cast<double>(columns);
-    const double high = (size.height - margin - top) / static_cast<double>(std::max<std::size_t>(rows, 1));
-    std::vector<double> room(columns, 0); // frames below one another begin at one place
-    for (std::size_t k = 0; k < figures.size(); ++k)
-        room[k % columns] = std::max(room[k % columns], FigurePanel(figures[k], look).room_left());
-    for (std::size_t k = 0; k < figures.size(); ++k) {
-        FigurePanel panel(figures[k], look);
-        const double left = margin + wide * static_cast<double>(k % columns);
-        const double above = top + high * static_cast<double>(k / columns);
-        PlotFrame frame{left + room[k % columns], above + 10 * unit, left + wide - 10 * unit, 0};
-        if (!figures[k].title.empty()) {
-            sheet.text(figures[k].title, (frame.left + frame.right) / 2, above + 14 * unit,
-                       DrawingSheet::fitting(figures[k].title, wide - 2 * margin, 1.1 * look.letters()), TextAt::center,
-                       look.ink());
-            frame.top += 18 * unit;
-        }
-        if (!one_legend)
-            frame.top += panel.draw_legend(sheet, frame.left, frame.right, frame.top - 6 * unit);
-        frame.bottom = above + high - 6 * unit - panel.room_below(frame.right - frame.left);
-        panel.draw(sheet, frame);
-    }
-    sheet.write(file);
+    sheet.close();
 }
 
 } // namespace stylobate

@@ -6,7 +6,6 @@
 #include "io/plots/sheet.hpp"
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,6 +22,8 @@ struct FigureLook {
     std::string axis() const { return page ? "var(--axis)" : "#5a6672"; }
     std::string grid() const { return page ? "var(--grid)" : "#dfe3e7"; }
     std::string ink() const { return page ? "" : "#1f2933"; } ///< of texts
+    /// Attributes of a cell. @param colour "#rrggbb"; "": nothing is known there
+    std::string cell(const std::string& colour) const;
     std::string lines() const { return page ? "var(--ink)" : "#1f2933"; }
 };
 
@@ -51,6 +52,9 @@ public:
     /// The axes and all series. @param labels whether the axes have their labels, along x and along y
     void draw(DrawingSheet& sheet, const PlotFrame& frame, bool x_labels = true, bool y_labels = true);
 
+    /// The whole figure on a sheet of its own: legend, axes, series. @param height of the frame [px of a page]
+    DrawingSheet sheet(double height);
+
     /// The axes, as drawn.
     const PlotScale& x() const { return x_; }
     const PlotScale& y() const { return y_; }
@@ -68,6 +72,7 @@ private:
     void set_ranges();
     void draw_axes(DrawingSheet& sheet, const PlotFrame& frame, bool x_labels, bool y_labels) const;
     void draw_x_numbers(DrawingSheet& sheet, const PlotFrame& frame) const;
+    void draw_cells(DrawingSheet& sheet, const PlotFrame& frame) const;
     void draw_series(DrawingSheet& sheet, std::size_t i) const;
     void draw_band(DrawingSheet& sheet, const FigureSeries& s, const std::string& tone) const;
     void draw_line(DrawingSheet& sheet, const FigureSeries& s, const std::string& tone) const;
@@ -92,17 +97,5 @@ private:
 /// @param colour of a value of the scale, "#rrggbb"   @param scale its pixels are set here
 void draw_colour_scale(DrawingSheet& sheet, const FigureLook& look, const PlotFrame& strip, PlotScale scale,
                        const std::string& label, const std::function<std::string(double value)>& colour);
-
-/// Writes a picture of one figure below a heading, with its legend.
-/// @throws InputError as `write_picture`
-void write_figure(const Figure& figure, const std::string& title, const std::string& subtitle,
-                  const std::filesystem::path& file, PictureSize size = {});
-
-/// Several figures side by side and below one another, each under its own title; the names of the series stand once
-/// above them all, those of the first figure, unless the others have other names: then each has its own.
-/// @param columns >= 1   @param unit pixels for each of a page's figure; 0: by the width
-void write_figures(const std::vector<Figure>& figures, std::size_t columns, const std::string& title,
-                   const std::string& subtitle, const std::filesystem::path& file, PictureSize size = {},
-                   double unit = 0);
 
 } // namespace stylobate

@@ -2,7 +2,7 @@
 
 #include "io/plots/colours.hpp"
 #include "io/plots/contour.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/plot_surface.hpp"
 #include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,6 @@ namespace stylobate {
 namespace {
 
 constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
-constexpr const char* grey = "#b8b8b8";
 
 const MapClass* class_of(const std::vector<MapClass>& classes, double value)
 {
@@ -27,28 +26,18 @@ const MapClass* class_of(const std::vector<MapClass>& classes, double value)
     return found;
 }
 
-/// The cells of a panel with their axes.
-Figure cells_figure(const MapPicture& picture, const MapPanel& panel, const CellAxis& f, const CellAxis& a)
+/// The cells of a panel with their axes, and the lines of the picture's function.
+Figure panel_figure(const MapPicture& picture, const MapPanel& panel, const CellAxis& f, const CellAxis& a)
 {
-    Figure figure;
-    figure.x_label = picture.row_quantity().label;
-    figure.y_label = "peak ground acceleration [m/s²]";
-    figure.x_log = f.log;
-    figure.y_log = a.log;
-    figure.x_range = {f.edges.front(), f.edges.back()};
-    figure.y_range = {a.edges.front(), a.edges.back()};
-    const std::size_t np = picture.pga_m_s2.size();
-    for (std::size_t cell = 0; cell < panel.value.size(); ++cell) {
-        const std::size_t i = cell / np, j = cell % np;
+    Figure figure = cells_figure(picture, [&](std::size_t cell) -> std::string {
         const double value = panel.value[cell];
-        const MapClass* of = std::isnan(value) ? nullptr : class_of(panel.classes, value);
-        std::string colour = grey;
-        if (of != nullptr)
-            colour = of->colour;
-        else if (!std::isnan(value) && panel.classes.empty())
-            colour = viridis_colour((value - panel.low) / (panel.high - panel.low));
-        figure.cells.push_back({f.edges[i], f.edges[i + 1], a.edges[j], a.edges[j + 1], std::move(colour)});
-    }
+        if (std::isnan(value))
+            return "";
+        if (panel.classes.empty())
+            return viridis_colour((value - panel.low) / (panel.high - panel.low));
+        const MapClass* of = class_of(panel.classes, value);
+        return of == nullptr ? "" : of->colour;
+    });
     if (picture.line.empty())
         return figure;
     // Lines of the picture's function through the middles of the cells, dark under white: seen on every colour.
@@ -134,7 +123,7 @@ void plot_maps(const MapPicture& picture, const std::filesystem::path& png)
     const double high = (size.height - 100.0 - top) / static_cast<double>(rows);
     for (std::size_t k = 0; k < picture.panels.size(); ++k) {
         const MapPanel& panel = picture.panels[k];
-        const Figure figure = cells_figure(picture, panel, f, a);
+        const Figure figure = panel_figure(picture, panel, f, a);
         FigurePanel drawn(figure, look);
         const double left = margin + wide * static_cast<double>(k % columns);
         const double above = top + high * static_cast<double>(k / columns);

@@ -2,7 +2,8 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/colours.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/contour.hpp"
+#include "io/plots/figure_file.hpp"
 #include "io/store/surface_axis.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,6 @@ namespace stylobate {
 namespace {
 
 constexpr std::array<double, 3> contour_levels{0.05, 0.5, 0.95};
-constexpr char no_trial[] = "#b8b8b8";
 constexpr std::size_t most_slices = 6; ///< that can be told apart
 
 /// The nodes of the contour grid along one axis: the cells' centres, and the frame, to which the outer cells reach.
@@ -83,6 +83,14 @@ ContourPoint label_place(const std::vector<ContourLine>& own, const std::vector<
     return best;
 }
 
+/// The contour lines of one probability, and where its name is best written, in the unit square of the frame (an axis
+/// logarithmic where its values are spaced so).
+struct SurfaceContour {
+    double level = 0;
+    std::vector<ContourLine> lines; ///< none: the surface does not reach it
+    ContourPoint label;             ///< where there is a line
+};
+
 std::vector<SurfaceContour> contours_on(const SurfaceTable& surface, const CellAxis& f, const CellAxis& a)
 {
     std::vector<SurfaceContour> all;
@@ -112,26 +120,6 @@ std::vector<ContourLine> range_contour(const SurfaceTable& surface, const std::v
     return contours(other, f, a, 0.5);
 }
 
-/// The cells of a surface with their axes, as a figure.
-Figure surface_cells(const SurfaceTable& surface, const CellAxis& rows, const CellAxis& pga)
-{
-    Figure figure;
-    figure.x_label = surface.row_quantity().label;
-    figure.y_label = "peak ground acceleration [m/s²]";
-    figure.x_log = rows.log;
-    figure.y_log = pga.log;
-    figure.x_range = {rows.edges.front(), rows.edges.back()};
-    figure.y_range = {pga.edges.front(), pga.edges.back()};
-    const std::size_t np = pga.values.size();
-    for (std::size_t cell = 0; cell < surface.probability.size(); ++cell) {
-        const std::size_t i = cell / np, j = cell % np;
-        const double p = surface.probability[cell];
-        figure.cells.push_back({rows.edges[i], rows.edges[i + 1], pga.edges[j], pga.edges[j + 1],
-                                std::isfinite(p) ? viridis_colour(p) : no_trial});
-    }
-    return figure;
-}
-
 std::string subtitle(const SurfaceTable& surface)
 {
     double widest = 0;
@@ -144,69 +132,95 @@ std::string subtitle(const SurfaceTable& surface)
 
 } // namespace
 
-std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface)
+Figure cells_figure(const SurfaceAxes& axes, const std::function<std::string(std::size_t cell)>& colour)
 {
-    const CellAxis rows = make_cell_axis(surface.rows(), surface.row_quantity().key);
-    const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
-    return contours_on(surface, rows, pga);
+    const CellAxis rows = make_cell_axis(axes.rows(), axes.row_quantity().key);
+    const CellAxis pga = make_cell_axis(axes.pga_m_s2, "pga_m_s2");
+    Figure figure;
+    figure.x_label = axes.row_quantity().label;
+    figure.y_label = "peak ground acceleration [m/s²]";
+    figure.x_log = rows.log;
+    figure.y_log = pga.log;
+    figure.x_range = {rows.edges.front(), rows.edges.back()};
+    figure.y_range = {pga.edges.front(), pga.edges.back()};
+    for (std::size_t i = 0; i < rows.values.size(); ++i)
+        for (std::size_t j = 0; j < pga.values.size(); ++j)
+            figure.cells.push_back(
+                {rows.edges[i], rows.edges[i + 1], pga.edges[j], pga.edges[j + 1], colour(i * pga.values.size() + j)});
+    return figure;
 }
 
-void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
-                  const std::filesystem::path& png, const std::optional<SurfaceRange>& range)
+PlotFrame draw_surface(DrawingSheet& sheet, const FigureLook& look, const SurfaceTable& surface,
+                       const std::string& limit, const PlotFrame& room, const std::optional<SurfaceRange>& range)
 {
-    const std::string below_title = subtitle(surface);
     const CellAxis rows = make_cell_axis(surface.rows(), surface.row_quantity().key);
     const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
-    const Figure figure = surface_cells(surface, rows, pga);
-    const PictureSize size;
-    const FigureLook look = picture_look;
+    Figure figure = cells_figure(surface, [&](std::size_t cell) {
+        const double p = surface.probability[cell];
+        return std::isfinite(p) ? viridis_colour(p) : "";
+    });
+    if (look.page) // there is less room
+        figure.y_label = "PGA [m/s²]";
     const double unit = look.unit;
-    DrawingSheet sheet(size, look.letters());
-    PlotFrame frame{0, sheet.heading(title, below_title), 0.86 * size.width, 0};
-    if (range) {
-        const std::string words = range->words + "; dashed: 0.5 of the lowest and the highest";
-        sheet.text(words, size.width / 2.0, frame.top + 4 * unit,
-                   DrawingSheet::fitting(words, 0.9 * size.width, 12 * unit), TextAt::center, "#a34e00");
-        frame.top += 12 * unit;
-    }
-    frame.top += 10 * unit;
     FigurePanel panel(figure, look);
-    frame.left = 12 * unit + panel.room_left();
-    frame.bottom = size.height - 16 * unit - panel.room_below(frame.right - frame.left);
+    PlotFrame frame{room.left + panel.room_left(), room.top, room.right - (look.page ? 100 : 90) * unit, 0};
+    frame.bottom = room.bottom - panel.room_below(frame.right - frame.left);
     panel.draw(sheet, frame);
     const auto on_sheet = [&](const ContourPoint& p) {
         return std::array<double, 2>{frame.left + p.x * (frame.right - frame.left),
                                      frame.bottom - p.y * (frame.bottom - frame.top)};
     };
     const auto draw = [&](const std::vector<ContourLine>& lines, const char* colour, double width,
-                          const char* dashes = "") {
+                          const std::string& dashes = "") {
         for (const ContourLine& line : lines) {
             std::vector<std::array<double, 2>> points;
             for (const ContourPoint& p : line)
                 points.push_back(on_sheet(p));
-            sheet.path(points, colour, width, dashes);
+            sheet.path(points, colour, width * unit, dashes);
         }
     };
+    sheet.open("class=\"contours\" pointer-events=\"none\"");
     const std::vector<SurfaceContour> all = contours_on(surface, rows, pga);
     for (const SurfaceContour& contour : all) {
         // A dark line under a white one is seen on every colour.
-        draw(contour.lines, "#202020", 6.8);
-        draw(contour.lines, "#ffffff", contour.level == 0.5 ? 4 : 2.8);
+        draw(contour.lines, "#202020", 3);
+        draw(contour.lines, "#ffffff", contour.level == 0.5 ? 1.8 : 1.3);
     }
     if (range)
         for (const std::vector<double>* end : {&range->low, &range->high})
-            draw(range_contour(surface, *end, rows, pga), "#ff7f0e", 5.2, "14 10");
+            draw(range_contour(surface, *end, rows, pga), "#ff7f0e", 2.3, fmt::format("{} {}", 6 * unit, 4.5 * unit));
     for (const SurfaceContour& contour : all)
         if (!contour.lines.empty()) {
             const auto [x, y] = on_sheet(contour.label);
             sheet.boxed_text(fmt::format("{}", contour.level), x, y, look.letters());
         }
-    const double strip = frame.right + 22 * unit;
+    sheet.close();
     PlotScale scale;
     scale.from = 0;
     scale.to = 1;
-    draw_colour_scale(sheet, look, {strip, frame.top, strip + 20 * unit, frame.bottom}, scale,
+    const double strip = frame.right + 20 * unit;
+    draw_colour_scale(sheet, look, {strip, frame.top, strip + 18 * unit, frame.bottom}, scale,
                       "probability of " + limit, viridis_colour);
+    return frame;
+}
+
+void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
+                  const std::filesystem::path& png, const std::optional<SurfaceRange>& range)
+{
+    const std::string below_title = subtitle(surface);
+    const PictureSize size;
+    const FigureLook look = picture_look;
+    const double unit = look.unit;
+    DrawingSheet sheet(size, look.letters());
+    PlotFrame room{12 * unit, sheet.heading(title, below_title) + 10 * unit, static_cast<double>(size.width),
+                   size.height - 16 * unit};
+    if (range) {
+        const std::string words = range->words + "; dashed: 0.5 of the lowest and the highest";
+        sheet.text(words, size.width / 2.0, room.top - 6 * unit,
+                   DrawingSheet::fitting(words, 0.9 * size.width, 12 * unit), TextAt::center, "#a34e00");
+        room.top += 12 * unit;
+    }
+    draw_surface(sheet, look, surface, limit, room, range);
     if (std::any_of(surface.probability.begin(), surface.probability.end(), [](double p) { return !std::isfinite(p); }))
         sheet.text("grey: no valid realization", size.width - 12 * unit, size.height - 16 * unit, 12 * unit,
                    TextAt::right, "#505050");

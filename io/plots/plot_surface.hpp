@@ -1,10 +1,11 @@
 #pragma once
 /// The picture of a surface of the probability of a limit state.
 
-#include "io/plots/contour.hpp"
+#include "io/plots/figure_panel.hpp"
 #include "io/store/result_store.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,16 +30,18 @@ struct SurfaceRange {
 void plot_surface(const SurfaceTable& surface, const std::string& limit, const std::string& title,
                   const std::filesystem::path& png, const std::optional<SurfaceRange>& range = {});
 
-/// The contour lines of one probability, and where its name is best written, in the unit square of the picture's frame
-/// (an axis logarithmic where its values are spaced so).
-struct SurfaceContour {
-    double level = 0;
-    std::vector<ContourLine> lines; ///< none: the surface does not reach it
-    ContourPoint label;             ///< where there is a line
-};
-/// At 0.05, 0.5 and 0.95.
-/// @throws InputError as `plot_surface` does, of the axes
-std::vector<SurfaceContour> surface_contours(const SurfaceTable& surface);
+/// The cells over the axes of a surface, as a figure.
+/// @param colour of a cell, "#rrggbb"; "": nothing is known there
+/// @throws InputError if an axis is empty or not ascending
+Figure cells_figure(const SurfaceAxes& axes, const std::function<std::string(std::size_t cell)>& colour);
+
+/// The map of `plot_surface` on a sheet, for pages and notebooks: cells, axes, contour lines and a scale of colours.
+/// The contour lines and the scale are groups of the classes "contours" and "scale", and each cell has its number in
+/// `data-cell`, so that the script of a page can paint them anew.
+/// @param room for all of it   @returns the frame of the cells
+/// @throws InputError as `plot_surface` does, of the axes and the range
+PlotFrame draw_surface(DrawingSheet& sheet, const FigureLook& look, const SurfaceTable& surface,
+                       const std::string& limit, const PlotFrame& room, const std::optional<SurfaceRange>& range = {});
 
 // The picture of fragility slices: the probability of a limit state against PGA at given frequencies or directions.
 

@@ -79,12 +79,17 @@ double DrawingSheet::fitting(std::string_view words, double pixels, double most)
     return std::min(most, most * pixels / std::max(width(words, most), 1.0));
 }
 
-void DrawingSheet::rectangle(double left, double top, double right, double bottom, std::string_view fill,
-                             std::string_view line, double opacity)
+void DrawingSheet::cell(double left, double top, double right, double bottom, std::string_view attributes)
 {
-    elements_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" style=\"{}\"/>\n",
-                             px(std::min(left, right)), px(std::min(top, bottom)), px(std::abs(right - left)),
-                             px(std::abs(bottom - top)), fill_and_line(fill, line, 1.6, opacity));
+    elements_ +=
+        fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", px(std::min(left, right)),
+                    px(std::min(top, bottom)), px(std::abs(right - left)), px(std::abs(bottom - top)), attributes);
+}
+
+void DrawingSheet::rectangle(double left, double top, double right, double bottom, std::string_view fill,
+                             std::string_view line, double opacity, double width)
+{
+    cell(left, top, right, bottom, fmt::format("style=\"{}\"", fill_and_line(fill, line, width, opacity)));
 }
 
 void DrawingSheet::polygon(const std::vector<std::array<double, 2>>& points, std::string_view fill,
@@ -244,13 +249,18 @@ double DrawingSheet::heading(std::string_view title, std::string_view subtitle)
     return 160 * unit;
 }
 
+std::string DrawingSheet::element(std::string_view attributes) const
+{
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+        "font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{2}\"{4}{5}>\n<rect width=\"{0}\" height=\"{1}\" "
+        "style=\"fill:#ffffff\"/>\n{3}</svg>\n",
+        size_.width, size_.height, px(letters_), elements_, attributes.empty() ? "" : " ", attributes);
+}
+
 std::string DrawingSheet::svg() const
 {
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
-                       "Verdana, sans-serif\" font-size=\"{2}\">\n<rect width=\"{0}\" height=\"{1}\" "
-                       "style=\"fill:#ffffff\"/>\n{3}</svg>\n",
-                       size_.width, size_.height, px(letters_), elements_);
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + element();
 }
 
 void DrawingSheet::write(const std::filesystem::path& file) const

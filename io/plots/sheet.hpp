@@ -33,7 +33,9 @@ public:
     explicit DrawingSheet(PictureSize size, double letters = 13) : size_(size), letters_(letters) {}
 
     void rectangle(double left, double top, double right, double bottom, std::string_view fill,
-                   std::string_view line = {}, double opacity = 1);
+                   std::string_view line = {}, double opacity = 1, double width = 1.6);
+    /// A rectangle without a line, which scripts may paint anew. @param attributes of its element: "fill=\"#440154\""
+    void cell(double left, double top, double right, double bottom, std::string_view attributes);
     /// @param fill and line "": none   @param points of its corners, x and y
     void polygon(const std::vector<std::array<double, 2>>& points, std::string_view fill, std::string_view line = {},
                  double width = 1.6, double opacity = 1);
@@ -73,8 +75,11 @@ public:
     /// A picture as it is. @throws InputError as `write_picture`
     void write(const std::filesystem::path& file) const;
 
-    /// The whole sheet as a document of SVG.
+    /// The whole sheet as a document of SVG, and as an element of another document. @param attributes of the element
     std::string svg() const;
+    std::string element(std::string_view attributes = {}) const;
+    /// For drawings whose height follows from what is on them.
+    void set_height(int height) { size_.height = height; }
     /// What is on the sheet, as elements of SVG.
     const std::string& elements() const { return elements_; }
     /// Where the texts on the sheet lie, by `text_width`.

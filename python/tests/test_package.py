@@ -74,13 +74,13 @@ def test_the_documentation_has_every_public_name():
     code = " ".join(re.findall(r"```.*?```|`[^`]*`", page, re.S))
     named = set(re.findall(r"\w+", code))
     tree = ast.parse((pathlib.Path(stylobate.__file__).parent / "__init__.pyi").read_text())
-    for stub in tree.body:
-        if isinstance(stub, ast.FunctionDef):
-            assert {stub.name, *names_of(stub)} <= named, stub.name
-        elif isinstance(stub, ast.ClassDef):
-            of = {node.name for node in stub.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")}
-            of |= {node.target.id for node in stub.body if isinstance(node, ast.AnnAssign)}
-            assert {stub.name} | of <= named, f"{stub.name}: {of - named}"
+    for declared in tree.body:
+        if isinstance(declared, ast.FunctionDef):
+            assert {declared.name, *names_of(declared)} <= named, declared.name
+        elif isinstance(declared, ast.ClassDef):
+            of = {node.name for node in declared.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")}
+            of |= {node.target.id for node in declared.body if isinstance(node, ast.AnnAssign)}
+            assert {declared.name} | of <= named, f"{declared.name}: {of - named}"
 
 
 @pytest.fixture

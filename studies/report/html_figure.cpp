@@ -10,10 +10,6 @@
 namespace stylobate {
 namespace {
 
-constexpr double width = 900;
-constexpr double left = 86; ///< room for six digits and the label of the axis
-constexpr double right = 884;
-
 Json axis_json(const PlotScale& axis, const std::string& label, const std::vector<std::string>& ticks)
 {
     return Json::object()
@@ -60,19 +56,6 @@ std::string figure_json(const Figure& figure, const FigurePanel& panel)
         .text();
 }
 
-constexpr FigureLook page_look{1, true};
-
-std::string drawing_of(const Figure& figure, FigurePanel& panel, double height)
-{
-    DrawingSheet sheet({static_cast<int>(width), 0}, page_look.letters());
-    const double top = 14 + panel.draw_legend(sheet, left, right, 4);
-    panel.draw(sheet, {left, top, right, top + height});
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" role=\"img\" "
-        "aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
-        width, top + height + panel.room_below(right - left), html_escaped(figure.title), sheet.elements());
-}
-
 } // namespace
 
 std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more)
@@ -81,24 +64,16 @@ std::string svg_text(double x, double y, const char* anchor, const std::string& 
                        html_escaped(text));
 }
 
-std::string svg_rule(double x1, double y1, double x2, double y2, const char* look)
-{
-    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                       look);
-}
-
 Html figure_svg(const Figure& figure, double height)
 {
-    FigurePanel panel(figure, page_look);
-    Html html = Html::ready(drawing_of(figure, panel, height));
+    FigurePanel panel(figure, {1, true});
+    const DrawingSheet sheet = panel.sheet(height);
+    Html html = Html::ready(
+        fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" role=\"img\" "
+                    "aria-label=\"{2}\" font-family=\"inherit\" font-size=\"13\">\n{3}</svg>",
+                    sheet.size().width, sheet.size().height, html_escaped(figure.title), sheet.elements()));
     html += data_script("class=\"figure-data\"", figure_json(figure, panel));
     return html;
-}
-
-std::string figure_drawing(const Figure& figure, double height)
-{
-    FigurePanel panel(figure, page_look);
-    return drawing_of(figure, panel, height);
 }
 
 Html bar_svg(double value, std::optional<double> mark, double most)

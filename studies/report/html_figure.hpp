@@ -17,9 +17,6 @@ namespace stylobate {
 /// @param height of the plot alone [px]
 Html figure_svg(const Figure& figure, double height = 330);
 
-/// The same without the values for the script.
-std::string figure_drawing(const Figure& figure, double height = 330);
-
 /// A bar from 0 for a cell of a table, with a mark: how large a gain is, and how large chance makes it.
 /// @param most what the full width stands for, > 0
 Html bar_svg(double value, std::optional<double> mark, double most);
@@ -27,8 +24,5 @@ Html bar_svg(double value, std::optional<double> mark, double most);
 /// A text of a drawing at a place [px]. @param anchor "start", "middle" or "end"   @param more attributes, with a space
 /// before each
 std::string svg_text(double x, double y, const char* anchor, const std::string& text, const std::string& more = "");
-
-/// A straight line of a drawing [px]. @param look a class of the page's style: "axis" or "grid"
-std::string svg_rule(double x1, double y1, double x2, double y2, const char* look);
 
 } // namespace stylobate

@@ -3,6 +3,7 @@
 #include "ensemble/model/mechanism_spec.hpp"
 #include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/suggest.hpp"
+#include "io/plots/sheet.hpp"
 #include "io/plots/solid_view.hpp"
 
 #include <fmt/format.h>
@@ -144,12 +145,13 @@ std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study
     return marks;
 }
 
-/// One view of the structure, in pixels from the upper left corner.
+/// One view of the structure: metres on a sheet.
 class Elevation {
 public:
     Elevation(double left_m, double right_m, double bottom_m, double top_m, double per_metre)
-        : left_m_(left_m), top_m_(top_m), scale_(per_metre), width_((right_m - left_m) * per_metre + 2 * beside),
-          height_((top_m - bottom_m) * per_metre + slab + 4)
+        : left_m_(left_m), top_m_(top_m), scale_(per_metre),
+          sheet_({static_cast<int>(std::lround((right_m - left_m) * per_metre + 2 * beside)),
+                  static_cast<int>(std::lround((top_m - bottom_m) * per_metre + slab + 4))})
     {
     }
 
@@ -157,52 +159,40 @@ public:
     double y(double metres) const { return 4 + (top_m_ - metres) * scale_; }
     double scale() const { return scale_; }
 
-    void ground()
-    {
-        body_ += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"{:.0f}\" "
-                             "style=\"fill:var(--ground)\"/>\n",
-                             y(0), width_, slab);
-    }
+    void ground() { sheet_.rectangle(0, y(0), sheet_.size().width, y(0) + slab, "var(--ground)"); }
     void rectangle(double left, double right, double bottom, double top, const char* fill)
     {
-        body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-                             "style=\"fill:{};stroke:var(--edge)\"/>\n",
-                             x(left), y(top), (right - left) * scale_, (top - bottom) * scale_, fill);
+        sheet_.rectangle(x(left), y(top), x(right), y(bottom), fill, edge, 1, 1);
     }
-    /// @param fill nullptr: an edge alone
-    void polygon(const std::vector<ViewPoint>& points, const char* fill)
+    /// @param fill "": an edge alone
+    void polygon(const std::vector<ViewPoint>& points, std::string_view fill)
     {
-        std::string at;
+        std::vector<std::array<double, 2>> at;
         for (const ViewPoint& point : points)
-            at += fmt::format("{}{:.1f},{:.1f}", at.empty() ? "" : " ", x(point.x), y(point.y));
-        body_ +=
-            fmt::format("<polygon points=\"{}\" style=\"fill:{};stroke:var(--edge)\"/>\n", at, fill ? fill : "none");
+            at.push_back({x(point.x), y(point.y)});
+        sheet_.polygon(at, fill, edge, 1);
     }
     void stroke(double x1, double y1, double x2, double y2, double width, const std::string& colour)
     {
-        body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke-width=\"{:g}\" "
-                             "style=\"stroke:{}\"/>\n",
-                             x1, y1, x2, y2, width, colour);
+        sheet_.line(x1, y1, x2, y2, colour, width);
     }
     void outline(double left, double right, double bottom, double top, const std::string& colour)
     {
-        body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" stroke-width=\"3\" "
-                             "style=\"fill:none;stroke:{}\"/>\n",
-                             x(left) + 2, y(top) + 2, std::max(1.0, (right - left) * scale_ - 4),
-                             std::max(1.0, (top - bottom) * scale_ - 4), colour);
+        const double x0 = x(left) + 2, y0 = y(top) + 2;
+        sheet_.rectangle(x0, y0, std::max(x0 + 1, x(right) - 2), std::max(y0 + 1, y(bottom) - 2), "", colour, 1, 3);
     }
 
     std::string svg(const char* of, const char* below) const
     {
-        return fmt::format("<div class=\"sketch\"><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} "
-                           "{1:.0f}\" width=\"{0:.0f}\" role=\"img\" aria-label=\"the structure at rest{2}\">\n"
-                           "{3}</svg>{4}</div>",
-                           width_, height_, of, body_, below);
+        return fmt::format("<div class=\"sketch\"><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
+                           "width=\"{0}\" role=\"img\" aria-label=\"the structure at rest{2}\">\n{3}</svg>{4}</div>",
+                           sheet_.size().width, sheet_.size().height, of, sheet_.elements(), below);
     }
 
 private:
-    double left_m_, top_m_, scale_, width_, height_;
-    std::string body_;
+    static constexpr char edge[] = "var(--edge)";
+    double left_m_, top_m_, scale_;
+    DrawingSheet sheet_;
 };
 
 void draw_mark(Elevation& view, const Layout& layout, const Mark& mark, const std::string& colour)
@@ -261,7 +251,7 @@ void draw_view(Elevation& drawing, const Layout& layout, const std::vector<Place
         drawing.polygon(seen.outline, fill_of(layout.blocks[seen.body]));
         for (const SeenFace& face : seen.faces)
             if (!face.smooth)
-                drawing.polygon(face.points, nullptr);
+                drawing.polygon(face.points, "");
     }
 }
 

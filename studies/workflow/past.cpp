@@ -1,7 +1,7 @@
 #include "studies/workflow/past.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "studies/kinds/survival/survival_kind.hpp"
 #include "studies/kinds/survival/survival_text.hpp"
 #include "studies/results/results.hpp"

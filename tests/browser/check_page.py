@@ -213,7 +213,7 @@ class EveryKind(Page):
             self.assertEqual(self.browser.js('document.querySelectorAll("details[open]").length'), 0)
 
     def test_the_structure_is_dark_where_the_page_is(self):
-        stone = 'getComputedStyle(document.querySelector(".sketch rect + rect, .sketch polygon")).fill'
+        stone = 'getComputedStyle(document.querySelector(".sketch rect + rect, .sketch path")).fill'
         brightness = lambda colour: sum(map(int, re.findall(r"\d+", colour)[:3]))  # noqa: E731
         for name in self.each():
             if name == "risk":

@@ -1,8 +1,8 @@
 /// Single precision in the ensemble: the same bits everywhere, outcomes that agree with double precision as well as
 /// double precision agrees with itself at another step, and refusals. `docs/precision.md` has the figures.
 
-#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/planar_model.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 
 #include <gtest/gtest.h>

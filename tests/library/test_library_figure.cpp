@@ -72,7 +72,7 @@ TEST(LibraryFigure, AMapHasACellForEachOfTheSurface)
     EXPECT_EQ(count(svg, "data-cell=\"[0-5]\""), 6U);
     EXPECT_NE(svg.find("probability of rocked"), std::string::npos);
     surface.probability[4] = NAN;
-    EXPECT_EQ(count(api::svg(surface), "data-cell=\"4\"[^/]*fill=\"#d5dbe1\""), 1U) << "nothing is known there";
+    EXPECT_EQ(count(api::svg(surface), "data-cell=\"4\"[^/]*fill=\"#b8b8b8\""), 1U) << "nothing is known there";
     surface.lower.pop_back();
     EXPECT_THROW(api::svg(surface), api::InputError);
 }

@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "io/plots/plot_maps.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/study_difference.hpp"

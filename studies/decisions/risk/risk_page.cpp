@@ -1,7 +1,7 @@
 #include "studies/decisions/risk/risk_text.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/left_out.hpp"

@@ -1,6 +1,6 @@
 #include "io/plots/colours.hpp"
 #include "io/plots/contour.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "studies/decisions/compare/comparison_text.hpp"
 #include "studies/decisions/search/search.hpp"
 #include "studies/report/left_out.hpp"

@@ -1,7 +1,7 @@
 #include "studies/evidence/claims/claim_page.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "io/tables/table.hpp"
 #include "studies/evidence/claims/claim.hpp"
 

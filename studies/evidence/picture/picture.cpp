@@ -1,6 +1,7 @@
 #include "studies/evidence/picture/picture.hpp"
 
 #include "io/plots/colours.hpp"
+#include "io/plots/figure_file.hpp"
 
 #include <array>
 

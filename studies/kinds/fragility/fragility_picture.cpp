@@ -1,7 +1,7 @@
 #include "studies/kinds/fragility/fragility_text.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 
 #include <fmt/format.h>
 

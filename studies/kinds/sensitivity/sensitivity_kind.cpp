@@ -1,7 +1,7 @@
 #include "studies/kinds/sensitivity/sensitivity_kind.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "io/store/surface_axis.hpp"
 #include "io/tables/table.hpp"
 #include "studies/report/html_figure.hpp"

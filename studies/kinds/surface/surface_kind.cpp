@@ -115,36 +115,6 @@ HtmlTable cell_table(const SurfaceTable& surface)
     return table;
 }
 
-/// The edges of an axis' cells in the unit interval.
-std::vector<double> unit_edges(const CellAxis& axis)
-{
-    std::vector<double> edges;
-    for (const double edge : axis.edges)
-        edges.push_back(axis.in_unit(edge));
-    return edges;
-}
-
-} // namespace
-
-CellMap surface_map(const SurfaceTable& table, const std::string& limit)
-{
-    CellMap map;
-    map.title = fmt::format("Map of the probability of {}, {} {} by {} values of PGA", limit, table.rows().size(),
-                            table.row_quantity().plural, table.pga_m_s2.size());
-    map.x_label = table.row_quantity().label;
-    map.y_label = "PGA [m/s²]";
-    map.value_label = "probability of " + limit;
-    map.x = table.rows();
-    map.y = table.pga_m_s2;
-    map.x_edges = unit_edges(make_cell_axis(map.x, table.row_quantity().key));
-    map.y_edges = unit_edges(make_cell_axis(map.y, "pga_m_s2"));
-    map.value = table.probability;
-    map.contours = surface_contours(table);
-    return map;
-}
-
-namespace {
-
 /// The probability over PGA at some frequencies or directions, with its intervals.
 Figure slice_figure(const SurfaceTable& table)
 {
@@ -261,7 +231,7 @@ void SurfaceKind::map(PageWriter& writer) const
     const SurfaceTable table = *surface();
     writer.page.part("instrument", [&] {
         writer.page.part("of-map", [&] {
-            writer.page.figure(map_svg(surface_map(table)),
+            writer.page.figure(map_svg(table),
                                fmt::format("The probability of collapse over {} and PGA. Lines: 0.05, 0.5 and 0.95.",
                                            table.row_quantity().name));
         });

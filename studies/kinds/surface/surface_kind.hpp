@@ -10,8 +10,6 @@
 
 namespace stylobate {
 
-struct CellMap;
-
 /// Counts realizations cell by cell; those that are invalid are no trials.
 class SurfaceCounts {
 public:
@@ -29,10 +27,6 @@ private:
 
 /// The surface of a study that keeps counts and no rows.
 SurfaceTable surface_of(const ResultHeader& header, const Tally& tally, LimitState limit);
-
-/// The map of the probability of a limit state, with its contour lines.
-/// @throws InputError if an axis is empty or not ascending
-CellMap surface_map(const SurfaceTable& table, const std::string& limit = "collapse");
 
 class SurfaceKind : public Kind {
 public:

@@ -1,6 +1,6 @@
 #include "studies/kinds/survival/survival_kind.hpp"
 
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "studies/kinds/survival/survival_text.hpp"

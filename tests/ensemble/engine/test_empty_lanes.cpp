@@ -2,7 +2,6 @@
 /// none of them asks for.
 
 #include "bench/counted.hpp"
-#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/planar_model.hpp"
 #include "kernels/planar/mechanisms/points.hpp"
 #include "kernels/planar/mechanisms/two_corner.hpp"
@@ -10,6 +9,7 @@
 #include "kernels/planar/rigid/rigid_step.hpp"
 #include "kernels/planar/scratch.hpp"
 #include "kernels/planar/step.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// A realization that goes wrong, in whatever way and in whatever lane: its neighbours' outcomes keep their bits, it is
 /// set aside with its index and the reason, and the next realization in its lane finds nothing of it.
 
-#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/device/host_device.hpp"
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/planar_model.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
 

@@ -1,6 +1,6 @@
 /// Figures drawn as pictures: round numbers, texts that keep apart at three sizes, marks, cells.
 
-#include "io/plots/figure_panel.hpp"
+#include "io/plots/figure_file.hpp"
 #include "tests/io/plots/picture_texts.hpp"
 #include "tests/io/plots/pixels.hpp"
 

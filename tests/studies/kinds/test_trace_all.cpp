@@ -1,8 +1,8 @@
 /// Realizations that are followed several at once have the trajectories and outcomes that each has alone.
 
-#include "studies/workflow/bench/scenes.hpp"
 #include "ensemble/planar/hand_over.hpp"
 #include "studies/experiment/trajectory.hpp"
+#include "studies/workflow/bench/scenes.hpp"
 
 #include <gtest/gtest.h>
 

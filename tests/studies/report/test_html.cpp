@@ -2,6 +2,7 @@
 
 #include "ensemble/model/collapse_criterion.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/store/surface_axis.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
 #include "studies/measured/calibration/calibration_text.hpp"
@@ -185,40 +186,39 @@ TEST(HtmlFigure, GivesItsValuesToTheScript)
 
 TEST(HtmlMap, PutsCellsWhereTheyLie)
 {
-    CellMap map;
-    map.x = {1, 2};
-    map.y = {10, 20, 30};
-    map.x_edges = {0, 0.25, 1};
-    map.y_edges = {0, 0.5, 0.75, 1};
-    map.value = {0, 0.5, 1, std::nan(""), 0.5, 1};
-    map.contours = {{0.5, {{{0, 0}, {1, 1}}}, {0.5, 0.5}}};
-    const std::string svg = map_svg(map).markup;
-    EXPECT_EQ(count_of(svg, "data-cell="), 6U);
+    SurfaceTable surface; // cells as wide as their neighbours in frequency; in PGA the edges are 5, 15, 30 and 50
+    surface.frequency_hz = {1, 2, 3};
+    surface.pga_m_s2 = {10, 20, 40};
+    surface.trials.assign(9, 10);
+    surface.collapses = {0, 5, 10, 0, 5, 10, 0, 5, 10};
+    surface.probability = {0, 0.5, 1, std::nan(""), 0.5, 1, 0, 0.5, 1};
+    surface.lower = surface.upper = surface.probability;
+    const CellAxis pga = make_cell_axis(surface.pga_m_s2, "pga_m_s2");
+    const std::string svg = map_svg(surface).markup;
+    EXPECT_EQ(count_of(svg, "data-cell="), 9U);
     EXPECT_EQ(count_of(svg, "class=\"empty-cell\""), 1U); // of which nothing is known
     const auto rect = [&](int cell) {
         std::array<double, 4> r{};
-        const std::size_t at = svg.find(fmt::format("<rect data-cell=\"{}\"", cell));
-        const std::size_t x = svg.find("x=", at);
-        EXPECT_EQ(std::sscanf(svg.c_str() + x, "x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &r[0], &r[1], &r[2],
-                              &r[3]),
+        const std::size_t at = svg.rfind("<rect", svg.find(fmt::format("data-cell=\"{}\"", cell)));
+        EXPECT_EQ(std::sscanf(svg.c_str() + at, "<rect x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &r[0], &r[1],
+                              &r[2], &r[3]),
                   4);
         return r;
     };
-    const auto first = rect(0), above = rect(1), top = rect(2), right = rect(3);
-    EXPECT_NEAR(right[2], 3 * first[2], 1.1);
-    EXPECT_NEAR(right[0] - first[0], first[2], 0.6);
-    EXPECT_NEAR(first[3], 2 * above[3], 0.6);
-    EXPECT_NEAR(above[1] - top[1], top[3], 0.6); // the larger value of y is above
-    EXPECT_LT(top[1], first[1]);
     // the frame that the script takes is the one that the cells fill
     std::array<double, 4> frame{};
     const std::size_t at = svg.find("data-frame=");
     ASSERT_EQ(
         std::sscanf(svg.c_str() + at, "data-frame=\"%lf %lf %lf %lf\"", &frame[0], &frame[1], &frame[2], &frame[3]), 4);
-    EXPECT_NEAR(frame[0], first[0], 0.1);
-    EXPECT_NEAR(frame[1], top[1], 0.1);
-    EXPECT_NEAR(frame[2], first[2] + right[2], 1.1); // cells overlap by half a pixel
-    EXPECT_NEAR(frame[3], first[3] + above[3] + top[3], 1.6);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const auto drawn = rect(3 * i + j);
+            const auto edge = [&](int k) { return pga.in_unit(pga.edges[static_cast<std::size_t>(k)]); };
+            EXPECT_NEAR(drawn[0], frame[0] + frame[2] * i / 3, 0.02) << i;
+            EXPECT_NEAR(drawn[2], frame[2] / 3, 0.52) << "cells overlap by half a pixel";
+            EXPECT_NEAR(drawn[1] + drawn[3], frame[1] + frame[3] * (1 - edge(j)), 0.02) << "the larger one is above";
+            EXPECT_NEAR(drawn[3], frame[3] * (edge(j + 1) - edge(j)), 0.52) << j;
+        }
 }
 
 TEST(HtmlFigure, PutsPointsWhereTheAxesSay)

@@ -74,7 +74,7 @@ TEST(StructureSketch, MarksInAComparisonWhatTheBaseDoesNotHave)
 std::vector<std::pair<double, double>> lowest_and_highest_widths(const std::string& view)
 {
     std::vector<std::pair<double, double>> widths;
-    const std::regex polygon("<polygon points=\"([^\"]*)\" style=\"fill:var"), corner("([-0-9.]+),([-0-9.]+)");
+    const std::regex polygon("<path d=\"([^\"]*)\" style=\"fill:var"), corner("([-0-9.]+) ([-0-9.]+)");
     for (std::sregex_iterator found(view.begin(), view.end(), polygon), end; found != end; ++found) {
         const std::string corners = (*found)[1];
         double top = 1e9, bottom = -1e9, top_from = 1e9, top_to = -1e9, bottom_from = 1e9, bottom_to = -1e9;

@@ -378,8 +378,8 @@ std::string robustness_and_limits(const ImpactStudy& s)
 }
 
 using verification::curves;
-using verification::write_small;
 using verification::Series;
+using verification::write_small;
 
 /// Part of the errors below each of them.
 Series cumulative(const std::string& title, std::vector<double> errors, int colour)

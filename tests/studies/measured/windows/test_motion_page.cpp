@@ -208,7 +208,7 @@ TEST(MotionPage, OfADiagnosisSaysWhyThereIsNone)
     const std::string shown = html_of(diagnosis_page(d, "d.h5"));
     EXPECT_TRUE(animations_of(shown).has("list"));
     EXPECT_EQ(shown.find("not shown in motion:"), std::string::npos); // the scripts have the words too
-    d.motion.reset(); // as a file of format version 2
+    d.motion.reset();                                                 // as a file of format version 2
     const std::string none = html_of(diagnosis_page(d, "d.h5"));
     EXPECT_FALSE(animations_of(none).has("list"));
     EXPECT_NE(none.find("not shown in motion: d.h5 was written by an earlier version"), std::string::npos);
