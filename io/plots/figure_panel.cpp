@@ -518,7 +518,8 @@ void draw_colour_scale(DrawingSheet& sheet, const FigureLook& look, const PlotFr
         widest = std::max(widest, DrawingSheet::width(tic.text, look.letters()));
     }
     if (!label.empty())
-        sheet.text(label, strip.right + 20 * look.unit + (look.page ? 1.45 : 1) * widest, // type grows on narrow screens
+        sheet.text(label,
+                   strip.right + 20 * look.unit + (look.page ? 1.45 : 1) * widest, // type grows on narrow screens
                    (strip.top + strip.bottom) / 2,
                    DrawingSheet::fitting(label, strip.bottom - strip.top + 40 * look.unit, look.letters()),
                    TextAt::center, look.ink(), true);
