@@ -45,7 +45,7 @@ struct DocumentBlock {
 
 class Document {
 public:
-    Document(std::string title, std::string subtitle);
+    Document(std::string title = {}, std::string subtitle = {});
 
     /// A numbered section; the contents lead to it.
     void section(const std::string& title);
@@ -93,6 +93,10 @@ std::string html_of(const Document& document);
 /// A text in Markdown (with the tables of GitHub), to be read as it is. Of a figure there is its caption; data for the
 /// script are left out.
 std::string markdown_of(const Document& document);
+
+/// What a console shows of it: sentences, lists, facts and tables, each with two blanks before it, columns as wide as
+/// their widest cell. A result's text on the console and the first part of its page are made by one function.
+std::string console_text(const Document& document);
 
 /// {"title", "subtitle", "sections": [{"title", "blocks": [{"kind", ...}]}]}, with tables as lists of rows. The first
 /// section, without a title, is what stands before the others.

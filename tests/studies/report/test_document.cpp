@@ -51,6 +51,33 @@ TEST(Documents, AreMarkdown)
                                             "```\nkey = 1\n<b>\n```\n");
 }
 
+TEST(Documents, AreTextOfAConsole)
+{
+    EXPECT_EQ(console_text(some_document()), "A <title>\n"
+                                             "  61 % of them fell (58 to 64 %).\n"
+                                             "Results\n"
+                                             "  Lower & upper: `a|b`\n"
+                                             "  A table\n"
+                                             "  name    value\n"
+                                             "  x|y       1.5\n"
+                                             "  better      2\n"
+                                             "  Structure: 6 drums\n"
+                                             "  Depth:     1 m\n"
+                                             "  - one\n"
+                                             "  - two\n"
+                                             "  few motions\n"
+                                             "  More\n"
+                                             "  key = 1\n"
+                                             "  <b>\n");
+}
+
+TEST(Documents, CountCharactersNotBytesInColumns)
+{
+    Document document;
+    document.table({"ll", {"a", "b"}, {{"m/s²", "1"}, {"–", "2"}, {"long name"}}, ""});
+    EXPECT_EQ(console_text(document), "  a          b\n  m/s²       1\n  –          2\n  long name\n");
+}
+
 TEST(Documents, AreJson)
 {
     const nlohmann::json json = nlohmann::json::parse(json_of(some_document()).text());

@@ -1,0 +1,122 @@
+#include "studies/report/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stylobate {
+namespace {
+
+constexpr std::size_t widest_name = 34; ///< of facts: longer names do not push the others to the right
+
+/// Characters of UTF-8.
+std::size_t characters(std::string_view text)
+{
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+/// Columns as wide as their widest cell.
+std::string console_table(const HtmlTable& table)
+{
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const std::vector<Html>& cells) {
+        std::vector<std::string>& row = rows.emplace_back();
+        for (const Html& html : cells)
+            row.push_back(plain_text(html));
+    };
+    add(table.head);
+    for (const std::vector<Html>& row : table.rows)
+        add(row);
+    std::vector<std::size_t> widths;
+    for (const std::vector<std::string>& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], characters(row[i]));
+    }
+    std::string out = table.caption.empty() ? "" : fmt::format("  {}\n", table.caption);
+    for (const std::vector<std::string>& row : rows) {
+        std::string line = " ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::string space(widths[i] - characters(row[i]), ' ');
+            line += i < table.align.size() && table.align[i] == 'r' ? " " + space + row[i] : " " + row[i] + space;
+            line += i + 1 < row.size() ? " " : "";
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        out += line + "\n";
+    }
+    return out;
+}
+
+std::string console_facts(const std::vector<Html>& items)
+{
+    std::size_t width = 0;
+    for (std::size_t i = 0; i + 1 < items.size(); i += 2)
+        width = std::max(width, std::min(widest_name, characters(plain_text(items[i])) + 1));
+    std::string out;
+    for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
+        const std::string name = plain_text(items[i]) + ":";
+        out += fmt::format("  {}{} {}\n", name, std::string(width - std::min(width, characters(name)), ' '),
+                           plain_text(items[i + 1]));
+    }
+    return out;
+}
+
+/// Text with its lines, each after two blanks.
+std::string indented(const std::string& text)
+{
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        out += "  " + text.substr(at, end - at) + "\n";
+        at = end + 1;
+    }
+    return out;
+}
+
+std::string console_block(const DocumentBlock& b)
+{
+    using Kind = DocumentBlock::Kind;
+    std::string out;
+    switch (b.kind) {
+    case Kind::section:
+    case Kind::heading:
+        return b.title + "\n";
+    case Kind::answer:
+    case Kind::paragraph:
+    case Kind::note:
+    case Kind::fold:
+        return indented(plain_text(b.text));
+    case Kind::box: // its title says the same more briefly
+        return indented(plain_text(b.text));
+    case Kind::list:
+        for (const Html& item : b.items)
+            out += fmt::format("  - {}\n", plain_text(item));
+        return out;
+    case Kind::facts:
+        return console_facts(b.items);
+    case Kind::table:
+        return console_table(b.table);
+    case Kind::preformed:
+        return indented(b.title);
+    case Kind::figure:
+    case Kind::contents:
+    case Kind::part:
+    case Kind::end:
+    case Kind::data:
+    case Kind::player:
+        break;
+    }
+    return out;
+}
+
+} // namespace
+
+std::string console_text(const Document& document)
+{
+    std::string out = document.title().empty() ? "" : document.title() + "\n";
+    for (const DocumentBlock& block : document.blocks())
+        out += console_block(block);
+    return out;
+}
+
+} // namespace stylobate
