@@ -47,8 +47,53 @@ enum class BaseSource {
     command       ///< the command of the table
 };
 
+/// What is done to a specimen in a run. All but `shake` and `rest` are tests of single joints: the blocks below the
+/// joint are clamped to the table, those above the tested body are removed (`docs/diagnosis.md`).
+enum class RunKind {
+    shake, ///< the table shakes what stands free on it
+    pull,  ///< a rod to the laboratory holds what is above the joint, by a force gauge, while the table cycles
+    board, ///< one block on the joint, tilted until it slides
+    tilt,  ///< the tested body, tilted until it turns about a corner
+    push,  ///< a rod pushes the tested body at its top, by a force gauge, until it turns
+    drop,  ///< the tested body is dropped onto the joint
+    slide, ///< one block on the joint, the table shakes it so that it slides
+    rest   ///< what callipers, level and scales give; nothing moves
+};
+
+/// A force gauge at the end of a rod that touches one block.
+struct ForceGauge {
+    std::string name;          ///< of its group
+    Series value_n;            ///< (nt) horizontal force on the block, positive to the right [N]
+    int block = 0;             ///< that it acts on
+    double height_m = 0;       ///< of its point above the block's lower face
+    double gain_sd = 0;        ///< 1 sigma of its gain, relative
+    bool to_laboratory = true; ///< where the other end of the rod is: in the laboratory, else on the table
+    double speed_m_s = 0;      ///< of that end, positive to the right; 0: held
+    double stiffness_n_m = 0;  ///< of rod and gauge; 0: not known
+};
+
+/// A body of known mass that is taped onto a block, so that the same body stands on every joint.
+struct Dummy {
+    int block = 0; ///< that it is taped on
+    double mass_kg = 0;
+    double half_width_m = 0;
+    double half_height_m = 0;
+    double x_m = 0; ///< its centre, from that of the block
+    double y_m = 0;
+    friend bool operator==(const Dummy&, const Dummy&) = default;
+};
+
 struct MeasuredRun {
-    std::string name;  ///< of its group or row: "004"
+    std::string name; ///< of its group or row: "004"
+    RunKind test = RunKind::shake;
+    std::optional<int> joint;            ///< under test; nullopt: none, or all
+    std::vector<int> present;            ///< blocks on the table; empty: all
+    std::vector<int> clamped;            ///< joints that cannot move
+    std::vector<std::vector<int>> taped; ///< groups of blocks that move as one
+    std::vector<Dummy> dummies;
+    std::optional<double> released_s; ///< hands hold the blocks until then; nullopt: they are free from the start
+    Series base_tilt_rad;             ///< (nt) of the table, counter-clockwise; (x, y) then turn with it
+    std::vector<ForceGauge> forces;
     int motion_id = 0; ///< runs with the same one repeat one commanded motion, the specimen put back by hand
     int repeat = 0;    ///< which of the repeats
     std::optional<std::string> kind; ///< of motion: "harmonic", "sweep", "quake", ...; nullopt: not given
@@ -96,13 +141,29 @@ struct Specimen {
     std::vector<double> rest_x_m;                  ///< (n_block) centre
     std::vector<double> rest_y_m;                  ///< (n_block) centre, above the table
     std::vector<std::pair<int, int>> joints;       ///< lower block (-1: the base), upper block
+    // measured at rest by callipers, level and scales
+    std::vector<double> centre_of_mass_m; ///< (n_block) from the geometric centre, to the right
+    std::vector<double> bearing_left_m; ///< (n_joint) where the joint begins to carry, from the upper block's left edge
+    std::vector<double> bearing_right_m; ///< (n_joint) from its right edge
 
     int blocks() const { return static_cast<int>(half_width_m.size()); }
+};
+
+/// What the laboratory can do, and what it costs. Nothing: not stated.
+struct Laboratory {
+    std::optional<double> stroke_m;               ///< of the table, to either side
+    std::optional<double> speed_m_s;              ///< of the table
+    std::optional<double> acceleration_m_s2;      ///< of the table
+    std::optional<double> tilt_rad;               ///< of a board
+    std::optional<double> force_n;                ///< of the force gauge; 0: there is none
+    bool may_dismantle = true;                    ///< whether blocks may be removed, clamped and taped
+    std::vector<std::pair<RunKind, double>> cost; ///< of one test of a kind, in any unit; not listed: a default
 };
 
 struct Campaign {
     std::string source; ///< file, for messages
     Specimen specimen;
+    Laboratory laboratory;
     std::vector<MeasuredRun> runs; ///< in the order of their names
     std::vector<Finding> findings; ///< of reading and checking it; not part of the file
 };
