@@ -227,6 +227,13 @@ class Surface(Page):
             select.dispatchEvent(new Event("change"));
         }})()""")
 
+    def contours(self, text):
+        self.browser.js(f"""(() => {{
+            const field = document.querySelector(".chooser input");
+            field.value = "{text}";
+            field.dispatchEvent(new Event("change"));
+        }})()""")
+
     def test_another_limit_state_changes_map_slice_and_readings(self):
         cell = next(c for c in range(16) if 0 < self.states[c].count(1) < len(self.states[c]))
         fill = "[...document.querySelectorAll('[data-cell]')].map((rect) => rect.getAttribute('fill'))"
@@ -276,9 +283,16 @@ class Surface(Page):
         lines = "document.querySelectorAll('.contours path').length"
         texts = "[...document.querySelectorAll('.contours text')].map((text) => text.textContent)"
         self.assertGreater(self.browser.js(lines), 0)
-        self.choose("Contour", "0.3")
+        self.contours("0.3")
         self.assertEqual(self.browser.js(texts), ["0.3"])
-        self.choose("Contour", "none")
+        self.contours("0.35, .6")
+        self.assertEqual(set(self.browser.js(texts)), {"0.35", "0.6"})
+        for wrong in ("35 %", "1.2", "0", "half"):
+            self.contours(wrong)
+            self.assertEqual(set(self.browser.js(texts)), {"0.35", "0.6"}, wrong)
+            self.assertIn("no list of probabilities", self.browser.js('document.querySelector(".spoken").textContent'))
+            self.assertIn("no list", self.browser.js('document.querySelector(".chooser input").validationMessage'))
+        self.contours("")
         self.assertEqual(self.browser.js(lines), 0)
         self.choose("Slice over", "frequency")
         self.assertEqual(self.browser.js('document.querySelectorAll("[data-slice-cell]").length'), 4)
@@ -292,9 +306,9 @@ class Surface(Page):
         self.browser.key("n")
         self.choose("Limit state", "sliding")
         self.choose("Slice over", "frequency")
-        self.choose("Contour", "0.2")
+        self.contours("0.2")
         state = """[location.hash, document.querySelector(".player .which").textContent,
-                    ...[...document.querySelectorAll(".chooser select")].map((select) => select.value),
+                    ...[...document.querySelectorAll(".chooser :is(select, input)")].map(({value}) => value),
                     document.querySelector(".slice .curve").getAttribute("d"),
                     document.querySelector(".contours").innerHTML]"""
         was = self.browser.js(state)

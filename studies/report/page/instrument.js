@@ -2,6 +2,14 @@
 // in one place; map, player, outcomes, slice and falls all show it, and each of them can change it. The address of the
 // page has the choice behind its #, so that a link opens the same.
 
+const usualLevels = "0.05, 0.5, 0.95";
+
+/** The numbers of a list; null if one is no probability between 0 and 1. */
+function levelsOf(text) {
+  const levels = text.split(/[,;\s]+/).filter((word) => word !== "").map(Number);
+  return levels.every((level) => level > 0 && level < 1) ? levels : null;
+}
+
 class Instrument {
   /** @param place the element around the map   @param store the animations of the page, or null */
   constructor(place, cells, store) {
@@ -15,7 +23,7 @@ class Instrument {
     const animated = new Set(store?.list.map((one) => one.cell) ?? []);
     const both = [...animated].filter((cell) => cells.data.probability[cell] > 0 && cells.data.probability[cell] < 1);
     this.choose({cell: cells.usual(both.length ? both : [...animated]), realization: null, limit: 0, slice: "pga",
-                 colour: "probability", contour: "usual"});
+                 colour: "probability", contour: usualLevels});
     this.restore();
     addEventListener("hashchange", () => this.restore());
   }
@@ -25,16 +33,15 @@ class Instrument {
   build() {
     const {data, limits} = this.cells;
     const select = (name, label, options) => {
-      this.selects[name] = html("select", {change: (event) => this.choose({[name]: event.target.value}, true)},
+      this.controls[name] = html("select", {change: (event) => this.choose({[name]: event.target.value}, true)},
                                 ...options.map(([value, text]) => html("option", {value}, text)));
-      return html("label", {}, label, " ", this.selects[name]);
+      return html("label", {}, label, " ", this.controls[name]);
     };
-    this.selects = {};
+    this.controls = {};
     const bar = html("div", {class: "controls chooser only-with-script", role: "group", "aria-label": "what is shown"},
         select("limit", "Limit state", limits.map(({words}, i) => [i, words])),
         select("colour", "Colour", this.cells.quantities(0).map(({name, label}) => [name, name === "probability" ? name : label])),
-        select("contour", "Contour", [["usual", "0.05, 0.5 and 0.95"], ...[0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95,
-                                       0.99].map((level) => [level, String(level)]), ["none", "none"]]),
+        this.contourField(),
         select("slice", "Slice over", [["pga", "PGA"], [data.row_name, data.row_name]]));
     this.title = html("h3", {});
     this.ofPlayer = html("div", {class: "of-player"});
@@ -49,6 +56,21 @@ class Instrument {
     this.place.append(this.panel);
     this.caption = this.place.querySelector("figcaption");
     this.caption.after(this.taking());
+  }
+
+  /** Any levels, with commas between them; empty: none. Where one is no probability, the field says so, and the lines
+      stay. */
+  contourField() {
+    const change = ({target}) => {
+      const wrong = levelsOf(target.value) ? "" : `${target.value}: no list of probabilities between 0 and 1, like ${usualLevels}`;
+      target.setCustomValidity(wrong);
+      if (!wrong) return this.choose({contour: target.value.trim()}, true);
+      target.reportValidity();
+      say(wrong);
+    };
+    this.controls.contour = html("input", {type: "text", size: 14, inputmode: "decimal", placeholder: "none", change});
+    return html("label", {title: "Probabilities, with commas between them; empty: no lines"}, "Contours ",
+                this.controls.contour);
   }
 
   /** What can be taken along. */
@@ -98,7 +120,7 @@ class Instrument {
     this.sliceTitle.textContent = this.slice.title();
     this.showFalls();
     this.caption.textContent = `${this.captionText()} Click or arrow keys: opens a cell.`;
-    for (const [name, control] of Object.entries(this.selects)) control.value = String(this.choice[name]);
+    for (const [name, control] of Object.entries(this.controls)) control.value = String(this.choice[name]);
     if (!told) return;
     this.write();
     if (changed("cell", "limit"))
@@ -106,8 +128,7 @@ class Instrument {
   }
 
   levels() {
-    const {contour} = this.choice;
-    return contour === "usual" ? [0.05, 0.5, 0.95] : contour === "none" ? [] : [Number(contour)];
+    return levelsOf(this.choice.contour);
   }
 
   captionText() {
@@ -186,7 +207,7 @@ class Instrument {
     words.set("limit", this.cells.limits[limit].name);
     words.set("slice", slice);
     if (colour !== "probability") words.set("colour", colour);
-    if (contour !== "usual") words.set("contour", contour);
+    if (contour !== usualLevels) words.set("contour", contour);
     history.replaceState(null, "", `#${words}`);
   }
 
@@ -199,8 +220,9 @@ class Instrument {
     if (cell !== null && cell < this.cells.count) Object.assign(changes, {cell, realization: number("realization")});
     else say(`The page has no cell ${words.get("cell")}.`);
     if (limit >= 0) changes.limit = limit;
-    for (const name of ["slice", "colour", "contour"])
-      if ([...this.selects[name].options].some(({value}) => value === words.get(name))) changes[name] = words.get(name);
+    if (levelsOf(words.get("contour") ?? "none")) changes.contour = words.get("contour");
+    for (const name of ["slice", "colour"])
+      if ([...this.controls[name].options].some(({value}) => value === words.get(name))) changes[name] = words.get(name);
     this.choose(changes);
   }
 }
