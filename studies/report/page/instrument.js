@@ -58,8 +58,8 @@ class Instrument {
     this.caption.after(this.taking());
   }
 
-  /** Any levels, with commas between them; empty: none. Where one is no probability, the field says so, and the lines
-      stay. */
+  // Any levels, with commas between them; empty: none. Where one is no probability, the field says so, and the lines
+  // stay.
   contourField() {
     const change = ({target}) => {
       const wrong = levelsOf(target.value) ? "" : `${target.value}: no list of probabilities between 0 and 1, like ${usualLevels}`;
@@ -68,7 +68,7 @@ class Instrument {
       target.reportValidity();
       say(wrong);
     };
-    this.controls.contour = html("input", {type: "text", size: 14, inputmode: "decimal", placeholder: "none", change});
+    this.controls.contour = html("input", {type: "text", size: 14, inputmode: "decimal", placeholder: "none", "aria-label": "Contours", change});
     return html("label", {title: "Probabilities, with commas between them; empty: no lines"}, "Contours ",
                 this.controls.contour);
   }
