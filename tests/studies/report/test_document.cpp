@@ -66,9 +66,7 @@ TEST(Documents, AreTextOfAConsole)
                                              "  - one\n"
                                              "  - two\n"
                                              "  few motions\n"
-                                             "  More\n"
-                                             "  key = 1\n"
-                                             "  <b>\n");
+                                             "  More\n"); // and what it opens is for a page
 }
 
 TEST(Documents, CountCharactersNotBytesInColumns)
