@@ -249,7 +249,7 @@ std::string form_text(const Risk& risk, const StateRisk& state)
                             frequency_text(other.estimate.frequency));
     return state.determined
                ? text
-               : fmt::format("{} Any curve that rises gives {} a year.", text, bounds_text(state.estimate.bounds));
+               : fmt::format("{} a year by any curve that rises. {}", bounds_text(state.estimate.bounds), text);
 }
 
 /// "from 0.5 to 0.6", "below 0.5", "above 3".
