@@ -191,7 +191,7 @@ HtmlTable states_table(const Fragility& f)
                     {},
                     ""};
     for (const StateFragility& s : f.states) {
-        std::vector<Html> row = {code(s.state.name), fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
+        std::vector<Html> row = {s.state.name, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
         if (has_curve(s))
             row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
                                    number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
