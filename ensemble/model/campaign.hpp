@@ -103,7 +103,7 @@ struct MeasuredRun {
     std::vector<Dummy> dummies;
     std::optional<double> released_s; ///< hands hold the blocks until then; nullopt: they are free from the start
     Series base_tilt_rad;             ///< (nt) of the table, counter-clockwise; (x, y) then turn with it
-    std::vector<ForceGauge> forces;
+    std::vector<ForceGauge> forces;   ///< in the order of their names
     int motion_id = 0; ///< runs with the same one repeat one commanded motion, the specimen put back by hand
     int repeat = 0;    ///< which of the repeats
     std::optional<std::string> kind; ///< of motion: "harmonic", "sweep", "quake", ...; nullopt: not given

@@ -273,6 +273,7 @@ void read_test(const KeyReader& table, const Campaign& campaign, MeasuredRun& ru
     }
     for (const KeyReader& force : table.tables("force"))
         read_gauge(force, campaign, run);
+    std::ranges::sort(run.forces, {}, &ForceGauge::name);
 }
 
 /// Nothing: a run of a kind that is not known.
@@ -358,13 +359,13 @@ Campaign read_measured_csv(const fs::path& folder)
         if (!names.insert(table.text("name")).second)
             table.refuse("name", "is also the name of another run");
         if (run)
-            add_run(campaign, std::move(*run));
+            campaign.runs.push_back(std::move(*run));
     }
     for (const std::string& name : map.unused())
         campaign.findings.push_back(
             {Severity::warning, fmt::format("columns, \"{}\"", name), "no table has a column of this name."});
     std::ranges::sort(campaign.runs, {}, &MeasuredRun::name);
-    std::ranges::sort(campaign.tests, {}, &MeasuredRun::name);
+    keep_tests_apart(campaign);
     return campaign;
 }
 

@@ -41,7 +41,7 @@ public:
             place_ = "runs/" + name;
             const hdf5::Handle group = hdf5::open_group(runs.id(), name);
             if (const auto kind = kind_of(group.id(), name))
-                add_run(campaign_, read_run(group.id(), name, *kind));
+                campaign_.runs.push_back(read_run(group.id(), name, *kind));
         }
     }
 
@@ -382,6 +382,7 @@ Campaign read_measured_hdf5_here(const std::filesystem::path& path)
     try {
         const hdf5::Handle file = hdf5::open_file(path, false);
         Reader(campaign).read(file.id());
+        keep_tests_apart(campaign);
     } catch (const hdf5::Error& error) {
         throw InputError(campaign.source, 0,
                          fmt::format("cannot be read as measured data: {}.\n  io/FORMAT.md has the layout; a folder of "

@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace stylobate {
 
@@ -243,28 +244,30 @@ void report_old_kind(Campaign& campaign, const MeasuredRun& run)
                          *run.kind)});
 }
 
-void add_run(Campaign& campaign, MeasuredRun run)
+void keep_tests_apart(Campaign& campaign)
 {
-    std::string why;
-    const auto also = [&](bool holds, const char* word) {
-        if (holds)
-            why += (why.empty() ? "" : ", ") + std::string(word);
-    };
-    also(!run.present.empty() && std::set(run.present.begin(), run.present.end()).size() < block_count(campaign),
-         "blocks removed");
-    also(!run.clamped.empty(), "joints clamped");
-    also(!run.taped.empty(), "blocks taped");
-    also(!run.dummies.empty(), "dummies");
-    also(run.released_s.has_value(), "held by hands");
-    also(!run.base_tilt_rad.empty(), "the table tilted");
-    also(!run.forces.empty(), "a force");
-    if (run.test == RunKind::shake && !why.empty())
-        campaign.findings.push_back({Severity::warning, fmt::format("run {}, kind", run.name),
-                                     fmt::format("the specimen is not whole, free and level ({}): it is not used as a "
-                                                 "shake run.",
-                                                 why)});
-    std::vector<MeasuredRun>& list = run.test == RunKind::shake && why.empty() ? campaign.runs : campaign.tests;
-    list.push_back(std::move(run));
+    const std::size_t blocks = block_count(campaign);
+    for (MeasuredRun& run : std::exchange(campaign.runs, {})) {
+        std::string why;
+        const auto also = [&](bool holds, const char* word) {
+            if (holds)
+                why += (why.empty() ? "" : ", ") + std::string(word);
+        };
+        also(!run.present.empty() && std::set(run.present.begin(), run.present.end()).size() < blocks,
+             "blocks removed");
+        also(!run.clamped.empty(), "joints clamped");
+        also(!run.taped.empty(), "blocks taped");
+        also(!run.dummies.empty(), "dummies");
+        also(run.released_s.has_value(), "held by hands");
+        also(!run.base_tilt_rad.empty(), "the table tilted");
+        also(!run.forces.empty(), "a force");
+        if (run.test == RunKind::shake && !why.empty())
+            campaign.findings.push_back({Severity::warning, fmt::format("run {}, kind", run.name),
+                                         fmt::format("the specimen is not whole, free and level ({}): it is not used "
+                                                     "as a shake run.",
+                                                     why)});
+        (run.test == RunKind::shake && why.empty() ? campaign.runs : campaign.tests).push_back(std::move(run));
+    }
 }
 
 std::string test_words(const MeasuredRun& run)

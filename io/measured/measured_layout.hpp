@@ -108,9 +108,9 @@ std::optional<RunKind> known_run_kind(Campaign& campaign, const std::string& run
 /// Reports a run of version 1 whose kind of motion is the word of a test in version 2.
 void report_old_kind(Campaign& campaign, const MeasuredRun& run);
 
-/// Puts a run where it belongs: into `tests` if it is no shake run, or if the specimen is not whole, free and level in
-/// it, which is reported.
-void add_run(Campaign& campaign, MeasuredRun run);
+/// Moves runs into `tests` that are no shake runs, and those in which the specimen is not whole, free and level, which
+/// is reported. @pre all are in `runs`, by name
+void keep_tests_apart(Campaign& campaign);
 
 /// All runs, those that are shake runs first.
 template <class C>

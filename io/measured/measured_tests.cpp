@@ -191,10 +191,11 @@ private:
     /// Whether blocks were seen while hands did not hold them: a plan has no such samples.
     bool measured() const
     {
+        const std::size_t n = block_count(campaign_);
         for (const SeriesName& name : series_names())
             for (std::size_t k = 0; name.per_block && k < name.in(run_).values.size(); ++k)
                 if (!std::isnan(name.in(run_).values[k]) &&
-                    !(run_.released_s && run_.time_s[k / block_count(campaign_)] <= *run_.released_s))
+                    !(run_.released_s && run_.time_s[k / n] <= *run_.released_s))
                     return true;
         return false;
     }
@@ -205,6 +206,9 @@ private:
         if (kind != RunKind::shake && kind != RunKind::rest && !run_.joint)
             refuse(fmt::format("kind = \"{}\" is a test of a joint, but joint is absent.\n  Name the joint under test.",
                                to_string(kind)));
+        if (kind != RunKind::shake && kind != RunKind::rest && run_.time_s.empty())
+            refuse("there are no samples.\n  Give rows with what was measured, or in a plan with what the laboratory shall "
+                   "do.");
         const bool forced = kind == RunKind::pull || kind == RunKind::push;
         if (forced && run_.forces.empty())
             refuse(fmt::format("kind = \"{}\" needs the force on the block, but there is no gauge.\n  Add force/NAME "
