@@ -409,12 +409,21 @@ private:
 
     void add_new()
     {
-        auto* begin = app_.add_subcommand("new", "write a commented study file to begin with");
+        auto* begin =
+            app_.add_subcommand("new", "write a commented study file, or a campaign of measured data, to begin with");
+        std::vector<std::string> kinds = words_of(study_kind_names), tests;
+        for (const RunKind kind : run_kinds)
+            tests.emplace_back(to_string(kind));
+        kinds.emplace_back(new_campaign_word);
         begin
             ->add_option("KIND", new_.kind,
-                         fmt::format("kind of the study: {}", fmt::join(words_of(study_kind_names), ", ")))
+                         fmt::format("kind of the study: {}; or {}, a folder for measured data",
+                                     fmt::join(words_of(study_kind_names), ", "), new_campaign_word))
             ->required()
-            ->check(CLI::IsMember(words_of(study_kind_names)));
+            ->check(CLI::IsMember(kinds));
+        add_word(*begin, "--test", new_.test,
+                 fmt::format("campaign: kind of its run: {} (default: shake)", fmt::join(tests, ", ")))
+            ->check(CLI::IsMember(tests));
         add_word(*begin, "--structure", new_.structure, "column or colonnade (default: column)")
             ->check(CLI::IsMember(words_of(structure_kind_names)));
         begin->add_option("--dimensions", new_.dimensions, "2: in the plane, 3: in space (default: 2)")
@@ -423,7 +432,7 @@ private:
                  fmt::format("{} (default: harmonic; for a fragility study noise)",
                              fmt::join(words_of(excitation_kind_names), ", ")))
             ->check(CLI::IsMember(words_of(excitation_kind_names)));
-        add_word(*begin, "-o,--output", output_, "the study file (default: KIND.toml)");
+        add_word(*begin, "-o,--output", output_, "the study file (default: KIND.toml), or the campaign's folder");
         begin->add_flag("--quiet", options_.quiet, "print the name of the file only");
         add_force(*begin, options_);
         begin->callback([this] { status_ = new_command(options_, new_, output_); });
