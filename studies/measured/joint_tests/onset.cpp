@@ -66,7 +66,7 @@ std::optional<std::size_t> first_motion(const OnsetData& data)
 std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, double most, bool has_column,
                                   const std::function<OnsetMotion(double, std::size_t)>& motion)
 {
-    constexpr std::size_t fewest = 20;
+    constexpr std::size_t fewest = 15;
     const std::size_t from = moved > 2 * data.before ? moved - 2 * data.before : 0;
     std::size_t to = moved;
     while (to < data.values.size() && !(data.values[to] > most))
@@ -75,7 +75,8 @@ std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, doub
         return std::nullopt;
     const std::size_t earliest = moved > data.before ? moved - data.before : 0;
     std::vector<double> left;
-    for (std::size_t k = earliest; k <= moved; ++k)
+    const std::size_t latest = std::min(moved + data.window / 2, to); // the mean of a window moves before its middle
+    for (std::size_t k = earliest; k <= latest; ++k)
         left.push_back(try_start(data, static_cast<double>(k), from, to, has_column, motion).left);
     const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
     if (best == 0 || best + 1 >= left.size())

@@ -41,7 +41,7 @@ struct OnsetFit {
 /// @param motion (start, sample) -> motion, for samples after the start
 /// @param has_column whether the coefficient is to be found
 /// @param moved first sample of motion (`first_motion`);  @param most value up to which samples are used
-/// @return nothing where there are fewer than 20 samples of motion, or the best start lies at an end of those tried
+/// @return nothing where there are fewer than 15 samples of motion, or the best start lies at an end of those tried
 std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, double most, bool has_column,
                                   const std::function<OnsetMotion(double, std::size_t)>& motion);
 
