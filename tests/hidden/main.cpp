@@ -8,7 +8,7 @@
 #include "tests/hidden/score/coverage.hpp"
 #include "tests/hidden/score/detectability.hpp"
 #include "tests/hidden/score/score.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

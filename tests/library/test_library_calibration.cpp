@@ -2,7 +2,7 @@
 
 #include "stylobate/stylobate.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"
