@@ -1,17 +1,16 @@
 #include "tests/hidden/virtual_campaign.hpp"
 
+#include "tests/hidden/sensors.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace stylobate::hidden {
 
 namespace {
-
-constexpr double sensor_m_s2 = 0.02; ///< noise of the table's accelerometer, 1 sigma
 
 /// Of how many in a hundred campaigns which kind is.
 constexpr int nothing_percent = 68, single_percent = 18, pair_percent = 5; // the rest is outside the list
@@ -110,13 +109,6 @@ void choose_amplitude(const Model& model, const Planned& planned, std::uint64_t 
     shaking.scale_to(stands > 0 ? stands : peak); // what answers by nothing or too much is shaken below that
 }
 
-void add_noise(Series& series, double sd, Draws& draws)
-{
-    for (double& value : series.values)
-        value += sd * draws.normal();
-    series.noise_sd = sd;
-}
-
 /// What the file gives of a run.
 MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index, bool table_seen)
 {
@@ -146,29 +138,23 @@ MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index,
     add_noise(seen.base_acceleration_m_s2, sensor_m_s2, table);
     add_noise(seen.base_displacement_m, planned.sensor_m, table);
 
-    const double missing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<const BodyState*> places, tables;
+    std::vector<BodyState> states(table_seen ? frames : 0);
     for (std::size_t k = 0; k < frames; ++k) {
         const bool standing = k < static_cast<std::size_t>(run.history.frames);
-        for (std::size_t i = 0; i < blocks; ++i) {
-            const BodyState* place = standing ? &run.history.places[k * blocks + i] : nullptr;
-            seen.blocks.x_m.values.push_back(place ? place->x + cameras_zero : missing);
-            seen.blocks.y_m.values.push_back(place ? place->y : missing);
-            seen.blocks.theta_rad.values.push_back(place ? place->theta : missing);
-        }
+        for (std::size_t i = 0; i < blocks; ++i)
+            places.push_back(standing ? &run.history.places[k * blocks + i] : nullptr);
         if (table_seen && standing) {
-            seen.table.x_m.values.push_back(run.history.table[k].x + cameras_zero);
-            seen.table.y_m.values.push_back(run.history.table[k].y);
-            seen.table.theta_rad.values.push_back(run.history.table[k].theta);
-        } else if (table_seen) {
-            for (Series* series : {&seen.table.x_m, &seen.table.y_m, &seen.table.theta_rad})
-                series->values.push_back(missing);
+            const BaseState& base = run.history.table[k];
+            states[k].x = base.x;
+            states[k].y = base.y;
+            states[k].theta = base.theta;
         }
+        if (table_seen)
+            tables.push_back(standing ? &states[k] : nullptr);
     }
-    for (SeenMotion* motion : {&seen.blocks, &seen.table}) {
-        add_noise(motion->x_m, planned.camera_m, cameras);
-        add_noise(motion->y_m, planned.camera_m, cameras);
-        add_noise(motion->theta_rad, planned.camera_rad, cameras);
-    }
+    seen.blocks = by_cameras(places, cameras_zero, planned, cameras);
+    seen.table = by_cameras(tables, cameras_zero, planned, cameras);
     return seen;
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+/// Tests on single joints in the virtual laboratory: the same specimen, contact law and hidden effects as in its
+/// shakes.
+
+#include "tests/hidden/virtual_campaign.hpp"
+
+#include <span>
+#include <vector>
+
+namespace stylobate::hidden {
+
+/// A test as the laboratory does it: the specimen is set up by hand as planned, and moved, pulled, pushed or dropped.
+///
+/// Rods touch the middle line of their block at `height_m`; from 0.2 s on their end moves with `speed_m_s`, over a
+/// third of the block's width (10 mm of small blocks) at the most. Gauge and rod have 5 % of critical damping. Hands
+/// hold a body at the planned place, shifted as it was laid and level to what the cameras see. A body that turned by
+/// 0.7 rad against the table or has lost nine tenths of its bed is caught: the run has collapsed. A vertical motion of
+/// the table with its own frequency does not act here; its other effects do.
+///
+/// @param planned setup, and series without noise: `base_displacement_m`, `base_tilt_rad`; of blocks, the places where
+///                hands hold them until `released_s`
+/// @param number  any, a test each: what scatters by hand and in the sensors belongs to it
+/// @param worn    the specimen after its last run, if its memory persists (`Effects::persists`); may be null
+/// @param end     the specimen after this one; may be null
+/// @return the plan with what was measured; of a test at rest, which has no series, the plan itself
+/// @throws InputError where the plan contradicts itself or the specimen
+MeasuredRun performed(const VirtualCampaign& made, const MeasuredRun& planned, int number, const State* worn,
+                      State* end);
+
+/// A sequence of tests after the runs of the campaign; memory goes on from test to test where it persists.
+/// @param number of the first one
+std::vector<MeasuredRun> performed(const VirtualCampaign& made, std::span<const MeasuredRun> planned, int number = 0);
+
+/// The specimen with what callipers, level and scales give: centres of mass, and where the joints begin to carry. Their
+/// noise is twice that of the cameras: 0.1 mm for small blocks.
+Specimen measured_at_rest(const VirtualCampaign& made, int number, const State* worn = nullptr);
+
+} // namespace stylobate::hidden
