@@ -51,7 +51,8 @@ Seeds parse_seeds(const std::string& text)
 void check_effect(const std::string& name)
 {
     std::vector<std::string> names = listed_names();
-    names.insert(names.end(), outside_names().begin(), outside_names().end());
+    for (const auto* more : {&variant_names(), &outside_names()})
+        names.insert(names.end(), more->begin(), more->end());
     if (std::find(names.begin(), names.end(), name) != names.end())
         return;
     const auto meant = nearest_word(name, names);

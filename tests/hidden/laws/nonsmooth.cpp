@@ -240,9 +240,9 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
         const Bed& bed = model.beds[static_cast<std::size_t>(j)];
         if (!can_move(model, bed))
             continue;
-        const int lower = mover(model, bed.lower);
         const double turning =
-            speeds[mover(model, bed.upper)].turn - (lower < 0 ? base_after.omega : speeds[lower].turn);
+            state.bodies[static_cast<std::size_t>(bed.upper)].omega -
+            (bed.lower < 0 ? base_after.omega : state.bodies[static_cast<std::size_t>(bed.lower)].omega);
         remember(model, j, state.beds[static_cast<std::size_t>(j)], ends[j].position, sliding[j], shear[j], turning);
     }
     ++state.step;
