@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace stylobate::hidden {
@@ -173,8 +172,7 @@ JointSetup set_up(const VirtualCampaign& made, const MeasuredRun& planned, int n
         double y = 0;
         geometric_centre(model, i, setup.start.bodies[b], setup.laid_off_m[b], y);
         setup.laid_off_m[b] -= model.bodies[b].rest_x_m;
-        if (!planned.present.empty() &&
-            std::find(planned.present.begin(), planned.present.end(), i) == planned.present.end())
+        if (!planned.has(i))
             model.bodies[b].carrier = away;
     }
     clamp_to_table(model, setup.start, planned.clamped);
@@ -213,10 +211,6 @@ void check_plan(const VirtualCampaign& made, const MeasuredRun& planned)
     check(planned.clamped, joints, "clamped joint");
     for (const auto& group : planned.taped)
         check(group, blocks, "taped block");
-    const auto there = [&](int block) {
-        return planned.present.empty() ||
-               std::find(planned.present.begin(), planned.present.end(), block) != planned.present.end();
-    };
     for (const Dummy& dummy : planned.dummies) {
         check({dummy.block}, blocks, "block of a dummy");
         if (!(dummy.mass_kg > 0 && dummy.half_width_m > 0 && dummy.half_height_m > 0))
@@ -226,7 +220,7 @@ void check_plan(const VirtualCampaign& made, const MeasuredRun& planned)
         refuse(fmt::format("it has {} force gauges; the laboratory has {}.", planned.forces.size(), max_rods));
     for (const ForceGauge& gauge : planned.forces) {
         check({gauge.block}, blocks, "block of a force gauge");
-        if (!there(gauge.block))
+        if (!planned.has(gauge.block))
             refuse(fmt::format("the force gauge acts on block {}, which is not there.", gauge.block));
         if (!gauge.to_laboratory && gauge.speed_m_s == 0)
             refuse("the rod on the table has no speed, so the side on which it pushes is not known.");

@@ -1,8 +1,11 @@
 #include "tests/hidden/joint_test.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "tests/hidden/joint_setup.hpp"
 #include "tests/hidden/laws/forces.hpp"
 #include "tests/hidden/sensors.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -283,7 +286,6 @@ void see_blocks(const VirtualCampaign& made, const MeasuredRun& planned, const T
     Draws cameras(made.seed, Draw::test_cameras, static_cast<std::uint64_t>(number));
     const double zero = 20 * made.planned.camera_m * cameras.normal();
     const auto blocks = static_cast<std::size_t>(made.model.body_count);
-    const bool table_seen = !made.campaign.runs.empty() && !made.campaign.runs.front().table.x_m.empty();
     std::vector<const BodyState*> places, tables;
     for (std::size_t k = 0; k < run.time_s.size(); ++k) {
         for (std::size_t i = 0; i < blocks; ++i) {
@@ -291,7 +293,7 @@ void see_blocks(const VirtualCampaign& made, const MeasuredRun& planned, const T
                                                                     static_cast<int>(i)) != planned.present.end();
             places.push_back(there && k < truth.frames ? &truth.places[k * blocks + i] : nullptr);
         }
-        if (table_seen)
+        if (made.table_seen)
             tables.push_back(k < truth.frames ? &truth.table[k] : nullptr);
     }
     run.blocks = by_cameras(places, zero, made.planned, cameras);
@@ -317,6 +319,20 @@ void weigh_forces(const VirtualCampaign& made, const TrueTest& truth, int number
     }
 }
 
+/// Whether a run has what only a measurement gives: forces, or places of blocks that no hands hold.
+bool is_measured(const MeasuredRun& run, int blocks)
+{
+    for (const ForceGauge& gauge : run.forces)
+        if (!gauge.value_n.empty())
+            return true;
+    const std::vector<double>& x = run.blocks.x_m.values;
+    for (std::size_t k = 0; k < x.size(); ++k)
+        if (std::isfinite(x[k]) &&
+            !(run.released_s && run.time_s[k / static_cast<std::size_t>(blocks)] <= *run.released_s + 1e-9))
+            return true;
+    return false;
+}
+
 } // namespace
 
 MeasuredRun performed(const VirtualCampaign& made, const MeasuredRun& planned, int number, const State* worn,
@@ -340,27 +356,6 @@ MeasuredRun performed(const VirtualCampaign& made, const MeasuredRun& planned, i
     if (end != nullptr)
         *end = test.state();
     return run;
-}
-
-std::vector<MeasuredRun> performed(const VirtualCampaign& made, std::span<const MeasuredRun> planned, int number)
-{
-    const bool persists = made.model.effects.persists;
-    State state;
-    const State* worn = nullptr;
-    if (persists && !made.runs.empty()) {
-        state = made.runs.back().history.end;
-        worn = &state;
-    }
-    std::vector<MeasuredRun> runs;
-    for (const MeasuredRun& plan : planned) {
-        State end;
-        runs.push_back(performed(made, plan, number++, worn, &end));
-        if (persists) {
-            state = end;
-            worn = &state;
-        }
-    }
-    return runs;
 }
 
 Specimen measured_at_rest(const VirtualCampaign& made, int number, const State* worn)
@@ -391,6 +386,46 @@ Specimen measured_at_rest(const VirtualCampaign& made, int number, const State* 
         measured.bearing_right_m.push_back(half - along(ends.end[1]) + noise * draws.normal());
     }
     return measured;
+}
+
+Campaign tested(const VirtualCampaign& made, const Campaign& planned)
+{
+    if (planned.specimen.joints != made.planned.specimen.joints ||
+        planned.specimen.blocks() != made.planned.specimen.blocks())
+        throw InputError(planned.source, 0,
+                         fmt::format("its specimen is not the one of the campaign, a {} of {} blocks and {} joints.\n  "
+                                     "Give the plan of a test of that campaign.",
+                                     made.planned.specimen.name, made.planned.specimen.blocks(),
+                                     made.planned.specimen.joints.size()));
+    Campaign done = planned;
+    const bool persists = made.model.effects.persists;
+    State state;
+    const State* worn = nullptr;
+    if (persists && !made.runs.empty()) {
+        state = made.runs.back().history.end;
+        worn = &state;
+    }
+    int number = 0;
+    for (MeasuredRun& run : done.tests) {
+        if (is_measured(run, planned.specimen.blocks()))
+            throw InputError(planned.source, 0,
+                             fmt::format("run {} is measured already.\n  Give plans alone, in their order: what is "
+                                         "repeated is the same again.",
+                                         run.name));
+        if (run.test == RunKind::rest) {
+            const Specimen measured = measured_at_rest(made, number, worn);
+            done.specimen.centre_of_mass_m = measured.centre_of_mass_m;
+            done.specimen.bearing_left_m = measured.bearing_left_m;
+            done.specimen.bearing_right_m = measured.bearing_right_m;
+        }
+        State end;
+        run = performed(made, MeasuredRun(run), number++, worn, &end);
+        if (persists) {
+            state = end;
+            worn = &state;
+        }
+    }
+    return done;
 }
 
 } // namespace stylobate::hidden

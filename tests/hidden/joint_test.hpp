@@ -4,9 +4,6 @@
 
 #include "tests/hidden/virtual_campaign.hpp"
 
-#include <span>
-#include <vector>
-
 namespace stylobate::hidden {
 
 /// A test as the laboratory does it: the specimen is set up by hand as planned, and moved, pulled, pushed or dropped.
@@ -27,12 +24,14 @@ namespace stylobate::hidden {
 MeasuredRun performed(const VirtualCampaign& made, const MeasuredRun& planned, int number, const State* worn,
                       State* end);
 
-/// A sequence of tests after the runs of the campaign; memory goes on from test to test where it persists.
-/// @param number of the first one
-std::vector<MeasuredRun> performed(const VirtualCampaign& made, std::span<const MeasuredRun> planned, int number = 0);
-
 /// The specimen with what callipers, level and scales give: centres of mass, and where the joints begin to carry. Their
 /// noise is twice that of the cameras: 0.1 mm for small blocks.
 Specimen measured_at_rest(const VirtualCampaign& made, int number, const State* worn = nullptr);
+
+/// All planned tests of a campaign, one after the other, after the shakes of the virtual one; the number of each is its
+/// place among them. Memory goes on from test to test where it persists. A test at rest fills the lists of the
+/// specimen.
+/// @throws InputError where a plan contradicts itself or the specimen, or is measured already
+Campaign tested(const VirtualCampaign& made, const Campaign& planned);
 
 } // namespace stylobate::hidden

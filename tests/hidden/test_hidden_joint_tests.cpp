@@ -1,8 +1,6 @@
 /// Tests on single joints in the virtual laboratory against statics and kinematics, under both its laws.
 
-#include "ensemble/model/input_error.hpp"
-#include "tests/hidden/joint_setup.hpp"
-#include "tests/hidden/joint_test.hpp"
+#include "tests/hidden/joint_test_plans.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,88 +13,6 @@ namespace stylobate::hidden {
 
 namespace {
 
-constexpr double rate = 500;
-
-/// A small column without runs, as it was made, and without noise or scatter by hand unless a test adds them.
-VirtualCampaign a_column(Law law, SpecimenKind kind = SpecimenKind::small_column)
-{
-    Wish wish;
-    wish.law = law;
-    wish.specimen = kind;
-    wish.effects = std::vector<std::string>{};
-    wish.most_motions = 0;
-    VirtualCampaign made = make_campaign(7, wish);
-    made.planned.camera_m = made.planned.camera_rad = made.planned.sensor_m = 0;
-    made.planned.specimen.placement_tolerance_m = 0;
-    return made;
-}
-
-/// A test of a joint of a column: all below is clamped, all above the tested block away.
-MeasuredRun plan_of(const VirtualCampaign& made, RunKind kind, int joint, double duration_s)
-{
-    MeasuredRun run;
-    run.name = "test";
-    run.test = kind;
-    run.joint = joint;
-    run.rate_hz = rate;
-    const int tested = made.model.beds[static_cast<std::size_t>(joint)].upper;
-    for (int i = 0; i <= tested; ++i)
-        run.present.push_back(i);
-    for (int j = 0; j < joint; ++j)
-        run.clamped.push_back(j);
-    for (int k = 0; k <= std::lround(duration_s * rate); ++k)
-        run.time_s.push_back(k / rate);
-    return run;
-}
-
-/// Two dummies like the tested block, taped on top of it.
-void tape_dummies(const VirtualCampaign& made, MeasuredRun& run)
-{
-    const Specimen& s = made.planned.specimen;
-    const auto b = static_cast<std::size_t>(run.present.back());
-    for (const int storey : {1, 2})
-        run.dummies.push_back({run.present.back(), s.mass_kg[b], s.half_width_m[b], s.half_height_m[b], 0,
-                               2 * s.half_height_m[b] * storey});
-}
-
-ForceGauge gauge_on(const MeasuredRun& run, double height_m, bool to_laboratory, double speed_m_s)
-{
-    ForceGauge gauge;
-    gauge.name = "rod";
-    gauge.block = run.present.back();
-    gauge.height_m = height_m;
-    gauge.to_laboratory = to_laboratory;
-    gauge.speed_m_s = speed_m_s;
-    gauge.stiffness_n_m = 2e4;
-    gauge.gain_sd = 1e-12;
-    gauge.value_n.noise_sd = 0;
-    return gauge;
-}
-
-/// Displacement of a table that goes to and fro with a constant speed and turns within 20 ms.
-void go_to_and_fro(MeasuredRun& run, double stroke_m, double speed_m_s, double from_s)
-{
-    const double quarter = stroke_m / speed_m_s, blend = 0.02;
-    const auto speed = [&](double t) {
-        if (t < from_s)
-            return 0.0;
-        const double turns = (t - from_s + quarter) / (2 * quarter),
-                     to_next = (turns - std::floor(turns)) * 2 * quarter;
-        const double side = std::lround(std::floor(turns)) % 2 == 0 ? 1 : -1;
-        if (t - from_s < blend)
-            return speed_m_s * 0.5 * (1 - std::cos(std::numbers::pi * (t - from_s) / blend));
-        if (to_next < blend && turns >= 1)
-            return -side * speed_m_s * std::cos(std::numbers::pi * to_next / blend);
-        return side * speed_m_s;
-    };
-    double u = 0;
-    for (std::size_t k = 0; k < run.time_s.size(); ++k) {
-        run.base_displacement_m.values.push_back(u);
-        for (int part = 0; part < 20; ++part)
-            u += speed(run.time_s[k] + (part + 0.5) / 20 / rate) / 20 / rate;
-    }
-}
-
 /// 2 degrees per second, the rate rising within half a second.
 void tilt_by(MeasuredRun& run, double side)
 {
@@ -105,16 +21,6 @@ void tilt_by(MeasuredRun& run, double side)
         run.base_tilt_rad.values.push_back(
             t < rise ? speed * (t / 2 - rise / (2 * std::numbers::pi) * std::sin(std::numbers::pi * t / rise))
                      : speed * (t - rise / 2));
-}
-
-MeasuredRun do_test(const VirtualCampaign& made, const MeasuredRun& planned)
-{
-    return performed(made, planned, 3, nullptr, nullptr);
-}
-
-double column(const VirtualCampaign& made, const Series& series, std::size_t k, int block)
-{
-    return series.values[k * static_cast<std::size_t>(made.model.body_count) + static_cast<std::size_t>(block)];
 }
 
 class JointTestOf : public testing::TestWithParam<Law> {};
@@ -157,7 +63,7 @@ std::pair<double, double> pulled(const VirtualCampaign& made, const MeasuredRun&
     const std::vector<double>& u = run.base_displacement_m.values;
     const double reach = *std::max_element(u.begin(), u.end());
     for (std::size_t k = 500; k + 1 < u.size(); ++k) {
-        const double v = (u[k + 1] - u[k - 1]) * rate / 2;
+        const double v = (u[k + 1] - u[k - 1]) * camera_rate_hz / 2;
         if (std::abs(v) < 0.9 * speed_m_s || u[k] * v < 0 || std::abs(u[k]) > 0.9 * reach)
             continue;
         sum[v > 0] += run.forces[0].value_n.values[k];
@@ -166,14 +72,6 @@ std::pair<double, double> pulled(const VirtualCampaign& made, const MeasuredRun&
     const Body& block = made.model.bodies[static_cast<std::size_t>(run.forces[0].block)];
     const double weight = block.mass_kg * made.model.gravity_m_s2;
     return {sum[0] / count[0] / weight, sum[1] / count[1] / weight};
-}
-
-MeasuredRun pull_of(const VirtualCampaign& made, int joint, double speed_m_s, double duration_s = 4)
-{
-    MeasuredRun plan = plan_of(made, RunKind::pull, joint, duration_s);
-    go_to_and_fro(plan, 0.008, speed_m_s, 0.5);
-    plan.forces = {gauge_on(plan, 0.00725, true, 0)};
-    return plan;
 }
 
 /// The rod takes the whole friction, mu m g, against the block's motion with the table.
@@ -221,11 +119,13 @@ TEST_P(JointTestOf, WearGoesOnWhereItPersists)
 {
     VirtualCampaign made = a_column(GetParam());
     made.model.effects.beds[1].wear_per_m = 0.5;
-    const std::vector<MeasuredRun> plans(2, pull_of(made, 1, 0.06));
+    Campaign plans;
+    plans.specimen = made.planned.specimen;
+    plans.tests.assign(2, pull_of(made, 1, 0.06));
     std::vector<double> forces;
     for (const bool persists : {false, true}) {
         made.model.effects.persists = persists;
-        for (const MeasuredRun& run : performed(made, plans, 0))
+        for (const MeasuredRun& run : tested(made, plans).tests)
             forces.push_back(pulled(made, run, 0.06).first);
     }
     EXPECT_NEAR(forces[1], forces[0], 1e-3 * forces[0]);
@@ -379,23 +279,6 @@ TEST_P(JointTestOf, ABondMakesTheFirstPeakOfAPush)
     EXPECT_FALSE(end.beds[1].opened[0] || end.beds[1].opened[1] || end.beds[1].slipped);
 }
 
-MeasuredRun drop_of(const VirtualCampaign& made)
-{
-    MeasuredRun plan = plan_of(made, RunKind::drop, 1, 1.2);
-    tape_dummies(made, plan);
-    plan.released_s = 0.2;
-    const Specimen& s = made.planned.specimen;
-    const double missing = std::numeric_limits<double>::quiet_NaN();
-    for (std::size_t k = 0; k < plan.time_s.size(); ++k)
-        for (int i = 0; i < made.model.body_count; ++i) {
-            const bool held = i == 1 && plan.time_s[k] <= 0.2;
-            plan.blocks.x_m.values.push_back(held ? s.rest_x_m[1] : missing);
-            plan.blocks.y_m.values.push_back(held ? s.rest_y_m[1] + 0.003 : missing);
-            plan.blocks.theta_rad.values.push_back(held ? 0 : missing);
-        }
-    return plan;
-}
-
 TEST_P(JointTestOf, ADroppedBodyComesToRestTheLaterTheLessIsDamped)
 {
     VirtualCampaign made = a_column(GetParam());
@@ -440,50 +323,15 @@ TEST_P(JointTestOf, ASlidingBlockHasTheAccelerationOfFriction)
     for (std::size_t k = 500; k + 4 < run.time_s.size(); ++k) {
         bool sliding = true; // throughout, to the right
         for (std::size_t i = k - 5; i <= k + 4; ++i)
-            sliding = sliding && (x(i, 1) - x(i, 0) - x(i - 1, 1) + x(i - 1, 0)) * rate > 0.02;
+            sliding = sliding && (x(i, 1) - x(i, 0) - x(i - 1, 1) + x(i - 1, 0)) * camera_rate_hz > 0.02;
         if (sliding)
-            accelerations.push_back((x(k + 4, 1) - 2 * x(k, 1) + x(k - 4, 1)) * rate * rate / 16);
+            accelerations.push_back((x(k + 4, 1) - 2 * x(k, 1) + x(k - 4, 1)) * camera_rate_hz * camera_rate_hz / 16);
     }
     ASSERT_GT(accelerations.size(), 50U);
     const double mean =
         std::accumulate(accelerations.begin(), accelerations.end(), 0.0) / static_cast<double>(accelerations.size());
     const double want = made.model.beds[1].friction * made.model.gravity_m_s2;
     EXPECT_NEAR(mean, -want, 0.01 * want);
-}
-
-/// Three equal blocks, or a block with two dummies like it, are one rectangle of thrice the height; an eccentric one
-/// shifts the common centre by a third.
-TEST(JointSetups, OneBodyHasTheMassAndInertiaOfItsParts)
-{
-    VirtualCampaign made = a_column(Law::nonsmooth);
-    const Specimen& s = made.planned.specimen;
-    const double w = s.half_width_m[0], h = s.half_height_m[0], m = s.mass_kg[0];
-    for (std::size_t i = 0; i < 3; ++i) {
-        made.model.bodies[i].half_width_m = w;
-        made.model.bodies[i].mass_kg = m;
-        made.model.bodies[i].inertia_kg_m2 = m * (w * w + h * h) / 3;
-    }
-    MeasuredRun taped = plan_of(made, RunKind::pull, 0, 0.1);
-    taped.present = {0, 1, 2};
-    taped.taped = {{0, 1, 2}};
-    MeasuredRun dummies = plan_of(made, RunKind::push, 0, 0.1);
-    tape_dummies(made, dummies);
-    for (const double off : {0.0, 0.003}) {
-        made.model.effects.bodies[0].eccentricity_m = off;
-        for (const MeasuredRun& plan : {taped, dummies}) {
-            const JointSetup setup = set_up(made, plan, 0, nullptr);
-            const Body& body = setup.model.bodies[0];
-            EXPECT_NEAR(body.mass_kg, 3 * m, 1e-12);
-            EXPECT_NEAR(body.mass_x_m, off / 3, 1e-12);
-            EXPECT_NEAR(body.mass_y_m, 2 * h, 1e-12);
-            // three masses, one of them by two thirds of its offset from the common centre and two by a third
-            EXPECT_NEAR(body.inertia_kg_m2, 3 * m * (w * w + 9 * h * h) / 3 + m * off * off * 2 / 3, 1e-12);
-            double x = 0, y = 0;
-            geometric_centre(setup.model, 0, setup.start.bodies[0], x, y);
-            EXPECT_NEAR(x, s.rest_x_m[0], 1e-12);
-            EXPECT_NEAR(y, s.rest_y_m[0], 1e-12);
-        }
-    }
 }
 
 /// Taped blocks slide as one: the rod holds the weight of both. With less friction than usual, because so high a body
@@ -506,57 +354,6 @@ TEST_P(JointTestOf, TapedBlocksMoveAsOne)
         EXPECT_NEAR(column(made, run.blocks.x_m, k, 1) - column(made, run.blocks.x_m, k, 0), -height * std::sin(lower),
                     1e-9);
     }
-}
-
-TEST(JointTests, AreTheirSeedsAndNumbers)
-{
-    VirtualCampaign made = a_column(Law::compliant);
-    made.planned.camera_m = 5e-5;
-    made.planned.specimen.placement_tolerance_m = 2e-4;
-    const MeasuredRun plan = drop_of(made);
-    const auto places = [&](int number) { return performed(made, plan, number, nullptr, nullptr).blocks.y_m.values; };
-    const std::vector<double> one = places(1), again = places(1), other = places(2);
-    const std::size_t at = 100 * static_cast<std::size_t>(made.model.body_count) + 1;
-    EXPECT_EQ(one[at], again[at]);
-    EXPECT_NE(one[at], other[at]);
-    EXPECT_EQ(made.planned.camera_m, performed(made, plan, 1, nullptr, nullptr).blocks.y_m.noise_sd);
-}
-
-TEST(JointTests, CallipersMeasureCentresAndBearings)
-{
-    VirtualCampaign made = a_column(Law::nonsmooth);
-    made.model.effects.beds[1].chip_left_m = 0.002;
-    made.model.effects.beds[2].chip_right_m = 0.003;
-    made.model.effects.bodies[0].eccentricity_m = -0.001;
-    const Specimen exactly = measured_at_rest(made, 0);
-    EXPECT_NEAR(exactly.bearing_left_m[1], 0.002, 2e-4); // and what the scatter of the widths makes
-    EXPECT_NEAR(exactly.bearing_right_m[1], 0, 2e-4);
-    EXPECT_NEAR(exactly.bearing_right_m[2], 0.003, 2e-4);
-    EXPECT_EQ(exactly.centre_of_mass_m[0], -0.001);
-    made.planned.camera_m = 5e-5;
-    double squares = 0;
-    for (int number = 0; number < 400; ++number)
-        squares += std::pow(measured_at_rest(made, number).centre_of_mass_m[0] + 0.001, 2);
-    EXPECT_NEAR(std::sqrt(squares / 400), 1e-4, 1.5e-5); // four standard deviations
-}
-
-TEST(JointTests, RefuseAPlanThatContradictsItself)
-{
-    const VirtualCampaign made = a_column(Law::nonsmooth);
-    const MeasuredRun good = pull_of(made, 1, 0.06, 0.2);
-    const auto refused = [&](auto change) {
-        MeasuredRun plan = good;
-        change(plan);
-        EXPECT_THROW(do_test(made, plan), InputError);
-    };
-    refused([](MeasuredRun& run) { run.test = RunKind::shake; });
-    refused([](MeasuredRun& run) { run.present = {0, 99}; });
-    refused([](MeasuredRun& run) { run.present = {0}; });
-    refused([](MeasuredRun& run) { run.base_displacement_m.values.pop_back(); });
-    refused([](MeasuredRun& run) { run.time_s[5] += 0.001; });
-    refused([](MeasuredRun& run) { run.released_s = 0.1; });
-    refused([](MeasuredRun& run) { run.forces[0].to_laboratory = false; });
-    EXPECT_NO_THROW(do_test(made, good));
 }
 
 } // namespace

@@ -110,7 +110,7 @@ void choose_amplitude(const Model& model, const Planned& planned, std::uint64_t 
 }
 
 /// What the file gives of a run.
-MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index, bool table_seen)
+MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index)
 {
     const Planned& planned = made.planned;
     MeasuredRun seen;
@@ -139,18 +139,18 @@ MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index,
     add_noise(seen.base_displacement_m, planned.sensor_m, table);
 
     std::vector<const BodyState*> places, tables;
-    std::vector<BodyState> states(table_seen ? frames : 0);
+    std::vector<BodyState> states(made.table_seen ? frames : 0);
     for (std::size_t k = 0; k < frames; ++k) {
         const bool standing = k < static_cast<std::size_t>(run.history.frames);
         for (std::size_t i = 0; i < blocks; ++i)
             places.push_back(standing ? &run.history.places[k * blocks + i] : nullptr);
-        if (table_seen && standing) {
+        if (made.table_seen && standing) {
             const BaseState& base = run.history.table[k];
             states[k].x = base.x;
             states[k].y = base.y;
             states[k].theta = base.theta;
         }
-        if (table_seen)
+        if (made.table_seen)
             tables.push_back(standing ? &states[k] : nullptr);
     }
     seen.blocks = by_cameras(places, cameras_zero, planned, cameras);
@@ -159,8 +159,7 @@ MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index,
 }
 
 /// Each motion so many times, the specimen put back by hand in between.
-void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, const std::vector<int>& repeats,
-               bool table_seen)
+void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, const std::vector<int>& repeats)
 {
     const State* worn = nullptr;
     made.campaign.specimen = made.planned.specimen;
@@ -176,7 +175,7 @@ void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, cons
             made.runs.push_back(std::move(run));
             if (made.model.effects.persists)
                 worn = &made.runs.back().history.end;
-            MeasuredRun seen = seen_run(made, made.runs.back(), index, table_seen);
+            MeasuredRun seen = seen_run(made, made.runs.back(), index);
             seen.motion_id = static_cast<int>(i);
             seen.repeat = repeat;
             made.campaign.runs.push_back(std::move(seen));
@@ -208,7 +207,7 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
             bed.friction *= ratio;
     }
     made.of_command = plan.chance(0.3);
-    const bool table_seen = plan.chance(0.25);
+    made.table_seen = plan.chance(0.25);
 
     const std::vector<std::string> drawn = draw_names(made.model.law, plan);
     const std::vector<std::string> names = wish.effects.value_or(drawn);
@@ -231,7 +230,7 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
     for (int i = 0; i < motions; ++i)
         choose_amplitude(made.model, made.planned, seed, i, shakings[static_cast<std::size_t>(i)]);
     made.campaign.source = fmt::format("campaign_{}", seed);
-    shake_all(made, shakings, repeats, table_seen);
+    shake_all(made, shakings, repeats);
     return made;
 }
 
@@ -243,6 +242,7 @@ VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, 
     other.model =
         make_specimen(made.planned, made.model.law, Draws(other.seed, Draw::making), Draws(made.seed, Draw::law));
     other.of_command = made.of_command;
+    other.table_seen = made.table_seen;
     if (with_effects) {
         other.effects = made.effects;
         other.model.effects = made.model.effects;
@@ -257,7 +257,7 @@ VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, 
         ++repeats.back();
     }
     other.campaign.source = fmt::format("{}_like_{}", made.campaign.source, number);
-    shake_all(other, shakings, repeats, !made.campaign.runs.front().table.x_m.values.empty());
+    shake_all(other, shakings, repeats);
     return other;
 }
 
