@@ -9,7 +9,7 @@ namespace stylobate::hidden {
 /// A test as the laboratory does it: the specimen is set up by hand as planned, and moved, pulled, pushed or dropped.
 ///
 /// Rods touch the middle line of their block at `height_m`; from 0.2 s on their end moves with `speed_m_s`, over a
-/// third of the block's width (10 mm of small blocks) at the most. Gauge and rod have 5 % of critical damping. Hands
+/// fifth of the block's width (10 mm of small blocks) at the most. Gauge and rod have 5 % of critical damping. Hands
 /// hold a body at the planned place, shifted as it was laid and level to what the cameras see. A body that turned by
 /// 0.7 rad against the table or has lost nine tenths of its bed is caught: the run has collapsed. A vertical motion of
 /// the table with its own frequency does not act here; its other effects do.
