@@ -1,0 +1,63 @@
+#pragma once
+/// The next test of a single joint: the largest expected fall of the entropy of the belief per cost, among the tests
+/// that the laboratory can do (Lindley, "On a measure of the information provided by an experiment", Annals of
+/// Mathematical Statistics 27 (1956) 986). The expectation is over estimates that the present belief predicts, with
+/// common random numbers for all tests.
+
+#include "studies/measured/loop/sequence.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// A test that may be done.
+struct TestOption {
+    RunKind test = RunKind::pull;
+    std::optional<int> joint;          ///< nullopt: at all joints, one after the other
+    double cost = 1;                   ///< above 0, in any unit
+    std::optional<std::string> cannot; ///< why the laboratory cannot do it; nullopt: it can
+    friend bool operator==(const TestOption&, const TestOption&) = default;
+};
+
+/// What is expected of a test.
+struct RatedTest {
+    TestOption option;
+    double entropy_fall = 0;             ///< expected [nats]
+    double per_cost = 0;                 ///< of it
+    std::optional<std::string> left_out; ///< why it is no choice; nullopt: it is one
+};
+
+struct ChoiceSettings {
+    int draws = 256; ///< of the estimates of a test
+    std::uint64_t seed = 1;
+};
+
+/// Used columns of a test, in their order.
+std::vector<Eigen::Index> columns_of(const Signatures& signatures, const TestOption& option);
+
+/// Expected entropy of the belief after estimates in these columns, in addition to those seen [nats]. A pure function
+/// of its arguments.
+double expected_entropy(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                        const std::vector<Eigen::Index>& columns, const ChoiceSettings& settings);
+
+/// All options, the best first, those that are no choice last: the laboratory cannot do them, nearly everything falls
+/// in them, no cause shows in them, or they are expected to tell nothing.
+std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                                   const std::vector<TestOption>& options, const ChoiceSettings& settings = {});
+
+/// The test to do next. After a doubtful result (`SequenceJudgement::doubtful`) it is among the repeat of the last test
+/// and the tests in which the group of the suspected cause shows.
+/// @return nothing where no test is a choice
+std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                                     const std::vector<TestOption>& options, const ChoiceSettings& settings = {});
+
+/// Tests to be done together, before any estimate is known: one after the other is added that lets the entropy of the
+/// belief fall most per cost, given the outcome of those before it. Their falls are those beside the ones before.
+std::vector<RatedTest> planned_tests(const SequenceModel& model, const std::vector<TestOption>& options,
+                                     std::size_t count, const ChoiceSettings& settings = {});
+
+} // namespace stylobate

@@ -1,0 +1,238 @@
+#include "studies/measured/loop/signatures.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double least_finite = 0.75;      // part of the healthy specimens in which a used column has a value
+constexpr double least_deviations = 2;     // of a shift that counts, in standard deviations
+constexpr double least_errors = 3;         // and in its standard errors
+constexpr double least_floor = 0.05;       // of the scatter: no test repeats itself better
+constexpr Eigen::Index parts_left_out = 6; // one after the other
+
+/// Mean, variance and number of the finite values.
+struct FiniteMoments {
+    double mean = 0, variance = 0;
+    double count = 0;
+};
+
+FiniteMoments finite_moments(const Eigen::VectorXd& values)
+{
+    FiniteMoments m;
+    for (const double v : values)
+        if (std::isfinite(v)) {
+            m.mean += v;
+            ++m.count;
+        }
+    if (m.count == 0)
+        return m;
+    m.mean /= m.count;
+    for (const double v : values)
+        if (std::isfinite(v))
+            m.variance += (v - m.mean) * (v - m.mean);
+    m.variance = m.count > 1 ? m.variance / (m.count - 1) : 0;
+    return m;
+}
+
+/// An orthonormal basis (p x p, a row each): of each group of like columns the mean and Helmert's contrasts.
+Eigen::MatrixXd joint_contrasts(Eigen::Index p, const std::vector<std::vector<Eigen::Index>>& alike)
+{
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(p, p);
+    for (const std::vector<Eigen::Index>& group : alike)
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            const auto n = static_cast<double>(k == 0 ? group.size() : k);
+            for (std::size_t i = 0; i < (k == 0 ? group.size() : k); ++i)
+                basis(group[k], group[i]) = k == 0 ? 1 / std::sqrt(n) : 1 / std::sqrt(n * (n + 1));
+            if (k > 0)
+                basis(group[k], group[k]) = -n / std::sqrt(n * (n + 1));
+        }
+    return basis;
+}
+
+/// Mean squared distance of the estimates of specimens that were left out, for each estimate.
+double distance_left_out(const SimulatedTests& tests, const Signatures& s)
+{
+    double sum = 0, count = 0;
+    const Eigen::Index n = tests.healthy.rows();
+    for (Eigen::Index part = 0; part < parts_left_out; ++part) {
+        std::vector<Eigen::Index> kept;
+        for (Eigen::Index i = 0; i < n; ++i)
+            if (i % parts_left_out != part)
+                kept.push_back(i);
+        Signatures others = s;
+        std::tie(others.mean, others.covariance) = healthy_scatter(tests.healthy(kept, Eigen::all), s.alike);
+        for (Eigen::Index i = part; i < n; i += parts_left_out) {
+            std::vector<Eigen::Index> finite;
+            for (Eigen::Index j = 0; j < s.mean.size(); ++j)
+                if (s.used[static_cast<std::size_t>(j)] && std::isfinite(tests.healthy(i, j)))
+                    finite.push_back(j);
+            if (finite.empty())
+                continue;
+            const Eigen::VectorXd off = tests.healthy(i, finite).transpose() - others.mean(finite);
+            sum += off.dot(others.covariance_of(finite).llt().solve(off));
+            count += static_cast<double>(finite.size());
+        }
+    }
+    return count > 0 ? sum / count : 1;
+}
+
+/// Shift and additional variance of one column, before small ones are left out.
+struct ColumnShift {
+    double shift = 0, variance = 0, error = 0;
+    bool known = false;
+};
+
+ColumnShift column_shift(const SimulatedTests& tests, const CauseSamples& samples, Eigen::Index j)
+{
+    ColumnShift out;
+    Eigen::VectorXd values = samples.rows.col(j);
+    const bool paired = !samples.pairs.empty();
+    if (paired)
+        for (Eigen::Index i = 0; i < values.size(); ++i)
+            values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
+    const FiniteMoments with = finite_moments(values);
+    if (with.count < 2 || 2 * with.count < static_cast<double>(values.size()))
+        return out;
+    out.known = true;
+    if (paired) {
+        out.shift = with.mean;
+        out.error = std::sqrt(with.variance / with.count);
+        out.variance = with.variance;
+    } else {
+        const FiniteMoments without = finite_moments(tests.healthy.col(j));
+        out.shift = with.mean - without.mean;
+        out.error = std::sqrt(with.variance / with.count + without.variance / without.count);
+        out.variance = std::max(0.0, with.variance - without.variance);
+    }
+    out.variance += out.error * out.error;
+    return out;
+}
+
+CauseSignature cause_signature(const SimulatedTests& tests, const CauseSamples& samples, const Signatures& s,
+                               const Eigen::VectorXd& sd)
+{
+    const Eigen::Index p = s.mean.size();
+    CauseSignature out{samples.cause, Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
+    for (Eigen::Index j = 0; j < p; ++j) {
+        if (!s.used[static_cast<std::size_t>(j)])
+            continue;
+        const ColumnShift c = column_shift(tests, samples, j);
+        if (!c.known || std::fabs(c.shift) < least_deviations * sd(j) || std::fabs(c.shift) < least_errors * c.error)
+            continue;
+        out.shift(j) = c.shift;
+        out.variance(j) = c.variance;
+    }
+    return out;
+}
+
+} // namespace
+
+const char* test_kind_name(RunKind kind)
+{
+    switch (kind) {
+    case RunKind::shake:
+        return "shake";
+    case RunKind::pull:
+        return "pull";
+    case RunKind::board:
+        return "board";
+    case RunKind::tilt:
+        return "tilt";
+    case RunKind::push:
+        return "push";
+    case RunKind::drop:
+        return "drop";
+    case RunKind::slide:
+        return "slide";
+    case RunKind::rest:
+        return "rest";
+    }
+    return "";
+}
+
+std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
+                                                            const std::vector<std::vector<Eigen::Index>>& alike)
+{
+    const Eigen::Index n = rows.rows(), p = rows.cols();
+    Eigen::VectorXd mean(p), variance(p);
+    Eigen::MatrixXd off(n, p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+        const FiniteMoments m = finite_moments(rows.col(j));
+        mean(j) = m.mean;
+        variance(j) = m.variance;
+        for (Eigen::Index i = 0; i < n; ++i)
+            off(i, j) = std::isfinite(rows(i, j)) ? rows(i, j) - m.mean : 0;
+    }
+    const Eigen::MatrixXd basis = joint_contrasts(p, alike);
+    Eigen::MatrixXd contrasts = off * basis.transpose();
+    const Eigen::VectorXd sd = (contrasts.colwise().squaredNorm().transpose() / static_cast<double>(n - 1)).cwiseSqrt();
+    for (Eigen::Index j = 0; j < p; ++j)
+        contrasts.col(j) /= std::max(sd(j), 1e-300);
+    const Eigen::MatrixXd correlation = shrunk_correlation(contrasts, Eigen::VectorXd::Ones(n));
+    const Eigen::MatrixXd back = basis.transpose() * sd.asDiagonal();
+    Eigen::MatrixXd covariance = back * correlation * back.transpose();
+    // missing values stood at the mean
+    for (Eigen::Index j = 0; j < p; ++j)
+        covariance(j, j) = std::max(covariance(j, j), variance(j));
+    return {mean, covariance};
+}
+
+Eigen::MatrixXd Signatures::covariance_of(const std::vector<Eigen::Index>& of) const
+{
+    Eigen::MatrixXd out = covariance(of, of);
+    out.diagonal() += floor_variance(of);
+    return out;
+}
+
+Eigen::VectorXd Signatures::sd_given_others(const std::vector<Eigen::Index>& of) const
+{
+    return covariance_of(of).inverse().diagonal().cwiseInverse().cwiseSqrt();
+}
+
+Signatures signatures_of(const SimulatedTests& tests)
+{
+    Signatures s;
+    s.columns = tests.columns;
+    const auto p = static_cast<Eigen::Index>(s.columns.size());
+    std::map<std::pair<RunKind, std::string>, std::vector<Eigen::Index>> alike;
+    for (Eigen::Index j = 0; j < p; ++j) {
+        const TestColumn& column = s.columns[static_cast<std::size_t>(j)];
+        const FiniteMoments m = finite_moments(tests.healthy.col(j));
+        s.used.push_back(m.count >= least_finite * static_cast<double>(tests.healthy.rows()) &&
+                         m.variance + column.floor_sd > 0);
+        if (s.used.back())
+            alike[{column.test, column.name}].push_back(j);
+    }
+    if (std::find(s.used.begin(), s.used.end(), true) == s.used.end())
+        throw InputError("tests of single joints: no test gives an estimate in three of four simulated healthy "
+                         "specimens.\n  Check the procedures for this specimen: in most of them everything falls.");
+    for (auto& [name, group] : alike)
+        s.alike.push_back(std::move(group));
+    std::tie(s.mean, s.covariance) = healthy_scatter(tests.healthy, s.alike);
+    s.floor_variance.resize(p);
+    for (Eigen::Index j = 0; j < p; ++j)
+        s.floor_variance(j) = std::max({std::pow(s.columns[static_cast<std::size_t>(j)].floor_sd, 2),
+                                        least_floor * least_floor * s.covariance(j, j)});
+    s.scale = std::max(1.0, distance_left_out(tests, s));
+    s.covariance *= s.scale;
+
+    Eigen::VectorXd sd = Eigen::VectorXd::Zero(p);
+    for (const std::vector<Eigen::Index>& group : s.alike)
+        sd(group) = s.sd_given_others(group);
+    for (const CauseSamples& samples : tests.causes)
+        s.causes.push_back(cause_signature(tests, samples, s, sd));
+    return s;
+}
+
+} // namespace stylobate

@@ -1,0 +1,139 @@
+/// Signatures from tables: of Gaussian specimens whose scatter and shifts are known.
+
+#include "studies/measured/loop/signatures.hpp"
+#include "tests/studies/measured/loop/gaussian_laboratory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace stylobate {
+namespace {
+
+/// Healthy specimens of the Gaussian laboratory, and of a lost corner at joint 1, all around 10.
+SimulatedTests gaussian_tables(Eigen::Index healthy, Eigen::Index with, bool paired, unsigned seed)
+{
+    gaussian::Specimens specimens(gaussian::covariance(), seed);
+    SimulatedTests out{gaussian::columns(), Eigen::MatrixXd(healthy, 15), {}};
+    for (Eigen::Index i = 0; i < healthy; ++i)
+        out.healthy.row(i) = specimens.draw().transpose().array() + 10;
+    CauseSamples samples{{"corner_loss", "joint 1", 1, "m"}, Eigen::MatrixXd(with, 15), {}};
+    for (Eigen::Index i = 0; i < with; ++i) {
+        samples.rows.row(i) = paired ? Eigen::RowVectorXd(out.healthy.row(i))
+                                     : Eigen::RowVectorXd(specimens.draw().transpose().array() + 10);
+        for (const auto& [column, shift] : gaussian::shifts(1, 1, 1))
+            samples.rows(i, column) += shift;
+        if (paired)
+            samples.pairs.push_back(static_cast<int>(i));
+    }
+    out.causes.push_back(samples);
+    return out;
+}
+
+TEST(Signatures, KeepTheContrastsOfTheJoints)
+{
+    const Signatures s = signatures_of(gaussian_tables(96, 12, true, 3));
+    // of a plateau given those at the two other joints: 5^2 is common, 0.5^2 + 0.3^2 its own
+    const double own = 0.25 + 0.09, others = 25 + own / 2;
+    const double expected = std::sqrt(25 + own - 25 * 25 / others);
+    const Eigen::VectorXd sd = s.sd_given_others({6, 7, 8});
+    for (const double found : sd)
+        EXPECT_NEAR(found, expected, 0.25 * expected) << "and not the common scatter of 5";
+    EXPECT_NEAR(std::sqrt(s.covariance(6, 6)), 5, 1.2);
+    EXPECT_GE(s.scale, 1);
+    EXPECT_LT(s.scale, 1.6);
+}
+
+TEST(Signatures, HaveShiftsOfTwoDeviationsAndMore)
+{
+    for (const bool paired : {true, false}) {
+        const Signatures s = signatures_of(gaussian_tables(96, 24, paired, 7));
+        ASSERT_EQ(s.causes.size(), 1U);
+        for (Eigen::Index j = 0; j < 15; ++j)
+            EXPECT_NEAR(s.causes[0].shift(j), j == 7 || j == 10 ? 6 : 0,
+                        j != 7 && j != 10 ? 0
+                        : paired          ? 1e-9
+                                          : 3.5)
+                << j;
+        EXPECT_GE(s.causes[0].variance(7), 0);
+    }
+    // with the same specimens a small shift is exact, and still too small to count
+    SimulatedTests small = gaussian_tables(96, 24, true, 7);
+    small.causes[0].rows.col(7).array() -= 5;
+    const Signatures s = signatures_of(small);
+    EXPECT_EQ(s.causes[0].shift(7), 0) << "1 of 0.7";
+    EXPECT_GT(s.causes[0].shift(10), 0);
+}
+
+TEST(Signatures, ScatterOfACauseIsBesideThatOfHealthySpecimens)
+{
+    SimulatedTests tests = gaussian_tables(96, 24, true, 9);
+    double sum = 0, squares = 0;
+    for (Eigen::Index i = 0; i < 24; ++i) {
+        const double more = std::sin(37.0 * static_cast<double>(i));
+        tests.causes[0].rows(i, 7) += more;
+        sum += more;
+        squares += more * more;
+    }
+    const double variance = (squares - sum * sum / 24) / 23;
+    const Signatures s = signatures_of(tests);
+    EXPECT_NEAR(s.causes[0].variance(7), variance * (1 + 1 / 24.0), 1e-9);
+    EXPECT_NEAR(s.causes[0].shift(7), 6 + sum / 24, 1e-9);
+    EXPECT_NEAR(s.causes[0].variance(10), 0, 1e-9);
+}
+
+TEST(Signatures, LeaveOutWhatFallsAndWhatHasNoScatter)
+{
+    SimulatedTests tests = gaussian_tables(96, 12, true, 11);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (Eigen::Index i = 0; i < 96; ++i)
+        if (i % 3 != 0)
+            tests.healthy(i, 2) = none; // in two of three
+    tests.healthy(0, 3) = none;
+    tests.healthy.col(14).setConstant(4);
+    tests.columns[14].floor_sd = 0;
+    const Signatures s = signatures_of(tests);
+    EXPECT_FALSE(s.used[2]);
+    EXPECT_TRUE(s.used[3]);
+    EXPECT_FALSE(s.used[14]);
+    EXPECT_TRUE(std::isfinite(s.covariance.sum()));
+    tests.healthy.setConstant(none);
+    EXPECT_THROW(signatures_of(tests), std::runtime_error);
+}
+
+TEST(Signatures, FloorIsAddedToTheDiagonal)
+{
+    const Signatures s = signatures_of(gaussian_tables(96, 12, true, 13));
+    const Eigen::MatrixXd c = s.covariance_of({6, 7, 6});
+    EXPECT_DOUBLE_EQ(c(0, 0), s.covariance(6, 6) + std::max(0.09, 0.0025 * s.covariance(6, 6) / s.scale));
+    EXPECT_DOUBLE_EQ(c(0, 1), s.covariance(6, 7));
+    EXPECT_DOUBLE_EQ(c(0, 2), s.covariance(6, 6)) << "a repeat on the same specimen";
+}
+
+TEST(SignaturesStatistics, DistancesOfOtherSpecimensAreAsLargeAsTheySay)
+{
+    // 48 specimens for 15 columns: without the factor of parts left out the distances would be too large
+    double sum = 0;
+    const int repeats = 20;
+    for (unsigned seed = 0; seed < repeats; ++seed) {
+        const Signatures s = signatures_of(gaussian_tables(48, 12, true, 100 + seed));
+        std::vector<Eigen::Index> all;
+        for (Eigen::Index j = 0; j < 15; ++j)
+            all.push_back(j);
+        const Eigen::MatrixXd inverse = s.covariance_of(all).inverse();
+        gaussian::Specimens others(gaussian::covariance(), 1000 + seed);
+        for (int i = 0; i < 50; ++i) {
+            const Eigen::VectorXd off = others.draw() + Eigen::VectorXd::Constant(15, 10) - s.mean;
+            sum += off.dot(inverse * off) / 15 / 50 / repeats;
+        }
+    }
+    EXPECT_LT(sum, 1.05);
+    EXPECT_GT(sum, 0.5);
+}
+
+} // namespace
+} // namespace stylobate
