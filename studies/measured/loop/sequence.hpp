@@ -100,6 +100,15 @@ constexpr double least_doubtful = 2.5, most_doubtful = 6; ///< standard deviatio
 
 SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenEstimate> seen);
 
+/// Sizes of a cause, given that it acts: posterior mean and equal-tailed interval, all sizes of either sign up to 1.5
+/// times the strongest simulated one alike beforehand.
+struct SizeInterval {
+    double mean = 0, low = 0, high = 0;
+};
+/// @return nothing where no estimate shows the cause
+std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                                    const CausePlace& cause, double level = 0.9);
+
 /// The largest size of a cause that the tests leave possible, for one sign of the size.
 struct SizeLimit {
     CausePlace cause;

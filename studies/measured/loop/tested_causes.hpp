@@ -29,7 +29,8 @@ struct LoopCause {
 std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<int>& joints, double friction,
                                    double stiffness_n_m2);
 
-/// A size of the tables in the parameter of its mechanism, with its name and unit: "dynamic_ratio = 0.72".
-std::string size_words(const CausePlace& cause, double size);
+/// A size of the tables as the value of the cause's parameter, and in words: "dynamic_ratio = 0.72".
+double parameter_of(const Cause& cause, double size);
+std::string size_words(const Cause& cause, double size);
 
 } // namespace stylobate
