@@ -309,6 +309,14 @@ private:
                          "about 50 no cause of joints and blocks can be significant")
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
+        diagnosing
+            ->add_option("--specimens", specimens_,
+                         "number of healthy specimens that go through simulated tests of single joints. 0: none; no "
+                         "test is proposed, and those that the campaign has are not read")
+            ->check(CLI::Range(0LL, 10000LL))
+            ->capture_default_str();
+        diagnosing->add_flag("--plan", diagnosis_.plan,
+                             "propose three tests instead of one; shake runs are not needed");
         diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();
@@ -316,6 +324,7 @@ private:
         add_mpi(*diagnosing);
         diagnosing->callback([this] {
             diagnosis_.nulls = static_cast<std::uint64_t>(nulls_);
+            diagnosis_.specimens = static_cast<std::uint64_t>(specimens_);
             diagnosis_.seed = static_cast<std::uint64_t>(seed_);
             on_ranks([this] { return diagnose_command(options_, diagnosis_, study_, output_); });
         });
@@ -495,7 +504,7 @@ private:
     CalibrationRequest calibration_;
     bool keep_all_ = false;
     DiagnosisRequest diagnosis_;
-    long long nulls_ = 192, seed_ = 1;
+    long long nulls_ = 192, specimens_ = 64, seed_ = 1;
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;

@@ -8,8 +8,9 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
+#include "studies/measured/diagnosis/findings/test_story.hpp"
+#include "studies/measured/loop/sequence.hpp"
 #include "studies/measured/loop/simulated_samples.hpp"
-#include "studies/measured/loop/test_story.hpp"
 
 #include <filesystem>
 #include <functional>

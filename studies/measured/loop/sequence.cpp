@@ -266,21 +266,6 @@ Belief belief_of(const SequenceModel& model, std::span<const SeenEstimate> seen)
     return belief_from(model, density.log_ratios(density.whitened(used.values)));
 }
 
-const char* to_string(SequenceVerdict verdict)
-{
-    switch (verdict) {
-    case SequenceVerdict::open:
-        return "open";
-    case SequenceVerdict::named:
-        return "named";
-    case SequenceVerdict::unexplained:
-        return "unexplained";
-    case SequenceVerdict::none:
-        return "none";
-    }
-    return "";
-}
-
 SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenEstimate> seen)
 {
     SequenceJudgement out;

@@ -12,6 +12,7 @@
 /// de collectif" (1939); Grünwald, de Heide and Koolen, "Safe testing", Journal of the Royal Statistical Society B 86
 /// (2024)). A cause or the word *unexplained* needs E >= 40 and 0.9 of the belief.
 
+#include "studies/measured/diagnosis/findings/test_story.hpp"
 #include "studies/measured/loop/joint_density.hpp"
 
 #include <optional>
@@ -74,14 +75,6 @@ struct Belief {
 Belief belief_from(const SequenceModel& model, const Eigen::VectorXd& log_ratios);
 /// @param seen in the order of the tests; what is in an unused column does not count
 Belief belief_of(const SequenceModel& model, std::span<const SeenEstimate> seen);
-
-enum class SequenceVerdict {
-    open,        ///< something is suspected and nothing decided
-    named,       ///< a cause acts
-    unexplained, ///< an estimator is beyond healthy specimens, and no listed cause gives it
-    none         ///< nothing acts that the tests would have shown
-};
-const char* to_string(SequenceVerdict verdict);
 
 struct SequenceJudgement {
     SequenceVerdict verdict = SequenceVerdict::open;

@@ -2,16 +2,23 @@
 /// What a sequence of tests of single joints has shown, as plain data: what was believed, what was tested, what was
 /// seen, what is believed now, and which test comes next. Part of a `Diagnosis`, of its file, its JSON and its page.
 
-#include "ensemble/model/campaign.hpp"
 #include "io/tables/rows.hpp"
-#include "studies/measured/loop/sequence.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 namespace stylobate {
+
+enum class SequenceVerdict {
+    open,        ///< something is suspected and nothing decided
+    named,       ///< a cause acts
+    unexplained, ///< an estimator is beyond healthy specimens, and no listed cause gives it
+    none         ///< nothing acts that the tests would have shown
+};
+const char* to_string(SequenceVerdict verdict);
 
 /// One number of a test, beside healthy specimens.
 struct StoryEstimate {
