@@ -14,35 +14,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace stylobate {
 
 namespace {
-
-constexpr double listed_belief = 0.7; // of candidates that the first diagnosis lists without a probability
-constexpr double most_told_nats = 8;
-
-/// What the first diagnosis believes of joints and blocks. Its gains are no likelihood of independent data: they count
-/// by half.
-std::vector<PriorShare> shares_of(const Diagnosis& diagnosis)
-{
-    std::vector<PriorShare> shares;
-    double sum = 0, likely = 0;
-    for (const Candidate& c : diagnosis.candidates) {
-        PriorShare share{c.mechanism, c.place, std::expm1(std::min(c.gain_nats.value_or(0), most_told_nats) / 2)};
-        if (c.mechanism == "corner_loss") // of either side
-            share.place.reset();
-        likely += c.probability.value_or(0);
-        sum += share.weight;
-        shares.push_back(std::move(share));
-    }
-    for (std::size_t i = 0; i < shares.size(); ++i)
-        shares[i].weight = likely > 0 ? diagnosis.candidates[i].probability.value_or(0)
-                           : sum > 0  ? listed_belief * shares[i].weight / sum
-                                      : 0;
-    return shares;
-}
 
 /// A diagnosis of a campaign without shake runs: what it is of.
 Diagnosis without_shakes(const Campaign& campaign, const Study& study, std::uint64_t seed)
@@ -87,7 +62,7 @@ bool tell_tests(const DiagnosisRequest& request, const Campaign& campaign, const
         observer.counted("simulated tests", fmt::format("{} of {} simulated tests", done, total), progress);
     };
     StopOnly quiet(observer);
-    diagnosis.tests = laboratory_loop(campaign, study, shares_of(diagnosis), how, quiet);
+    diagnosis.tests = laboratory_loop(campaign, study, prior_shares(diagnosis), how, quiet);
     return diagnosis.tests.has_value();
 }
 

@@ -21,7 +21,9 @@ constexpr RunKind joint_test_kinds[] = {RunKind::pull, RunKind::push,  RunKind::
 constexpr double told_belief = 0.02;    // shares that are told
 constexpr double told_deviations = 2.5; // estimates that are told in words
 constexpr double usual_friction = 0.6;  // where the specimen states none
-constexpr double like_the_plan = 0.1;   // of the largest displacement: farther, and a run was another test
+constexpr double listed_belief = 0.7;   // of candidates that the first diagnosis lists without a probability
+constexpr double most_told_nats = 8;
+constexpr double like_the_plan = 0.1; // of the largest displacement: farther, and a run was another test
 
 /// One performance of a test on one joint.
 struct DoneTest {
@@ -319,6 +321,25 @@ private:
 };
 
 } // namespace
+
+std::vector<PriorShare> prior_shares(const Diagnosis& diagnosis)
+{
+    std::vector<PriorShare> shares;
+    double sum = 0, likely = 0;
+    for (const Candidate& c : diagnosis.candidates) {
+        PriorShare share{c.mechanism, c.place, std::expm1(std::min(c.gain_nats.value_or(0), most_told_nats) / 2)};
+        if (c.mechanism == "corner_loss") // of either side
+            share.place.reset();
+        likely += c.probability.value_or(0);
+        sum += share.weight;
+        shares.push_back(std::move(share));
+    }
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i].weight = likely > 0 ? diagnosis.candidates[i].probability.value_or(0)
+                           : sum > 0  ? listed_belief * shares[i].weight / sum
+                                      : 0;
+    return shares;
+}
 
 std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& contacts,
                                          const std::vector<PriorShare>& shares, const LoopOptions& options,

@@ -8,7 +8,7 @@
 #include "ensemble/model/observer.hpp"
 #include "ensemble/model/study.hpp"
 #include "ensemble/run/executor.hpp"
-#include "studies/measured/diagnosis/findings/test_story.hpp"
+#include "studies/measured/diagnosis/findings/diagnosis.hpp"
 #include "studies/measured/loop/sequence.hpp"
 #include "studies/measured/loop/simulated_samples.hpp"
 
@@ -28,8 +28,12 @@ struct LoopOptions {
     std::function<void(std::uint64_t, std::uint64_t)> progress{};
 };
 
+/// What the first diagnosis believes of joints and blocks: a prior, and no evidence. Its probabilities, where it has
+/// some; else its gains, which are no likelihood of independent data and count by half.
+std::vector<PriorShare> prior_shares(const Diagnosis& diagnosis);
+
 /// @param contacts about which healthy laws are drawn (the study of the first diagnosis)
-/// @param shares   what the first diagnosis believes: a prior, and no evidence
+/// @param shares   as `prior_shares`
 /// @return nothing if the observer stopped it: the rows so far are kept in the cache
 /// @throws InputError if no joint of the specimen can be tested by itself
 std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& contacts,
