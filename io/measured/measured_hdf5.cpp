@@ -352,7 +352,7 @@ private:
         const hdf5::Handle object = hdf5::open_object(group, name.path);
         if (const auto noise = number(object.id(), "noise_sd"))
             series.noise_sd = *noise * factor;
-        if (std::string(name.path).starts_with("base/") && name.dimension != Dimension::angle) {
+        if (const std::string path = name.path; path.starts_with("base/") && path != "base/theta_rad") {
             if (const auto source = text(object.id(), "source"))
                 take_source(base_source(campaign_, at(name.path) + "/source", *source), run);
             if (const auto clock = text(object.id(), "clock"); clock && !run.base_clock)

@@ -3,9 +3,9 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/keys/words.hpp"
+#include "io/measured/campaign_template.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "studies/cli/command.hpp"
-#include "studies/reference/campaign_template.hpp"
 #include "studies/reference/study_reference.hpp"
 #include "studies/workflow/output_path.hpp"
 

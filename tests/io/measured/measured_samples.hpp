@@ -139,8 +139,10 @@ inline std::vector<MeasuredRun> sample_tests(const Specimen& specimen, int sampl
             run.dummies = {{1, 0.1355, 0.024, 0.0145, 0, 0.029}, {1, 0.1355, 0.024, 0.0145, 1e-4, 0.058}};
         if (kind == RunKind::drop)
             run.released_s = 0.2;
-        if (kind == RunKind::board)
+        if (kind == RunKind::board) {
             run.base_tilt_rad.noise_sd = 5e-4;
+            run.base_source = BaseSource::command;
+        }
         if (kind != RunKind::pull && kind != RunKind::push)
             continue;
         ForceGauge& gauge = run.forces.emplace_back();

@@ -1,8 +1,10 @@
 /// Tests of single joints in measured data: files of version 2, what they refuse, and that no such test is read as a
 /// shake run.
 
+#include "io/files/hdf5.hpp"
 #include "io/measured/campaign_writer.hpp"
 #include "io/measured/measured_file.hpp"
+#include "io/measured/measured_motion.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/io/measured/same_campaign.hpp"
 
@@ -83,6 +85,69 @@ TEST(JointTestFile, RoundTripIsBitForBit)
         write_campaign(campaign, folder / name);
         expect_same(campaign, read_campaign(folder / name));
     }
+}
+
+TEST(JointTestFile, UnitsAndTypesOfOtherProgramsAreConverted)
+{
+    const MeasuredFolder folder("foreign_tests");
+    {
+        hdf5::Handle file = hdf5::create_file(folder / "a.h5", 0);
+        hdf5::write_text(file.id(), "format", "stylobate-measured");
+        hdf5::write_real(file.id(), "format_version", 2);
+        const hdf5::Handle specimen = hdf5::create_group(file.id(), "specimen");
+        const auto list = [](const hdf5::Handle& group, const char* name, const std::vector<double>& values,
+                             const char* unit) { hdf5::write_array(group.id(), name, values, {values.size()}, unit); };
+        for (const char* name : {"half_width_m", "half_height_m", "depth_m"})
+            list(specimen, name, {0.02, 0.02}, "m");
+        list(specimen, "mass_kg", {150, 150}, "g");
+        list(specimen, "centre_of_mass_m", {0.5, nan_value}, "mm");
+        hdf5::write_array(specimen.id(), "joints", std::vector<double>{-1, 0, 0, 1}, {2, 2}, "");
+        const hdf5::Handle laboratory = hdf5::create_group(file.id(), "laboratory");
+        hdf5::write_number(laboratory.id(), "may_dismantle", H5T_STD_U8LE, 0);
+        const hdf5::Handle runs = hdf5::create_group(file.id(), "runs");
+        const hdf5::Handle run = hdf5::create_group(runs.id(), "1");
+        hdf5::write_text(run.id(), "kind", "pull");
+        hdf5::write_real(run.id(), "joint", 1);
+        hdf5::write_array(run.id(), "taped", std::vector<std::int32_t>{1, 0, -1}, {1, 3}, "");
+        list(run, "time_s", {0, 10, 20}, "ms");
+        const hdf5::Handle dummies = hdf5::create_group(run.id(), "dummies");
+        list(dummies, "block", {1}, "");
+        list(dummies, "mass_kg", {90}, "g");
+        list(dummies, "half_width_m", {2}, "cm");
+        list(dummies, "half_height_m", {0.01}, "m");
+        const hdf5::Handle forces = hdf5::create_group(run.id(), "force");
+        const hdf5::Handle gauge = hdf5::create_group(forces.id(), "left one");
+        hdf5::write_real(gauge.id(), "block", 1);
+        hdf5::write_real(gauge.id(), "height_m", 0.01);
+        list(gauge, "value_n", {0, 500, 1000}, "mN");
+        hdf5::write_real(hdf5::open_object(gauge.id(), "value_n").id(), "noise_sd", 20);
+        const hdf5::Handle base = hdf5::create_group(run.id(), "base");
+        list(base, "tilt_rad", {0, 90, 45}, "deg");
+        file.close();
+    }
+    const Campaign campaign = read_campaign(folder / "a.h5");
+    EXPECT_DOUBLE_EQ(campaign.specimen.centre_of_mass_m[0], 0.0005);
+    EXPECT_FALSE(campaign.laboratory.may_dismantle);
+    ASSERT_EQ(campaign.tests.size(), 1u);
+    const MeasuredRun& run = campaign.tests[0];
+    EXPECT_EQ(run.taped, (std::vector<std::vector<int>>{{1, 0}}));
+    EXPECT_EQ(run.dummies, (std::vector<Dummy>{{1, 0.09, 0.02, 0.01, 0, 0}}));
+    ASSERT_EQ(run.forces.size(), 1u);
+    EXPECT_EQ(run.forces[0].name, "left one");
+    EXPECT_EQ(run.forces[0].value_n.values, (std::vector<double>{0, 0.5, 1}));
+    EXPECT_DOUBLE_EQ(*run.forces[0].value_n.noise_sd, 0.02);
+    EXPECT_TRUE(run.forces[0].to_laboratory);
+    EXPECT_DOUBLE_EQ(run.base_tilt_rad.values[1], std::numbers::pi / 2);
+}
+
+TEST(JointTestFile, TheBaseOfATestIsNoShaking)
+{
+    const MeasuredFolder folder("excitation");
+    write_campaign(campaign_with_tests(), folder / "a.h5");
+    EXPECT_NO_THROW(read_base_table(folder / "a.h5", "000"));
+    const std::string text = refusal([&] { read_base_table(folder / "a.h5", "slide"); });
+    EXPECT_NE(text.find("is a test (slide) on joint 1"), std::string::npos) << text;
+    EXPECT_NE(text.find("000"), std::string::npos) << text;
 }
 
 TEST(JointTestFile, APlanIsReadBack)

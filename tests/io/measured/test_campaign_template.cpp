@@ -1,8 +1,8 @@
 /// Campaigns to begin with: each is read as it stands when its table has rows.
 
 #include "ensemble/model/input_error.hpp"
+#include "io/measured/campaign_template.hpp"
 #include "io/measured/measured_file.hpp"
-#include "studies/reference/campaign_template.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "studies/reference/campaign_template.hpp"
+#include "io/measured/campaign_template.hpp"
 
 #include <fmt/format.h>
 
@@ -142,7 +142,8 @@ std::string run_text(RunKind kind, const std::string& name)
                 "clamped = [0]                               # joints that cannot move: those below\n"
                 "# taped = [[2, 3]]                          # groups of blocks that move as one\n";
     if (kind == RunKind::drop)
-        text += "released_s = 0.2                            # by the clock of its samples: hands hold the block until then\n";
+        text += "released_s = 0.2                            # by the clock of its samples: hands hold the block until "
+                "then\n";
     if (kind != RunKind::rest)
         text += "noise_x_m = 0.00005                         # 1 sigma of the cameras; omit what is not known\n"
                 "noise_y_m = 0.00005\n"
