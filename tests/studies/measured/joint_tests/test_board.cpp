@@ -195,5 +195,16 @@ TEST(Tilt, EstimatesNothingWhereTheBodySlidesFirst)
     EXPECT_TRUE(estimates(column(), one).empty()) << "one side says nothing of width and centre";
 }
 
+TEST(BoardStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return board_estimates({}, seed); });
+    expect_stated_errors([](unsigned seed) { return board_estimates({.kinetic = 0.9}, seed); });
+}
+
+TEST(TiltStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return estimates(column(), turned({}, seed)); });
+}
+
 } // namespace
 } // namespace stylobate

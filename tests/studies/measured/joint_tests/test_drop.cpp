@@ -96,5 +96,10 @@ TEST(Drop, EstimatesNothingFromSpoiltRuns)
     EXPECT_TRUE(estimates(column(), unseen).empty());
 }
 
+TEST(DropStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return estimates(column(), dropped(0.6, 0, seed)); });
+}
+
 } // namespace
 } // namespace stylobate

@@ -141,5 +141,10 @@ TEST(Push, EstimatesNothingWhereTheBodyDoesNotTurn)
     EXPECT_TRUE(estimates(column(), gaps).empty());
 }
 
+TEST(PushStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return push_estimates({}, seed); });
+}
+
 } // namespace
 } // namespace stylobate

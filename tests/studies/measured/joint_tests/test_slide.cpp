@@ -87,5 +87,10 @@ TEST(Slide, EstimatesNothingWhereNothingSlid)
     EXPECT_TRUE(estimates(column(), std::vector{turning}).empty());
 }
 
+TEST(SlideStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return slide_estimates({}, seed); });
+}
+
 } // namespace
 } // namespace stylobate
