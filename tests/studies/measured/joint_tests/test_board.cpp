@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct SlidingBlock {
     double static_left = 0.6, static_right = 0.6; ///< friction at the first slip
@@ -207,4 +205,4 @@ TEST(TiltStatistics, ErrorsAreAsStated)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

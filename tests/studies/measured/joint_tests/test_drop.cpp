@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 constexpr double seen_as_rest_m = 0.00025;
 
@@ -102,4 +100,4 @@ TEST(DropStatistics, ErrorsAreAsStated)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

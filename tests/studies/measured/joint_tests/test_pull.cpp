@@ -5,10 +5,8 @@
 #include <functional>
 #include <limits>
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct PulledJoint {
     double mu = 0.6;
@@ -219,4 +217,4 @@ TEST(PullStatistics, ErrorsAreAsStated)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct PushedBody {
     double bond_n = 0;              ///< at the rod, more than what turns the body
@@ -147,4 +145,4 @@ TEST(PushStatistics, ErrorsAreAsStated)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

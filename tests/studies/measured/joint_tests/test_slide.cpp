@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct ShakenBlock {
     double mu = 0.6, wear_per_m = 0, direction = 0;
@@ -93,4 +91,4 @@ TEST(SlideStatistics, ErrorsAreAsStated)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample
