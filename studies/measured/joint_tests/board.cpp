@@ -2,11 +2,12 @@
 ///
 ///   mu_s = tan |t| at the first slip;   after it  x'' = g (sin |t| - mu_k cos |t|)  down the slope
 ///
-/// The time of the first slip and mu_k by least squares over the slip up to 10 mm (times s), from the measured tilt
-/// integrated twice; where this equation does not describe the motion (scatter above 1.25 of the noise: friction that
-/// changes on the way), up to 5, 2.5 and 1.2 mm. Where it describes none of them (a dowel stops the block), the first
-/// slip is that at which the block has moved by 6 standard deviations of a mean of 50 ms, less the time in which a
-/// block of constant friction slips so far; half of that time is its error, and there is no mu_k.
+/// The time of the first slip and mu_k by least squares over the slip up to 10 mm (times s), from the measured tilt,
+/// smoothed over 0.8 s and integrated twice; where this equation does not describe the motion (scatter above 1.25 of
+/// the noise: friction that changes on the way), up to 5, 2.5 and 1.2 mm. Where it describes none of them (a dowel
+/// stops the block), the first slip is that at which the block has moved by 6 standard deviations of a mean of 50 ms,
+/// less the time in which a block of constant friction slips so far; half of that time is its error, and there is no
+/// mu_k.
 ///
 ///   static      mean over the sides of ln mu_s
 ///   kinetic     mean over the sides of ln(mu_k / mu_s): below 0 where friction falls with speed or path, or a bond
@@ -92,7 +93,12 @@ std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun&
     const double noise = run.base_tilt_rad.noise_sd.value_or(noise_of(run.base_tilt_rad.values));
     if (!moved || std::ranges::any_of(tilt, [](double t) { return !std::isfinite(t); }))
         return std::nullopt;
-    const TiltIntegrals integrals = integrals_of(tilt, seen->step_s());
+    const std::size_t from = *moved > 3 * data.before ? *moved - 3 * data.before : 0;
+    const std::size_t to = std::min(tilt.size(), *moved + 3 * data.before);
+    std::vector<double> smooth = tilt;
+    std::ranges::copy(smoothed(std::span(tilt).subspan(from, to - from), static_cast<int>(data.before)),
+                      smooth.begin() + static_cast<std::ptrdiff_t>(from));
+    const TiltIntegrals integrals = integrals_of(smooth, seen->step_s());
     std::optional<OnsetFit> fit;
     for (const double most : {0.010, 0.005, 0.0025, 0.0012}) {
         fit = fit_onset(data, *moved, most * s, true, [&](double start, std::size_t i) {

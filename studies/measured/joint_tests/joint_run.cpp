@@ -32,21 +32,6 @@ double stated_noise(const Series& series, std::span<const double> values)
     return series.noise_sd ? *series.noise_sd : noise_of(values);
 }
 
-/// Savitzky and Golay's smoothing: the middle of a parabola through 2 m + 1 samples.
-std::vector<double> smoothed(const std::vector<double>& values, int m)
-{
-    std::vector<double> smooth = values;
-    const double whole = (2.0 * m - 1) * (2.0 * m + 1) * (2.0 * m + 3);
-    const auto reach = static_cast<std::size_t>(m);
-    for (std::size_t i = reach; i + reach < values.size(); ++i) {
-        smooth[i] = 0;
-        for (int j = -m; j <= m; ++j)
-            smooth[i] += 3 * (3.0 * m * (m + 1) - 1 - 5.0 * j * j) / whole *
-                         values[static_cast<std::size_t>(static_cast<long>(i) + j)];
-    }
-    return smooth;
-}
-
 /// The body's surroundings: the block below, or the table where the lowest block stands on it.
 void set_below(const Specimen& specimen, const MeasuredRun& run, JointRun& of)
 {
@@ -149,6 +134,20 @@ double noise_of(std::span<const double> values)
             bends.push_back(bend);
     constexpr double median_of_normal = 0.67449, bend_variance = 6; // of 1, -2, 1
     return bends.empty() ? 0 : upper_median(std::move(bends)) / (median_of_normal * std::sqrt(bend_variance));
+}
+
+std::vector<double> smoothed(std::span<const double> values, int m)
+{
+    std::vector<double> smooth(values.begin(), values.end());
+    const double whole = (2.0 * m - 1) * (2.0 * m + 1) * (2.0 * m + 3);
+    const auto reach = static_cast<std::size_t>(m);
+    for (std::size_t i = reach; i + reach < values.size(); ++i) {
+        smooth[i] = 0;
+        for (int j = -m; j <= m; ++j)
+            smooth[i] += 3 * (3.0 * m * (m + 1) - 1 - 5.0 * j * j) / whole *
+                         values[static_cast<std::size_t>(static_cast<long>(i) + j)];
+    }
+    return smooth;
 }
 
 std::vector<std::size_t> turning_points(std::span<const double> values, double least)

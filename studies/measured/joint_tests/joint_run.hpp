@@ -51,6 +51,9 @@ std::optional<JointRun> joint_run(const Specimen& specimen, const MeasuredRun& r
 /// values.
 double noise_of(std::span<const double> values);
 
+/// Savitzky and Golay's smoothing: the middle of a parabola through 2 m + 1 samples; m samples at either end stay.
+std::vector<double> smoothed(std::span<const double> values, int m);
+
 /// Where a series turns round: indices of its extremes, each at least `least` away from the one before.
 std::vector<std::size_t> turning_points(std::span<const double> values, double least);
 

@@ -9,7 +9,7 @@
 ///   friction    ln m                                      error: noise / (N sqrt(samples)), and the gauge's gain
 ///   speed       b: friction in slow cycles less that in fast ones, over their mean
 ///   wear        k, friction lost per path over the first friction [1/m]
-///   direction   c: slip to the left less slip to the right, over their mean
+///   direction   c: slip to the left less slip to the right, over their mean; error: the gauge's zero, too
 ///   time        e, growth per time [1/s]; from path by the fast cycles, which have much path in little time
 ///   place       root mean square over places of the mean deviation from what all this gives, less that of the noise
 ///   width       after each slow reversal, u: displacement of the table, f: force over that of the same stroke from 2.5
@@ -47,6 +47,7 @@ constexpr std::size_t fewest_in_window = 3;
 struct HeldBlock {
     JointRun seen;
     std::vector<double> force_n; ///< without its zero
+    double zero_sd = 0;          ///< of that zero [N]
     double force_sd = 0;         ///< [N]
     const ForceGauge* gauge = nullptr;
     std::vector<std::size_t> turns; ///< of the table
@@ -90,6 +91,7 @@ std::optional<HeldBlock> held_block(const Specimen& specimen, const MeasuredRun&
     held.block_zero_m = finite_mean(held.seen.x_m, 0, held.first).first;
     if (count < 10)
         return std::nullopt;
+    held.zero_sd = held.force_sd / std::sqrt(count);
     for (double& force : held.force_n)
         force -= zero;
     return held;
@@ -381,13 +383,13 @@ std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const Measured
     const double level = *(*fit)[FrictionTerm::level];
     all.push_back(pull_estimate("pull.friction", std::log(level),
                                 std::hypot(fit->sd_of(FrictionTerm::level) / level, held->gauge->gain_sd), 1));
-    const auto add = [&](const char* name, FrictionTerm term, double per_friction) {
+    const auto add = [&](const char* name, FrictionTerm term, double per_friction, double other_sd = 0) {
         if (const auto value = (*fit)[term])
-            all.push_back(pull_estimate(name, *value, fit->sd_of(term), per_friction));
+            all.push_back(pull_estimate(name, *value, std::hypot(fit->sd_of(term), other_sd), per_friction));
     };
     add("pull.speed", FrictionTerm::speed, 1);
     add("pull.wear", FrictionTerm::wear, 1 / path);
-    add("pull.direction", FrictionTerm::direction, 1);
+    add("pull.direction", FrictionTerm::direction, 1, 2 * held->zero_sd / (level * held->seen.weight_n));
     add("pull.time", FrictionTerm::time, 1 / duration);
     add_place(*fit, all);
     add_loops(*held, slow, all);

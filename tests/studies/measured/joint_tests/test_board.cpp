@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct SlidingBlock {
     double static_left = 0.6, static_right = 0.6; ///< friction at the first slip
@@ -195,5 +193,16 @@ TEST(Tilt, EstimatesNothingWhereTheBodySlidesFirst)
     EXPECT_TRUE(estimates(column(), one).empty()) << "one side says nothing of width and centre";
 }
 
+TEST(BoardStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return board_estimates({}, seed); });
+    expect_stated_errors([](unsigned seed) { return board_estimates({.kinetic = 0.9}, seed); });
+}
+
+TEST(TiltStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return estimates(column(), turned({}, seed)); });
+}
+
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

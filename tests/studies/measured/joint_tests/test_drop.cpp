@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 constexpr double seen_as_rest_m = 0.00025;
 
@@ -96,5 +94,10 @@ TEST(Drop, EstimatesNothingFromSpoiltRuns)
     EXPECT_TRUE(estimates(column(), unseen).empty());
 }
 
+TEST(DropStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return estimates(column(), dropped(0.6, 0, seed)); });
+}
+
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

@@ -6,10 +6,8 @@
 #include <array>
 #include <set>
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 constexpr std::array test_kinds = {RunKind::pull, RunKind::board, RunKind::tilt, RunKind::push,
                                    RunKind::drop, RunKind::slide, RunKind::rest};
@@ -232,4 +230,4 @@ TEST(Estimates, FloorsAndContrastsByHand)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

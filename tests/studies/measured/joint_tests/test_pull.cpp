@@ -5,10 +5,8 @@
 #include <functional>
 #include <limits>
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct PulledJoint {
     double mu = 0.6;
@@ -212,5 +210,11 @@ TEST(Pull, EstimatesNothingFromSpoiltRuns)
     expect_estimate(left, "pull.speed", 0, 0.005, 1e-4);
 }
 
+// A root mean square that is nearly nothing does not scatter as one that is something.
+TEST(PullStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return pull_estimates(pulled({}, seed)); }, "pull.place");
+}
+
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

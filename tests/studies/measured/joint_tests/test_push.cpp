@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct PushedBody {
     double bond_n = 0;              ///< at the rod, more than what turns the body
@@ -141,5 +139,10 @@ TEST(Push, EstimatesNothingWhereTheBodyDoesNotTurn)
     EXPECT_TRUE(estimates(column(), gaps).empty());
 }
 
+TEST(PushStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return push_estimates({}, seed); });
+}
+
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample

@@ -2,10 +2,8 @@
 
 #include "tests/studies/measured/joint_tests/joint_sample.hpp"
 
-namespace stylobate {
+namespace stylobate::joint_sample {
 namespace {
-
-using namespace joint_sample;
 
 struct ShakenBlock {
     double mu = 0.6, wear_per_m = 0, direction = 0;
@@ -87,5 +85,10 @@ TEST(Slide, EstimatesNothingWhereNothingSlid)
     EXPECT_TRUE(estimates(column(), std::vector{turning}).empty());
 }
 
+TEST(SlideStatistics, ErrorsAreAsStated)
+{
+    expect_stated_errors([](unsigned seed) { return slide_estimates({}, seed); });
+}
+
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::joint_sample
