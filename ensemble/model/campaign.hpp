@@ -4,6 +4,8 @@
 ///
 /// What was not measured is empty. Values that are missing in a series (a block not seen, or after a collapse) are NaN.
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -59,6 +61,14 @@ enum class RunKind {
     slide, ///< one block on the joint, the table shakes it so that it slides
     rest   ///< what callipers, level and scales give; nothing moves
 };
+inline constexpr std::array run_kinds = {RunKind::shake, RunKind::pull, RunKind::board, RunKind::tilt,
+                                         RunKind::push,  RunKind::drop, RunKind::slide, RunKind::rest};
+/// The word of a kind in files and messages: "pull".
+constexpr const char* to_string(RunKind kind)
+{
+    constexpr const char* words[] = {"shake", "pull", "board", "tilt", "push", "drop", "slide", "rest"};
+    return words[static_cast<int>(kind)];
+}
 
 /// A force gauge at the end of a rod that touches one block.
 struct ForceGauge {
@@ -93,7 +103,7 @@ struct MeasuredRun {
     std::vector<Dummy> dummies;
     std::optional<double> released_s; ///< hands hold the blocks until then; nullopt: they are free from the start
     Series base_tilt_rad;             ///< (nt) of the table, counter-clockwise; (x, y) then turn with it
-    std::vector<ForceGauge> forces;
+    std::vector<ForceGauge> forces;   ///< in the order of their names
     int motion_id = 0; ///< runs with the same one repeat one commanded motion, the specimen put back by hand
     int repeat = 0;    ///< which of the repeats
     std::optional<std::string> kind; ///< of motion: "harmonic", "sweep", "quake", ...; nullopt: not given
@@ -122,6 +132,8 @@ struct MeasuredRun {
     {
         return collapsed.value_or(false) && collapse_time_s >= 0 ? std::optional(collapse_time_s) : std::nullopt;
     }
+    /// Whether the block is on the table.
+    bool has(int block) const { return present.empty() || std::ranges::find(present, block) != present.end(); }
 };
 
 /// The specimen as planned. Blocks and joints are counted from 0.
@@ -164,8 +176,9 @@ struct Campaign {
     std::string source; ///< file, for messages
     Specimen specimen;
     Laboratory laboratory;
-    std::vector<MeasuredRun> runs; ///< in the order of their names
-    std::vector<Finding> findings; ///< of reading and checking it; not part of the file
+    std::vector<MeasuredRun> runs;  ///< the table shakes the whole specimen, which stands free; in the order of names
+    std::vector<MeasuredRun> tests; ///< all others, in the order of their names; no shake runs, whatever reads them
+    std::vector<Finding> findings;  ///< of reading and checking it; not part of the file
 };
 
 /// What shook a specimen, and whether it fell: an outcome without a history.

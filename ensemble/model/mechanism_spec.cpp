@@ -84,7 +84,9 @@ constexpr MechanismParameter adhesion[] = {
     {"force", "_n_m", "N/m", 0, 1e9, false, acting, 0, &Joint_::adhesion_n_m,
      "force of adhesion per contact length, until the joint first slips", in_plane},
     {"strength", "_pa", "Pa", 0, 1e9, false, acting, 0, &Joint_::adhesion_pa,
-     "force of adhesion per area of the bed, until the joint first slips", in_space}};
+     "force of adhesion per area of the bed, until the joint first slips", in_space},
+    {"tension", "_n_m", "N/m", 0, 1e9, false, extra, 0, &Joint_::adhesion_tension_n_m,
+     "force per contact length that it holds against opening, until it breaks there; 0: it does not", in_plane}};
 constexpr MechanismParameter eccentricity[] = {
     {"offset", "_m", "m", -10, 10, false, acting, 0, &Block_::eccentricity_m,
      "distance of the centre of mass from the geometric centre, to the right"},
@@ -140,6 +142,25 @@ constexpr MechanismParameter pull_out[] = {
     {"spread", "_m", "m", 0, 10, false, detail, 0, &OnJoint_::hold_spread_m,
      "distance of each of the two dowels from the middle of the face"}};
 
+constexpr MechanismParameter rod[] = {
+    {"to_right", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Block_::rod_right_n_m,
+     "stiffness with which it pushes the block to the right; 0: it does not"},
+    {"to_left", "_n_m", "N/m", 0, 1e12, false, acting, 0, &Block_::rod_left_n_m,
+     "stiffness with which it pushes the block to the left; 0: it does not"},
+    {"height", "_m", "m", 0, 100, false, detail, 0, &Block_::rod_height_m,
+     "height at which it touches the block, above the block's lower face"},
+    {"speed", "_m_s", "m/s", -100, 100, false, detail, 0, &Block_::rod_speed_m_s,
+     "velocity of its other end, to the right; 0: the end is held"},
+    {"start", "_s", "s", 0, 1e6, false, detail, 0, &Block_::rod_start_s, "time at which that end begins to move"},
+    {"travel", "_m", "m", 0, 100, false, detail, 0, &Block_::rod_travel_m, "path after which that end stops"},
+    {"laboratory", "", "", 0, 1, false, detail, 0, &Block_::rod_laboratory,
+     "1: that end is held in the laboratory, 0: on the base; between: it follows a part of the base's motion"}};
+constexpr MechanismParameter table_tilt[] = {
+    {"angle", "_rad", "rad", -1.5, 1.5, false, acting, 0, &BaseMechanisms::tilt_rad,
+     "angle to which the base is turned, counter-clockwise"},
+    {"rate", "_rad_s", "rad/s", 0, 10, true, needed, 1, &BaseMechanisms::tilt_rate_rad_s, "rate of the rotation"},
+    {"start", "_s", "s", 0, 1e6, false, detail, 0, &BaseMechanisms::tilt_start_s, "time at which it begins"}};
+
 constexpr auto joint = MechanismPlace::joint;
 constexpr auto block = MechanismPlace::block;
 constexpr auto base = MechanismPlace::base;
@@ -184,7 +205,9 @@ constexpr MechanismRule rules[] = {
     {Mechanism::clamp, "clamp", block, "clamps between a block and its neighbour at the right", clamp,
      UsualPlaces::neighbours},
     {Mechanism::pull_out, "pull_out", joint, "two dowels that resist the opening of a joint until they are out",
-     pull_out}};
+     pull_out},
+    {Mechanism::rod, "rod", block, "a rod that holds, pulls or pushes a block", rod},
+    {Mechanism::table_tilt, "table_tilt", base, "a base that is slowly turned out of level", table_tilt}};
 static_assert(std::size(rules) == static_cast<std::size_t>(Mechanism::count));
 
 constexpr bool in_order()
@@ -277,6 +300,10 @@ std::optional<std::string> contradiction(const MechanismRule& rule, std::span<co
         return number(1) + " has no effect without a stiffness";
     if (rule.mechanism == Mechanism::tendon && values[1] > values[2])
         return number(1) + " is above " + number(2);
+    if (rule.mechanism == Mechanism::adhesion && values[2] > 0 && values[0] == 0)
+        return number(2) + " has no effect without force_n_m";
+    if (rule.mechanism == Mechanism::rod && values[3] != 0 && values[5] == 0)
+        return number(3) + " has no effect without travel_m";
     if (rule.mechanism == Mechanism::dowel && values[3] > 0) {
         if (!(values[4] > 0 && values[5] > 0))
             return number(3) + " needs diameter_m and embedment_m";

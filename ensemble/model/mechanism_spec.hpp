@@ -6,6 +6,7 @@
 #include "ensemble/model/structure.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -43,6 +44,8 @@ enum class Mechanism : std::uint8_t {
     mortar,
     clamp,
     pull_out,
+    rod,
+    table_tilt,
     count
 };
 const char* to_string(Mechanism mechanism);
@@ -91,6 +94,7 @@ struct JointMechanisms {
     double corner_wear_m_rad = 0;     ///< corner_wear: further loss at both ends per path of the relative rotation
     double wedge_rad = 0;             ///< wedge: the lower block's face is turned by this, counter-clockwise
     double wedge_x_rad = 0;           ///< wedge, in space: the same about x; `wedge_rad` is about z
+    double adhesion_tension_n_m = 0;  ///< adhesion: force per contact length that it holds against opening
     double adhesion_pa = 0;           ///< adhesion, in space: force per area of the bed, until the joint first slips
     friend bool operator==(const JointMechanisms&, const JointMechanisms&) = default;
 };
@@ -104,6 +108,19 @@ struct BlockMechanisms {
     double tie_n_s_m = 0;        ///< tie: c
     double tie_n = 0;            ///< tie: f
     double tie_n_m_s = 0;        ///< tie: moment against the rotation, per rate of rotation
+    double rod_right_n_m = 0;    ///< rod: k where it pushes to the right
+    double rod_left_n_m = 0;     ///< rod: k where it pushes to the left
+    double rod_height_m = 0;     ///< rod: its point above the lower face of the block
+    double rod_speed_m_s = 0;    ///< rod: velocity of its end, to the right
+    double rod_start_s = 0;      ///< rod: when the end begins to move
+    double rod_travel_m = 0;     ///< rod: path of the end
+    double rod_laboratory = 0;   ///< rod: 1: its end is in the laboratory, 0: on the base
+    bool has_rod() const { return rod_right_n_m != 0 || rod_left_n_m != 0; }
+    /// When the end of the rod has stopped.
+    double rod_end_s() const
+    {
+        return has_rod() && rod_speed_m_s != 0 ? rod_start_s + rod_travel_m / std::abs(rod_speed_m_s) : 0;
+    }
     friend bool operator==(const BlockMechanisms&, const BlockMechanisms&) = default;
 };
 
@@ -119,7 +136,6 @@ struct JointStrengthening {
     double hold_stiffness_n_m = 0; ///< pull_out: axial stiffness of one dowel
     double hold_length_m = 0;      ///< pull_out: opening at which a dowel is out
     double hold_spread_m = 0;      ///< pull_out: of the two dowels from the middle of the upper face
-    bool bonded() const { return bond_tension_n_m > 0; }
     friend bool operator==(const JointStrengthening&, const JointStrengthening&) = default;
 };
 
@@ -140,8 +156,11 @@ struct BlockStrengthening {
 
 /// What the mechanisms make of the base, beside what changes its horizontal motion alone (`BaseChange`).
 struct BaseMechanisms {
-    double pitch_rad_s2_m = 0; ///< table_pitch: rotation of the table about the middle of the base, per acceleration
-    double vertical_ratio = 0; ///< vertical_motion: vertical over horizontal acceleration of the base
+    double pitch_rad_s2_m = 0;  ///< table_pitch: rotation of the table about the middle of the base, per acceleration
+    double vertical_ratio = 0;  ///< vertical_motion: vertical over horizontal acceleration of the base
+    double tilt_rad = 0;        ///< table_tilt: to which it is turned, counter-clockwise
+    double tilt_rate_rad_s = 1; ///< table_tilt: how fast
+    double tilt_start_s = 0;    ///< table_tilt: when that begins
     friend bool operator==(const BaseMechanisms&, const BaseMechanisms&) = default;
 };
 
@@ -177,7 +196,7 @@ struct MechanismRule {
 std::span<const MechanismRule> mechanism_rules();
 const MechanismRule& rule_of(Mechanism mechanism);
 
-inline constexpr std::size_t most_parameters = 6;
+inline constexpr std::size_t most_parameters = 7;
 
 /// A mechanism with the same values at one or several places.
 struct MechanismSpec {

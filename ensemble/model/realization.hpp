@@ -37,6 +37,9 @@ struct RealizationHeader {
     double motion_scale = 1; ///< factor on its own motion
     /// Vertical base motion of its own, which starts with the shaking; else null.
     std::shared_ptr<const Motion> vertical;
+    /// Rotation of the base as a function of time, counter-clockwise: what is a displacement in m there is an angle in
+    /// rad here. It starts with the shaking; null: the base does not turn. In the plane alone.
+    std::shared_ptr<const Motion> tilt;
 
     // In space (`motions_in_space`): what is above is the first component of the shaking, along `direction_rad`.
     double direction_rad = 0; ///< azimuth of the first component, from x towards z

@@ -214,14 +214,15 @@ struct VerticalSpec : ComponentSpec {
     bool baseline = true;
 };
 
-/// The structure leaned as one rigid body about a corner, or in space about the rim of a face; of a colonnade each
-/// column alike, and the epistyles ride on them.
+/// The structure leaned as one rigid body about a corner, or in space about the rim of a face, and raised; of a
+/// colonnade each column alike, and the epistyles ride on them.
 struct InitialSpec {
     double tilt_rad = 0; ///< > 0 counter-clockwise; in space towards `tilt_direction_rad`
     /// In space: azimuth towards which it leans, from x towards z; pi is to the left, as counter-clockwise in the
     /// plane.
     double tilt_direction_rad = std::numbers::pi;
     int tilt_from_block = 0; ///< of each column, from the bottom: it and all above it lean about its lower corner
+    double lift_m = 0;       ///< in the plane: the same part is held so high above its bed until the start
 };
 
 struct OutputSpec {

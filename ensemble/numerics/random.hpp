@@ -48,6 +48,8 @@ enum class Stream : std::uint64_t {
     second_noise = 78,     ///< white noise of the second horizontal component; element = sample
     vertical_noise = 79,   ///< white noise of the vertical component; element = sample
     second_mean_peak = 80, ///< second components of the motions by which a mean peak is found; index = motion, from 0
+    joint_test_placement = 81, ///< where the body of a simulated test is put; index = of subject and run
+    joint_test_noise = 82,     ///< of the sensors of a simulated test; index likewise
     predicted_test = 90, ///< estimates of a test of a single joint that a belief predicts; index = draw, element 0: the
                          ///< hypothesis, 1: the radius, from 2^20 on: columns, from 2^21 on: spread of a hypothesis
     /// Parameter p of mechanism m (`ensemble/model/mechanism_spec.hpp`) has stream 128 + 8 m + p, up to 1023; element =

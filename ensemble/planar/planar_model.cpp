@@ -103,8 +103,10 @@ PlanarModel::PlanarModel(const Study& study, const KernelTable& kernels, const R
 std::array<BaseMotion, PlanarModel::channels> PlanarModel::motions(const ExcitationSpec& excitation,
                                                                    const Realization& r, const Motion* record)
 {
-    return {BaseMotion(excitation, r, record),
-            r.vertical == nullptr ? BaseMotion{} : BaseMotion::along(r.vertical, r.step_s, r.change.offset_s)};
+    const auto own = [&](const std::shared_ptr<const Motion>& motion, double start_s) {
+        return motion == nullptr ? BaseMotion{} : BaseMotion::along(motion, r.step_s, r.change.offset_s - start_s);
+    };
+    return {BaseMotion(excitation, r, record), own(r.vertical, 0), own(r.tilt, r.base.tilt_start_s)};
 }
 
 void PlanarModel::list_clamps(const Realization& pattern)
@@ -143,10 +145,24 @@ void PlanarModel::begin(int lane, Place& place)
                            whole_checks(fall_time / place.scales.p_rad_s, r.step_s, check_steps()));
     store_state(lane, place);
     first_increments(lane, place.watch);
+    await_rods(place);
     take_single(lane);
     read(lane, place);
     m.start_offset_m = bed_offsets(r, m.moved);
     m.start_top_x_m = centre(topology_.top, lane).x_m;
+}
+
+/// The ends of rods move as long as they do, and the tail comes after them.
+void PlanarModel::await_rods(Place& place)
+{
+    Watch& w = place.watch;
+    for (const Block& block : place.realization.blocks) {
+        const double end_s = block.mechanisms.rod_end_s();
+        if (!w.may_rest || end_s <= w.shaking_end_s)
+            continue;
+        w.last_step += whole_checks(end_s - w.shaking_end_s, w.step_s, check_steps());
+        w.shaking_end_s = end_s;
+    }
 }
 
 void PlanarModel::store_state(int lane, const Place& place)
@@ -313,6 +329,8 @@ void PlanarModel::fill_mechanisms(int lane, const LaneBases& bases, const Place&
         for (std::size_t k = 0; k < chunk_steps; ++k)
             bundle_.rows<OfVertical::Field>()[k * lanes_ + static_cast<std::size_t>(lane)] =
                 r.base.vertical_ratio * bundle_.rows<OfBase::Field>()[k * lanes_ + static_cast<std::size_t>(lane)];
+    if (r.tilt != nullptr)
+        fill_tilt(lane, first, place);
     if (r.base.pitch_rad_s2_m == 0)
         return;
     // Samples with straight lines between them have no second derivative: the rotation is their mean under a triangle
@@ -324,9 +342,31 @@ void PlanarModel::fill_mechanisms(int lane, const LaneBases& bases, const Place&
     for (std::size_t k = 0; k < chunk_steps; ++k) {
         const int step = static_cast<int>(k);
         const Turn turn = turn_of(r, reach, before[k], now[k], after[k]);
-        bundle_.at(OfPitch::angle, step, lane) = turn.angle_rad;
-        bundle_.at(OfPitch::increment, step, lane) = turn.increment_rad;
-        bundle_.at(OfPitch::second, step, lane) = per * ((after[k] - now[k]) - (now[k] - before[k])) / (reach * reach);
+        const double second = per * ((after[k] - now[k]) - (now[k] - before[k])) / (reach * reach);
+        const auto put = [&](OfPitch::Field field, double value) {
+            double& at = bundle_.at(field, step, lane);
+            at = r.tilt != nullptr ? at + value : value;
+        };
+        put(OfPitch::angle, turn.angle_rad);
+        put(OfPitch::increment, turn.increment_rad);
+        put(OfPitch::second, second);
+    }
+}
+
+void PlanarModel::fill_tilt(int lane, double first_step, const Place& place)
+{
+    const BaseMotion& tilt = place.motions[2];
+    std::array<double, chunk_steps> second{};
+    tilt.fill(first_step, second.data(), 1);
+    const auto angle = [&](double step) { return tilt.displacement_m(step * place.realization.step_s); };
+    double before = angle(first_step - 1), now = angle(first_step);
+    for (int k = 0; k < chunk_steps; ++k) {
+        const double after = angle(first_step + k + 1);
+        bundle_.at(OfPitch::angle, k, lane) = now;
+        bundle_.at(OfPitch::increment, k, lane) = 0.5 * (after - before);
+        bundle_.at(OfPitch::second, k, lane) = second[static_cast<std::size_t>(k)];
+        before = now;
+        now = after;
     }
 }
 

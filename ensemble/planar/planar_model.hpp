@@ -60,8 +60,8 @@ public:
     PlanarModel(const Study& study, const KernelTable& kernels, const Realization& pattern, std::uint64_t waiting);
 
     static Scales scales(const Realization& realization) { return scales_of(realization); }
-    /// Along x, and upwards. The vertical motion is still where the realization has no record of it.
-    static constexpr int channels = 2;
+    /// Along x, upwards, and the rotation [rad]. The last two are still where the realization has no samples of them.
+    static constexpr int channels = 3;
     static std::array<BaseMotion, channels> motions(const ExcitationSpec& excitation, const Realization& realization,
                                                     const Motion* record);
     int lanes() const { return static_cast<int>(lanes_); }
@@ -127,6 +127,8 @@ public:
     /// Makes the tables of the base's motion of the next chunk: of all lanes, and what mechanisms need of one.
     void fill_tables(const LaneBases& bases, const std::vector<Place>& places);
     void fill_mechanisms(int lane, const LaneBases& bases, const Place& place);
+    /// The rotation of the base by its own samples (`RealizationHeader::tilt`), in the tables of a lane.
+    void fill_tilt(int lane, double first_step, const Place& place);
     /// The rotation of the base and its change in a step.
     struct Turn {
         double angle_rad = 0, increment_rad = 0;
@@ -140,6 +142,7 @@ private:
     /// Parameters and static rest of a realization into its lane.
     void store_state(int lane, const Place& place);
     void store_rigid(int lane, const Realization& r);
+    void await_rods(Place& place);
     void first_increments(int lane, Watch& watch);
     /// Which blocks the clamps join: the same in all realizations of a study.
     void list_clamps(const Realization& pattern);

@@ -38,6 +38,16 @@ struct Joint {
     double restitution = 0; ///< of the rigid form, 0 to 1 (`RestitutionLaw`)
     JointMechanisms mechanisms{};
     JointStrengthening strengthening{};
+
+    // A bond of the faces that holds them against opening too: mortar, or adhesion with a tension.
+    bool bonded() const { return bond_tension_n_m() > 0; }
+    double bond_tension_n_m() const { return strengthening.bond_tension_n_m + mechanisms.adhesion_tension_n_m; }
+    double bond_cohesion_n_m() const
+    {
+        return strengthening.bond_cohesion_n_m + (mechanisms.adhesion_tension_n_m > 0 ? mechanisms.adhesion_n_m : 0);
+    }
+    /// Adhesion against sliding alone.
+    double adhesion_n_m() const { return mechanisms.adhesion_tension_n_m > 0 ? 0 : mechanisms.adhesion_n_m; }
 };
 
 /// A structure in the plane: rectangles, and what joins them.
@@ -50,6 +60,7 @@ struct PlanarStructure {
     double base_tilt_rad = 0;    ///< base out of level
     double initial_tilt_rad = 0; ///< leaned about the lower corner of `initial_tilt_block`
     int initial_tilt_block = 0;  ///< of each column, from the bottom: it and what stands on it lean
+    double initial_lift_m = 0;   ///< from this block up it is held so high above its bed, and released at the start
     ContactForm form = ContactForm::area;
     RestitutionLaw restitution_law = RestitutionLaw::newton;
     bool with_mechanisms =

@@ -1,6 +1,7 @@
 #include "ensemble/tracking/tracking.hpp"
 
 #include "ensemble/engine/drive.hpp"
+#include "ensemble/planar/structure/mechanisms.hpp"
 #include "ensemble/tracking/tracked_lanes.hpp"
 
 #include <algorithm>
@@ -386,7 +387,7 @@ bool alike(const TrackingJob& a, const TrackingJob& b)
     const Realization &r = a.realization, &q = b.realization;
     const auto same_block = [](const Block& m, const Block& n) { return m.fixed == n.fixed; };
     const auto same_joint = [](const Joint& m, const Joint& n) { return m.lower == n.lower && m.upper == n.upper; };
-    return r.form == q.form && r.watched == q.watched &&
+    return r.form == q.form && r.watched == q.watched && model_of(r).strengthened == model_of(q).strengthened &&
            std::equal(r.blocks.begin(), r.blocks.end(), q.blocks.begin(), q.blocks.end(), same_block) &&
            std::equal(r.joints.begin(), r.joints.end(), q.joints.begin(), q.joints.end(), same_joint);
 }

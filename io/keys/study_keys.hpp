@@ -296,8 +296,11 @@ inline const NumberKey tilt_direction("tilt_direction_rad", &InitialSpec::tilt_d
                                       {.models = in_space()});
 inline const WholeKey tilt_from_block("tilt_from_block", &InitialSpec::tilt_from_block,
                                       {0, 199, "A block of each column, counted from 0, from the bottom."},
-                                      "in each column this block and all above it lean; 0: the whole column");
-inline const TableKey table("initial", "the start of the motion", {&tilt, &tilt_direction, &tilt_from_block},
+                                      "in each column this block and all above it lean, or are raised; 0: the whole "
+                                      "column");
+inline const NumberKey lift("lift_m", &InitialSpec::lift_m, {0, 10, false, "Lengths are in metres."},
+                            "height above its bed from which that part falls", {.models = in_plane()});
+inline const TableKey table("initial", "the start of the motion", {&tilt, &tilt_direction, &tilt_from_block, &lift},
                             {.absent = "at rest, upright"});
 
 } // namespace initial_keys

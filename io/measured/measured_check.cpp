@@ -23,15 +23,15 @@ public:
     void run()
     {
         check_specimen(campaign_);
+        check_laboratory(campaign_);
+        check_tests(campaign_);
         for (const MeasuredRun& run : campaign_.runs) {
-            check_numbers(run);
-            check_clock(run);
-            for (const SeriesName& name : series_names())
-                check_series(run, name);
-            check_base(run);
+            check_samples(run);
             check_rest(run);
             check_collapse(run);
         }
+        for (const MeasuredRun& run : campaign_.tests)
+            check_samples(run);
         check_repeats();
     }
 
@@ -51,6 +51,15 @@ private:
     }
 
     // ---- one run
+
+    void check_samples(const MeasuredRun& run)
+    {
+        check_numbers(run);
+        check_clock(run);
+        for (const SeriesName& name : series_names())
+            check_series(run, name);
+        check_base(run);
+    }
 
     void check_numbers(const MeasuredRun& run) const
     {
@@ -141,6 +150,8 @@ private:
         if (end < times)
             end -= std::min(end, blink);
         for (std::size_t c = 0; c < stride; ++c) {
+            if (name.per_block && !run.has(static_cast<int>(c)))
+                continue;
             const std::string place =
                 name.per_block ? fmt::format("run {}, {}, block {}", run.name, name.path, c) : at(run, name.path);
             std::size_t missing = 0, last = 0;

@@ -19,9 +19,6 @@
 namespace stylobate {
 namespace {
 
-constexpr const char* format_name = "stylobate-measured";
-constexpr int format_version = 1;
-
 class Reader {
 public:
     explicit Reader(Campaign& campaign) : campaign_(campaign) {}
@@ -29,18 +26,22 @@ public:
     void read(hid_t file)
     {
         check_format(file);
-        known_only(file, "", {"specimen", "runs"});
+        known_only(file, "", since_2({"specimen", "runs"}, {"laboratory"}));
         Specimen& specimen = campaign_.specimen;
         specimen.name = text(file, "specimen").value_or("");
         specimen.gravity_m_s2 = number(file, "gravity_m_s2").value_or(specimen.gravity_m_s2);
         if (hdf5::exists(file, "specimen"))
             read_specimen(hdf5::open_group(file, "specimen").id());
+        if (version_ >= 2 && hdf5::exists(file, "laboratory"))
+            read_laboratory(hdf5::open_group(file, "laboratory").id());
         if (!hdf5::exists(file, "runs"))
             return;
         const hdf5::Handle runs = hdf5::open_group(file, "runs");
         for (const std::string& name : hdf5::names_in(runs.id())) {
             place_ = "runs/" + name;
-            campaign_.runs.push_back(read_run(hdf5::open_group(runs.id(), name).id(), name));
+            const hdf5::Handle group = hdf5::open_group(runs.id(), name);
+            if (const auto kind = kind_of(group.id(), name))
+                campaign_.runs.push_back(read_run(group.id(), name, *kind));
         }
     }
 
@@ -68,20 +69,29 @@ private:
         return hdf5::read_any_text(object, name);
     }
 
-    void check_format(hid_t file) const
+    /// In version 1 only the first names are known.
+    std::vector<std::string> since_2(std::vector<std::string> names, const std::vector<std::string>& more) const
+    {
+        if (version_ >= 2)
+            names.insert(names.end(), more.begin(), more.end());
+        return names;
+    }
+
+    void check_format(hid_t file)
     {
         const std::string format = text(file, "format").value_or("");
         if (format == "stylobate")
             refuse("contains results, not measured data.\n  Give measured data; 'stylobate info' prints the content of "
                    "a file.");
-        if (format != format_name)
+        if (format != measured_format)
             refuse(fmt::format(
                 "is not a file of measured data: its attribute format is \"{}\", not \"{}\".\n  io/FORMAT.md has "
                 "the layout.",
-                format, format_name));
+                format, measured_format));
         const double version = number(file, "format_version").value_or(0);
-        if (version != format_version)
-            refuse(fmt::format("has format_version {}; this program reads {}.", version, format_version));
+        if (version != 1 && version != measured_version)
+            refuse(fmt::format("has format_version {}; this program reads 1 and {}.", version, measured_version));
+        version_ = static_cast<int>(version);
     }
 
     /// Unknown items are reported, so that a misspelt data set is not silently absent.
@@ -119,6 +129,15 @@ private:
         return numbers;
     }
 
+    std::vector<int> whole_numbers(hid_t group, const std::string& path)
+    {
+        std::vector<int> whole;
+        if (hdf5::exists(group, path))
+            for (const double value : hdf5::read_numbers(group, path).values)
+                whole.push_back(whole_number(campaign_, at(path), value));
+        return whole;
+    }
+
     std::vector<double> list(hid_t group, const std::string& path, Dimension dimension)
     {
         double factor = 1;
@@ -134,6 +153,8 @@ private:
         Specimen& specimen = campaign_.specimen;
         std::vector<std::string> known = {"joints"};
         for (const SpecimenList& names : specimen_lists()) {
+            if (names.since() > version_)
+                continue;
             known.emplace_back(names.name);
             if (hdf5::exists(group, names.name))
                 specimen.*names.member = list(group, names.name, names.dimension);
@@ -153,18 +174,41 @@ private:
                                          whole_number(campaign_, "specimen/joints", joints.values[2 * j + 1]));
     }
 
-    MeasuredRun read_run(hid_t group, const std::string& name)
+    void read_laboratory(hid_t group)
+    {
+        place_ = "laboratory";
+        known_only(group, "", {});
+        Laboratory& laboratory = campaign_.laboratory;
+        for (const LaboratoryNumber& names : laboratory_numbers())
+            laboratory.*names.member = number(group, names.name);
+        if (const auto may = number(group, "may_dismantle"))
+            laboratory.may_dismantle = *may != 0;
+        for (const RunKind kind : run_kinds)
+            if (const auto cost = number(group, cost_key(kind).c_str()))
+                laboratory.cost.emplace_back(kind, *cost);
+    }
+
+    /// Nothing: the run is left out. In version 1 `kind` is that of the motion.
+    std::optional<RunKind> kind_of(hid_t group, const std::string& name)
+    {
+        return version_ < 2 ? RunKind::shake : known_run_kind(campaign_, name, text(group, "kind"));
+    }
+
+    MeasuredRun read_run(hid_t group, const std::string& name, RunKind kind)
     {
         MeasuredRun run;
         run.name = name;
-        known_only(group, "", {"time_s", "base", "blocks"});
+        run.test = kind;
+        known_only(group, "", since_2({"time_s", "base", "blocks"}, {"clamped", "taped", "dummies", "force"}));
         const auto whole = [&](const char* key) -> std::optional<int> {
             const auto value = number(group, key);
             return value ? std::optional(whole_number(campaign_, at(key), *value)) : std::nullopt;
         };
         run.motion_id = whole("motion_id").value_or(0);
         run.repeat = whole("repeat").value_or(0);
-        run.kind = text(group, "kind");
+        run.kind = text(group, version_ < 2 ? "kind" : "motion");
+        if (version_ < 2)
+            report_old_kind(campaign_, run);
         run.rate_hz = number(group, "rate_hz").value_or(0);
         run.run_order = whole("run_order");
         if (const auto collapsed = number(group, "collapsed"))
@@ -175,16 +219,114 @@ private:
         for (const char* part : {"base", "blocks"})
             if (hdf5::exists(group, part)) {
                 std::vector<std::string> known;
+                if (version_ >= 2 && std::string(part) == "blocks")
+                    known.emplace_back("present");
+                const auto of_part = [&](const SeriesName& series) {
+                    return series.since <= version_ && std::string(series.path).starts_with(std::string(part) + "/");
+                };
                 for (const SeriesName& series : series_names())
-                    if (const std::string path = series.path; path.starts_with(std::string(part) + "/"))
+                    if (const std::string path = series.path; of_part(series))
                         known.push_back(path.substr(path.find('/') + 1));
                 known_only(hdf5::open_group(group, part).id(), std::string(part) + "/", known);
                 for (const SeriesName& series : series_names())
-                    if (const std::string path = series.path;
-                        path.starts_with(std::string(part) + "/") && hdf5::exists(group, path))
+                    if (of_part(series) && hdf5::exists(group, series.path))
                         read_series(group, series, run);
             }
+        if (version_ >= 2)
+            read_test(group, run);
         return run;
+    }
+
+    void read_test(hid_t group, MeasuredRun& run)
+    {
+        if (const auto joint = number(group, "joint"))
+            run.joint = whole_number(campaign_, at("joint"), *joint);
+        run.released_s = number(group, "released_s");
+        if (hdf5::exists(group, "blocks"))
+            run.present = whole_numbers(group, "blocks/present");
+        run.clamped = whole_numbers(group, "clamped");
+        if (hdf5::exists(group, "taped"))
+            read_taped(group, run);
+        if (hdf5::exists(group, "dummies"))
+            read_dummies(group, run);
+        if (hdf5::exists(group, "force"))
+            for (const std::string& name : hdf5::names_in(hdf5::open_group(group, "force").id()))
+                read_gauge(group, name, run);
+    }
+
+    /// A row for each group; -1 fills it up.
+    void read_taped(hid_t group, MeasuredRun& run)
+    {
+        const hdf5::Numbers table = hdf5::read_numbers(group, "taped");
+        if (table.dims.size() != 2)
+            refuse(fmt::format("{} has {} dimensions; it should have a row for each group, filled up with -1.",
+                               at("taped"), table.dims.size()));
+        const std::size_t width = table.dims[1];
+        for (std::size_t row = 0; width > 0 && row < table.dims[0]; ++row) {
+            std::vector<int> blocks;
+            for (std::size_t c = 0; c < width; ++c)
+                if (const double block = table.values[row * width + c]; block != -1)
+                    blocks.push_back(whole_number(campaign_, at("taped"), block));
+            run.taped.push_back(std::move(blocks));
+        }
+    }
+
+    /// A list for each of their numbers.
+    void read_dummies(hid_t group, MeasuredRun& run)
+    {
+        std::vector<std::string> known = {"block"};
+        for (const DummyNumber& names : dummy_numbers())
+            known.emplace_back(names.name);
+        known_only(hdf5::open_group(group, "dummies").id(), "dummies/", known);
+        for (const int block : whole_numbers(group, "dummies/block"))
+            run.dummies.push_back({.block = block});
+        for (const DummyNumber& names : dummy_numbers()) {
+            const std::string path = std::string("dummies/") + names.name;
+            std::vector<double> values(run.dummies.size(), 0);
+            if (hdf5::exists(group, path))
+                values = list(group, path, names.dimension());
+            else if (names.needed)
+                refuse(fmt::format(
+                    "{} is absent.\n  Give block, mass_kg, half_width_m and half_height_m of each dummy.", at(path)));
+            if (values.size() != run.dummies.size())
+                refuse(fmt::format("{} has {} values where dummies/block has {}.\n  One value for each dummy.",
+                                   at(path), values.size(), run.dummies.size()));
+            for (std::size_t i = 0; i < values.size(); ++i)
+                run.dummies[i].*names.member = values[i];
+        }
+    }
+
+    void read_gauge(hid_t run_group, const std::string& name, MeasuredRun& run)
+    {
+        const std::string path = "force/" + name, data = path + "/value_n";
+        const hdf5::Handle group = hdf5::open_group(run_group, path);
+        known_only(group.id(), path + "/", {"value_n"});
+        ForceGauge gauge;
+        gauge.name = name;
+        const auto block = number(group.id(), "block");
+        if (!block)
+            refuse(fmt::format("{} has no attribute block.\n  Name the block on which the force acts.", at(path)));
+        gauge.block = whole_number(campaign_, at(path + "/block"), *block);
+        for (const GaugeNumber& names : gauge_numbers()) {
+            const auto value = number(group.id(), names.name);
+            if (!value && names.needed)
+                refuse(fmt::format("{} has no attribute {}.\n  Give the height of its point above the block's lower "
+                                   "face, in metres.",
+                                   at(path), names.name));
+            gauge.*names.member = value.value_or(gauge.*names.member);
+        }
+        gauge.to_laboratory = end_in_laboratory(campaign_, at(path + "/to"), text(group.id(), "to"), run.test);
+        if (hdf5::exists(group.id(), "value_n")) {
+            double factor = 1;
+            hdf5::Numbers numbers = quantity(run_group, data, Dimension::force, factor);
+            if (numbers.dims.size() != 1)
+                refuse(
+                    fmt::format("{} has {} dimensions; it should be a list of times.", at(data), numbers.dims.size()));
+            gauge.value_n.values = std::move(numbers.values);
+            if (const auto noise = number(hdf5::open_object(run_group, data).id(), "noise_sd"))
+                gauge.value_n.noise_sd = *noise * factor;
+        }
+        run.forces.push_back(std::move(gauge));
     }
 
     void read_series(hid_t group, const SeriesName& name, MeasuredRun& run)
@@ -227,7 +369,8 @@ private:
     }
 
     Campaign& campaign_;
-    std::string place_; ///< group that is being read
+    int version_ = measured_version; ///< of the file
+    std::string place_;              ///< group that is being read
 };
 
 } // namespace
@@ -239,6 +382,7 @@ Campaign read_measured_hdf5_here(const std::filesystem::path& path)
     try {
         const hdf5::Handle file = hdf5::open_file(path, false);
         Reader(campaign).read(file.id());
+        keep_tests_apart(campaign);
     } catch (const hdf5::Error& error) {
         throw InputError(campaign.source, 0,
                          fmt::format("cannot be read as measured data: {}.\n  io/FORMAT.md has the layout; a folder of "

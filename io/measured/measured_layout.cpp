@@ -1,14 +1,18 @@
 #include "io/measured/measured_layout.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "io/files/suggest.hpp"
 #include "io/records/record_parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
 
 namespace stylobate {
 
@@ -31,6 +35,7 @@ constexpr UnitName angles[] = {{"rad", 1},
                                {"deg", std::numbers::pi / 180},
                                {"degree", std::numbers::pi / 180},
                                {"degrees", std::numbers::pi / 180}};
+constexpr UnitName forces[] = {{"n", 1}, {"N", 1}, {"kn", 1000}, {"kN", 1000}, {"mn", 1e-3}, {"mN", 1e-3}};
 constexpr UnitName masses[] = {{"kg", 1}, {"g", 1e-3}, {"t", 1000}};
 
 template <std::size_t n>
@@ -55,6 +60,8 @@ std::optional<double> unit_in_si(std::string_view spelling, Dimension dimension)
         return find(angles, spelling);
     case Dimension::mass:
         return find(masses, spelling);
+    case Dimension::force:
+        return find(forces, spelling);
     case Dimension::acceleration:
         break;
     }
@@ -75,6 +82,8 @@ const char* known_units(Dimension dimension)
         return "rad, mrad, deg";
     case Dimension::mass:
         return "kg, g, t";
+    case Dimension::force:
+        return "N, kN, mN";
     case Dimension::acceleration:
         break;
     }
@@ -88,14 +97,14 @@ std::string length_words(double metres)
 
 double largest_of_series(Dimension dimension)
 {
-    return dimension == Dimension::length ? 200 : 1000;
+    return dimension == Dimension::length ? 200 : dimension == Dimension::force ? 1e7 : 1000;
 }
 
-const std::array<SeriesName, 8>& series_names()
+const std::array<SeriesName, 9>& series_names()
 {
     using Run = MeasuredRun;
     constexpr auto length = Dimension::length;
-    static const std::array<SeriesName, 8> names{{
+    static const std::array<SeriesName, 9> names{{
         {"base/acceleration_m_s2", "base_acceleration", "m/s^2", "_m_s2", Dimension::acceleration, false,
          [](Run& r) -> Series& { return r.base_acceleration_m_s2; }},
         {"base/displacement_m", "base_displacement", "m", "_m", length, false,
@@ -104,6 +113,8 @@ const std::array<SeriesName, 8>& series_names()
         {"base/y_m", "table_y", "m", "_m", length, false, [](Run& r) -> Series& { return r.table.y_m; }},
         {"base/theta_rad", "table_theta", "rad", "_rad", Dimension::angle, false,
          [](Run& r) -> Series& { return r.table.theta_rad; }},
+        {"base/tilt_rad", "base_tilt", "rad", "_rad", Dimension::angle, false,
+         [](Run& r) -> Series& { return r.base_tilt_rad; }, 2},
         {"blocks/x_m", "x", "m", "_m", length, true, [](Run& r) -> Series& { return r.blocks.x_m; }},
         {"blocks/y_m", "y", "m", "_m", length, true, [](Run& r) -> Series& { return r.blocks.y_m; }},
         {"blocks/theta_rad", "theta", "rad", "_rad", Dimension::angle, true,
@@ -112,15 +123,18 @@ const std::array<SeriesName, 8>& series_names()
     return names;
 }
 
-const std::array<SpecimenList, 6>& specimen_lists()
+const std::array<SpecimenList, 9>& specimen_lists()
 {
-    static const std::array<SpecimenList, 6> lists{{
+    static const std::array<SpecimenList, 9> lists{{
         {"half_width_m", Dimension::length, &Specimen::half_width_m},
         {"half_height_m", Dimension::length, &Specimen::half_height_m},
         {"depth_m", Dimension::length, &Specimen::depth_m},
         {"mass_kg", Dimension::mass, &Specimen::mass_kg},
         {"rest_x_m", Dimension::length, &Specimen::rest_x_m},
         {"rest_y_m", Dimension::length, &Specimen::rest_y_m},
+        {"centre_of_mass_m", Dimension::length, &Specimen::centre_of_mass_m, false, true},
+        {"bearing_left_m", Dimension::length, &Specimen::bearing_left_m, true, true},
+        {"bearing_right_m", Dimension::length, &Specimen::bearing_right_m, true, true},
     }};
     return lists;
 }
@@ -136,15 +150,140 @@ const std::array<SpecimenNumber, 4>& specimen_numbers()
     return numbers;
 }
 
+const std::array<LaboratoryNumber, 5>& laboratory_numbers()
+{
+    static const std::array<LaboratoryNumber, 5> numbers{{
+        {"stroke_m", &Laboratory::stroke_m, 20},
+        {"speed_m_s", &Laboratory::speed_m_s, 100},
+        {"acceleration_m_s2", &Laboratory::acceleration_m_s2, 1000},
+        {"tilt_rad", &Laboratory::tilt_rad, std::numbers::pi / 2},
+        {"force_n", &Laboratory::force_n, 1e7},
+    }};
+    return numbers;
+}
+
+std::string cost_key(RunKind kind)
+{
+    return std::string("cost_") + to_string(kind);
+}
+
+const std::array<DummyNumber, 5>& dummy_numbers()
+{
+    static const std::array<DummyNumber, 5> numbers{{
+        {"mass_kg", &Dummy::mass_kg, true},
+        {"half_width_m", &Dummy::half_width_m, true},
+        {"half_height_m", &Dummy::half_height_m, true},
+        {"x_m", &Dummy::x_m, false},
+        {"y_m", &Dummy::y_m, false},
+    }};
+    return numbers;
+}
+
+const std::array<GaugeNumber, 4>& gauge_numbers()
+{
+    static const std::array<GaugeNumber, 4> numbers{{
+        {"height_m", &ForceGauge::height_m, true, 0, 40},
+        {"gain_sd", &ForceGauge::gain_sd, false, 0, 1},
+        {"speed_m_s", &ForceGauge::speed_m_s, false, -10, 10},
+        {"stiffness_n_m", &ForceGauge::stiffness_n_m, false, 0, 1e12},
+    }};
+    return numbers;
+}
+
+const char* end_word(const ForceGauge& gauge)
+{
+    return gauge.to_laboratory ? "laboratory" : "table";
+}
+
+bool end_in_laboratory(const Campaign& campaign, const std::string& what, const std::optional<std::string>& word,
+                       RunKind kind)
+{
+    if (!word)
+        return kind != RunKind::push;
+    if (*word != "laboratory" && *word != "table")
+        throw InputError(campaign.source, 0,
+                         fmt::format("{} = \"{}\" is no place for the end of a rod.\n  Write \"laboratory\" if it is "
+                                     "fixed beside the table, \"table\" if it moves with the table.",
+                                     what, *word));
+    return *word == "laboratory";
+}
+
+std::optional<RunKind> run_kind(std::string_view word)
+{
+    for (const RunKind kind : run_kinds)
+        if (word == to_string(kind))
+            return kind;
+    return std::nullopt;
+}
+
+std::optional<RunKind> known_run_kind(Campaign& campaign, const std::string& run,
+                                      const std::optional<std::string>& word)
+{
+    const std::optional<RunKind> kind = word ? run_kind(*word) : RunKind::shake;
+    if (kind)
+        return kind;
+    std::vector<std::string> words;
+    for (const RunKind known : run_kinds)
+        words.emplace_back(to_string(known));
+    const auto meant = nearest_word(*word, words);
+    campaign.findings.push_back(
+        {Severity::warning, fmt::format("run {}, kind", run),
+         fmt::format("its kind \"{}\" is not known: the run is left out. {}. The kind of motion is in motion.", *word,
+                     meant ? "Did you mean \"" + *meant + "\"?"
+                           : fmt::format("Kinds are {}", fmt::join(words, ", ")))});
+    return std::nullopt;
+}
+
+void report_old_kind(Campaign& campaign, const MeasuredRun& run)
+{
+    if (const auto kind = run_kind(run.kind.value_or("")); kind && *kind != RunKind::shake)
+        campaign.findings.push_back(
+            {Severity::warning, fmt::format("run {}, kind", run.name),
+             fmt::format("in format_version 1 \"{}\" is a kind of motion, and the run is a shake run. A test of a "
+                         "joint needs format_version = 2.",
+                         *run.kind)});
+}
+
+void keep_tests_apart(Campaign& campaign)
+{
+    const std::size_t blocks = block_count(campaign);
+    for (MeasuredRun& run : std::exchange(campaign.runs, {})) {
+        std::string why;
+        const auto also = [&](bool holds, const char* word) {
+            if (holds)
+                why += (why.empty() ? "" : ", ") + std::string(word);
+        };
+        also(!run.present.empty() && std::set(run.present.begin(), run.present.end()).size() < blocks,
+             "blocks removed");
+        also(!run.clamped.empty(), "joints clamped");
+        also(!run.taped.empty(), "blocks taped");
+        also(!run.dummies.empty(), "dummies");
+        also(run.released_s.has_value(), "held by hands");
+        also(!run.base_tilt_rad.empty(), "the table tilted");
+        also(!run.forces.empty(), "a force");
+        if (run.test == RunKind::shake && !why.empty())
+            campaign.findings.push_back({Severity::warning, fmt::format("run {}, kind", run.name),
+                                         fmt::format("the specimen is not whole, free and level ({}): it is not used "
+                                                     "as a shake run.",
+                                                     why)});
+        (run.test == RunKind::shake && why.empty() ? campaign.runs : campaign.tests).push_back(std::move(run));
+    }
+}
+
+std::string test_words(const MeasuredRun& run)
+{
+    return fmt::format("a test ({}){}", to_string(run.test), run.joint ? fmt::format(" on joint {}", *run.joint) : "");
+}
+
 std::size_t block_count(const Campaign& campaign)
 {
     for (const SpecimenList& list : specimen_lists())
-        if (!(campaign.specimen.*list.member).empty())
+        if (!list.per_joint && !(campaign.specimen.*list.member).empty())
             return (campaign.specimen.*list.member).size();
-    for (const MeasuredRun& run : campaign.runs)
+    for (const MeasuredRun* run : every_run(campaign))
         for (const SeriesName& name : series_names())
-            if (name.per_block && !run.time_s.empty() && !name.in(run).empty())
-                return name.in(run).values.size() / run.time_s.size();
+            if (name.per_block && !run->time_s.empty() && !name.in(*run).empty())
+                return name.in(*run).values.size() / run->time_s.size();
     return 0;
 }
 
@@ -181,10 +320,11 @@ void check_shapes(Campaign& campaign)
         refuse(fmt::format("has {} blocks, more than {}.\n  Are times and blocks exchanged?", blocks, most_blocks));
     for (const SpecimenList& list : specimen_lists()) {
         const std::size_t n = (campaign.specimen.*list.member).size();
-        if (n != 0 && n != blocks)
-            refuse(fmt::format("specimen/{} has {} values where the specimen has {} blocks.\n  One value for each "
-                               "block.",
-                               list.name, n, blocks));
+        const std::size_t wanted = list.per_joint ? campaign.specimen.joints.size() : blocks;
+        const char* each = list.per_joint ? "joint" : "block";
+        if (n != 0 && n != wanted)
+            refuse(fmt::format("specimen/{} has {} values where the specimen has {} {}s.\n  One value for each {}.",
+                               list.name, n, wanted, each, each));
     }
     const std::vector<std::pair<int, int>>& joints = campaign.specimen.joints;
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -197,10 +337,16 @@ void check_shapes(Campaign& campaign)
             if (joints[i] == joints[j])
                 refuse(fmt::format("specimen/joints: joints {} and {} are the same.\n  Remove one.", i, j));
     }
-    for (MeasuredRun& run : campaign.runs) {
+    for (MeasuredRun* each : every_run(campaign)) {
+        MeasuredRun& run = *each;
         std::size_t count = run.time_s.size();
         if (count == 0) {
             const char* counted = "";
+            for (const ForceGauge& gauge : run.forces)
+                if (count == 0 && !gauge.value_n.empty()) {
+                    count = gauge.value_n.values.size();
+                    counted = gauge.name.c_str();
+                }
             for (const SeriesName& name : series_names())
                 if (count == 0 && !name.in(run).empty()) {
                     count = name.in(run).values.size() / (name.per_block ? std::max<std::size_t>(blocks, 1) : 1);
@@ -217,6 +363,11 @@ void check_shapes(Campaign& campaign)
                     {Severity::note, fmt::format("run {}, time_s", run.name),
                      fmt::format("there is no clock: times from 0 at {:g} Hz are assumed.", run.rate_hz)});
         }
+        for (const ForceGauge& gauge : run.forces)
+            if (const std::size_t n = gauge.value_n.values.size(); n != 0 && n != count)
+                refuse(fmt::format("run {}: force/{}/value_n has {} values where there are {} times.\n  One value for "
+                                   "each time.",
+                                   run.name, gauge.name, n, count));
         for (const SeriesName& name : series_names()) {
             const std::size_t n = name.in(run).values.size();
             const std::size_t wanted = count * (name.per_block ? blocks : 1);
@@ -254,6 +405,7 @@ public:
         within("placement_tolerance_m", specimen_.placement_tolerance_m, 0, largest_m);
         within("base_block_half_width_m", specimen_.base_block_half_width_m.value_or(1), smallest_m, 10 * largest_m);
         within("base_block_top_m", specimen_.base_block_top_m, 0, largest_m);
+        check_measured();
         for (const auto* list : {&specimen_.rest_x_m, &specimen_.rest_y_m})
             for (std::size_t i = 0; i < list->size(); ++i)
                 if (!(std::abs((*list)[i]) <= 200))
@@ -290,6 +442,27 @@ public:
                                "the whole depth.{}",
                                i, density, lightest, heaviest, specimen_.mass_kg[i], 2 * specimen_.half_width_m[i],
                                2 * specimen_.half_height_m[i], specimen_.depth_m[i], guess));
+        }
+    }
+
+    /// What was measured at rest lies within the block.
+    void check_measured() const
+    {
+        const std::size_t n = specimen_.half_width_m.size();
+        const auto within = [&](const char* name, const std::vector<double>& values, const char* of, std::size_t i,
+                                double low, double high) {
+            if (i < values.size() && (values[i] < low || values[i] > high))
+                refuse(fmt::format("specimen/{}: {:g} of {} {} is outside [{:g}, {:g}] m, which the block's width "
+                                   "gives.\n  Units are SI. Did you mean {:.4g}?",
+                                   name, values[i], of, i, low, high, values[i] / 1000));
+        };
+        for (std::size_t i = 0; i < n; ++i)
+            within("centre_of_mass_m", specimen_.centre_of_mass_m, "block", i, -specimen_.half_width_m[i],
+                   specimen_.half_width_m[i]);
+        for (std::size_t j = 0; j < specimen_.joints.size() && n > 0; ++j) {
+            const double width = 2 * specimen_.half_width_m[static_cast<std::size_t>(specimen_.joints[j].second)];
+            within("bearing_left_m", specimen_.bearing_left_m, "joint", j, -0.1 * width, width);
+            within("bearing_right_m", specimen_.bearing_right_m, "joint", j, -0.1 * width, width);
         }
     }
 

@@ -388,6 +388,12 @@ Motion of_campaign(const std::filesystem::path& file, const std::string& run)
             return base_motion_of(measured);
         names.push_back(measured.name);
     }
+    for (const MeasuredRun& test : campaign.tests)
+        if (test.name == run)
+            throw InputError(
+                file.string(), 0,
+                fmt::format("run \"{}\" is {}, not the shaking of a free specimen.\n  Name a shake run: {}.", run,
+                            test_words(test), fmt::join(names, ", ")));
     throw InputError(file.string(), 0, fmt::format("has no run \"{}\". It has: {}.", run, fmt::join(names, ", ")));
 }
 

@@ -57,7 +57,7 @@ private:
     void check_excitation(const MechanismRule& rule) const
     {
         const ExcitationKind kind = study_.excitation.kind;
-        if (rule.place != MechanismPlace::base)
+        if (rule.place != MechanismPlace::base || rule.mechanism == Mechanism::table_tilt)
             return;
         const std::string unused =
             fmt::format("is not used by excitation.kind = \"{}\"", word_for(excitation_kind_names, kind));
@@ -221,6 +221,9 @@ private:
                 std::abs(spec.values[4]) > layout_.blocks[static_cast<std::size_t>(place)].height_m / 2)
                 keys.refuse("height_m", fmt::format("is outside block {}", place),
                             "Give no more than half its height.");
+            if (spec.mechanism == Mechanism::rod &&
+                spec.values[2] > layout_.blocks[static_cast<std::size_t>(place)].height_m)
+                keys.refuse("height_m", fmt::format("is above block {}", place), "Give at most its height.");
             if (spec.mechanism == Mechanism::eccentricity && study_.structure.spatial())
                 check_centre(keys, spec, place);
             else if (spec.mechanism == Mechanism::eccentricity && !(std::abs(spec.values[0]) < width(place) / 2))

@@ -463,7 +463,10 @@ std::string study_text(const Study& study)
     }
     if (!study.mechanisms.empty())
         table(mechanisms_table().name, entries_of_mechanisms(study));
-    fields(initial_keys::table, study.initial);
+    table(initial_keys::table.name,
+          Entries(initial_keys::table)
+              .add_fields(initial_keys::table, study.initial,
+                          study.initial.lift_m != 0 ? use : use.without({&initial_keys::lift})));
     table(output_keys::table.name, entries_of_output(study, use));
     table(outcome_keys::table.name, entries_of(study.outcome));
     table(run_keys::table.name, entries_of(study.run, use));

@@ -103,6 +103,15 @@ struct OfBlockMechanisms {
         tie_dashpot,   ///< dt c / m
         tie_pull,      ///< dt2 f / m [m]
         tie_turning,   ///< dt c_r / I
+        rod_right,     ///< rod: k_r [N/m]
+        rod_left,      ///< k_l [N/m]
+        rod_arm,       ///< its point above the geometric centre [m]
+        rod_zero,      ///< displacement of its point at the start [m]
+        rod_share,     ///< a, the part of the base's motion that its end does not follow
+        rod_least,     ///< least and most of the path of its end [m]
+        rod_most,      ///< [m]
+        rod_step,      ///< v dt [m]
+        rod_path,      ///< v (t - t_0) [m]; step
         nudge_x,       ///< nudging: dt2 x an external acceleration, which the host may write between two runs [m]
         nudge_y,       ///< [m]
         nudge_theta,   ///< [rad]
@@ -149,6 +158,7 @@ struct OfRealizationMechanisms {
     enum Field : int {
         base_dx,      ///< increment of the base's displacement in the last step [m]; step
         base_dy,      ///< the same upwards [m]; step
+        base_x,       ///< displacement of the base [m]; step
         joint_energy, ///< 2 x the energy taken by dowels, worn corners and strengthening [J]; step
         drag_energy,  ///< 2 dt2 x the work against drag and ties [J s2]; step
         count

@@ -118,10 +118,12 @@ struct VerifyChoice {
 
 /// Options of `new`, in the words of a study file; nullopt: the default.
 struct NewStudyOptions {
-    std::string kind;
+    std::string kind; ///< of the study, or `new_campaign_word`
     std::optional<std::string> structure, excitation;
-    int dimensions = 2;
+    std::optional<int> dimensions;
+    std::optional<std::string> test; ///< of a campaign
 };
+inline constexpr const char* new_campaign_word = "campaign";
 
 /// Each verb returns an exit status; bad input is thrown as `InputError`. The options that
 /// verbs share are put into its request here.
@@ -154,7 +156,7 @@ int bench_command(const CommonOptions& options, double seconds, bool markdown);
 /// @param mpi of this program (`mpi_library`)
 int info_command(const CommonOptions& options, const std::optional<std::string>& file, bool all,
                  const std::optional<std::string>& mpi);
-/// @param wanted_file the study file; nullopt: KIND.toml
+/// @param wanted_file the study file, or the campaign's folder; nullopt: KIND.toml, or "campaign"
 int new_command(const CommonOptions& options, const NewStudyOptions& wanted,
                 const std::optional<std::string>& wanted_file);
 /// Prints the JSON Schema of the study file, or its reference page. @param markdown the page

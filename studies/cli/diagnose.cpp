@@ -86,7 +86,8 @@ std::string command_of(const CommonOptions& options, const DiagnosisRequest& req
         command += " --study " + shell_word(*study);
     for (const std::string& setting : options.set)
         command += " --set " + shell_word(setting);
-    return command + fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), request.nulls, request.seed);
+    return command + fmt::format(" -o {} --nulls {} --specimens {} --seed {}{}", shell_word(output), request.nulls,
+                                 request.specimens, request.seed, request.plan ? " --plan" : "");
 }
 
 } // namespace
@@ -101,6 +102,7 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     request.start_name = study.value_or("--set");
     const std::string extended = without_ending + "_extended.toml";
     request.cache = without_ending + "_campaigns.txt";
+    request.tests_cache = without_ending + "_tests.txt";
     request.check_outputs = [&] {
         check_output(request.measured, output, options.force);
         check_output(request.measured, extended, options.force);

@@ -139,19 +139,28 @@ void tell_campaign(const std::string& file, bool all, Told& told)
         collapsed += run.collapsed.value_or(false);
         seconds += run.time_s.empty() ? 0 : run.time_s.back() - run.time_s.front();
     }
+    std::map<std::string, std::size_t> tests; // of each kind
+    for (const MeasuredRun& run : campaign.tests)
+        ++tests[to_string(run.test)];
+    std::vector<std::string> test_counts;
+    for (const auto& [kind, count] : tests)
+        test_counts.push_back(fmt::format("{} {}", count, kind));
     told.json.member("holds", "measured campaign")
         .member("specimen", campaign.specimen.name)
         .member("blocks", campaign.specimen.blocks())
         .member("joints", campaign.specimen.joints.size())
         .member("runs", campaign.runs.size())
+        .member("tests", campaign.tests.size())
         .member("motions", motions.size())
         .member("collapsed", collapsed)
         .member("duration_s", seconds)
         .member("findings", json_of(campaign.findings));
     told.text = fmt::format("a measured campaign\nspecimen \"{}\": {} blocks, {} joints\n{} runs of {} motions, {:.4g} "
-                            "s in all; {} collapsed\n{}",
+                            "s in all; {} collapsed\n{}{}",
                             campaign.specimen.name, campaign.specimen.blocks(), campaign.specimen.joints.size(),
-                            campaign.runs.size(), motions.size(), seconds, collapsed, text_of(campaign.findings, all));
+                            campaign.runs.size(), motions.size(), seconds, collapsed,
+                            tests.empty() ? "" : fmt::format("tests of joints: {}\n", fmt::join(test_counts, ", ")),
+                            text_of(campaign.findings, all));
     add_lines("refused", "refused", refusals_of(campaign, file), told);
 }
 

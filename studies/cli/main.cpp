@@ -309,6 +309,14 @@ private:
                          "about 50 no cause of joints and blocks can be significant")
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
+        diagnosing
+            ->add_option("--specimens", specimens_,
+                         "number of healthy specimens that go through simulated tests of single joints. 0: none; no "
+                         "test is proposed, and those that the campaign has are not read")
+            ->check(CLI::Range(0LL, 10000LL))
+            ->capture_default_str();
+        diagnosing->add_flag("--plan", diagnosis_.plan,
+                             "propose three tests instead of one; shake runs are not needed");
         diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();
@@ -316,6 +324,7 @@ private:
         add_mpi(*diagnosing);
         diagnosing->callback([this] {
             diagnosis_.nulls = static_cast<std::uint64_t>(nulls_);
+            diagnosis_.specimens = static_cast<std::uint64_t>(specimens_);
             diagnosis_.seed = static_cast<std::uint64_t>(seed_);
             on_ranks([this] { return diagnose_command(options_, diagnosis_, study_, output_); });
         });
@@ -409,12 +418,21 @@ private:
 
     void add_new()
     {
-        auto* begin = app_.add_subcommand("new", "write a commented study file to begin with");
+        auto* begin =
+            app_.add_subcommand("new", "write a commented study file, or a campaign of measured data, to begin with");
+        std::vector<std::string> kinds = words_of(study_kind_names), tests;
+        for (const RunKind kind : run_kinds)
+            tests.emplace_back(to_string(kind));
+        kinds.emplace_back(new_campaign_word);
         begin
             ->add_option("KIND", new_.kind,
-                         fmt::format("kind of the study: {}", fmt::join(words_of(study_kind_names), ", ")))
+                         fmt::format("kind of the study: {}; or {}, a folder for measured data",
+                                     fmt::join(words_of(study_kind_names), ", "), new_campaign_word))
             ->required()
-            ->check(CLI::IsMember(words_of(study_kind_names)));
+            ->check(CLI::IsMember(kinds));
+        add_word(*begin, "--test", new_.test,
+                 fmt::format("campaign: kind of its run: {} (default: shake)", fmt::join(tests, ", ")))
+            ->check(CLI::IsMember(tests));
         add_word(*begin, "--structure", new_.structure, "column or colonnade (default: column)")
             ->check(CLI::IsMember(words_of(structure_kind_names)));
         begin->add_option("--dimensions", new_.dimensions, "2: in the plane, 3: in space (default: 2)")
@@ -423,7 +441,7 @@ private:
                  fmt::format("{} (default: harmonic; for a fragility study noise)",
                              fmt::join(words_of(excitation_kind_names), ", ")))
             ->check(CLI::IsMember(words_of(excitation_kind_names)));
-        add_word(*begin, "-o,--output", output_, "the study file (default: KIND.toml)");
+        add_word(*begin, "-o,--output", output_, "the study file (default: KIND.toml), or the campaign's folder");
         begin->add_flag("--quiet", options_.quiet, "print the name of the file only");
         add_force(*begin, options_);
         begin->callback([this] { status_ = new_command(options_, new_, output_); });
@@ -486,7 +504,7 @@ private:
     CalibrationRequest calibration_;
     bool keep_all_ = false;
     DiagnosisRequest diagnosis_;
-    long long nulls_ = 192, seed_ = 1;
+    long long nulls_ = 192, specimens_ = 64, seed_ = 1;
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;

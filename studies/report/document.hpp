@@ -95,7 +95,8 @@ std::string html_of(const Document& document);
 std::string markdown_of(const Document& document);
 
 /// What a console shows of it: sentences, lists, facts and tables, each with two blanks before it, columns as wide as
-/// their widest cell. A result's text on the console and the first part of its page are made by one function.
+/// their widest cell; of what is folded the sentence alone. A result's text on the console and the first part of its
+/// page are made by one function.
 std::string console_text(const Document& document);
 
 /// {"title", "subtitle", "sections": [{"title", "blocks": [{"kind", ...}]}]}, with tables as lists of rows. The first

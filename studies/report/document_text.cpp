@@ -114,8 +114,15 @@ std::string console_block(const DocumentBlock& b)
 std::string console_text(const Document& document)
 {
     std::string out = document.title().empty() ? "" : document.title() + "\n";
-    for (const DocumentBlock& block : document.blocks())
-        out += console_block(block);
+    std::size_t folds = 0; // what opens below a sentence is for a page
+    for (const DocumentBlock& block : document.blocks()) {
+        if (folds == 0)
+            out += console_block(block);
+        if (block.kind == DocumentBlock::Kind::fold)
+            ++folds;
+        else if (folds > 0 && block.kind == DocumentBlock::Kind::end && block.title == "details")
+            --folds;
+    }
     return out;
 }
 

@@ -1,12 +1,12 @@
 /// Measured campaigns. An input that begins with `h` is a recipe of changes of an HDF5 file; any other is a folder of
 /// CSV files: lines `@NAME`, each with the content of that file behind it.
 
+#include "io/measured/campaign_writer.hpp"
 #include "io/measured/measured_check.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/measured/measured_layout.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/text_mutation.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 
 #include <bit>
@@ -37,9 +37,18 @@ void check_same(const Campaign& a, const Campaign& b)
         promise(same(s.*list.member, t.*list.member), "a list of the specimen changes when it is written");
     for (const SpecimenNumber& number : specimen_numbers())
         promise(same(s.*number.member, t.*number.member), "a number of the specimen changes when it is written");
-    promise(a.runs.size() == b.runs.size(), "runs are lost when they are written");
-    for (std::size_t r = 0; r < a.runs.size(); ++r) {
-        const MeasuredRun &x = a.runs[r], &y = b.runs[r];
+    const auto old = every_run(a), read = every_run(b);
+    promise(a.runs.size() == b.runs.size() && old.size() == read.size(), "runs are lost when they are written");
+    for (std::size_t r = 0; r < old.size(); ++r) {
+        const MeasuredRun &x = *old[r], &y = *read[r];
+        promise(x.test == y.test && x.joint == y.joint && x.present == y.present && x.clamped == y.clamped &&
+                    x.taped == y.taped && x.dummies == y.dummies && x.released_s == y.released_s &&
+                    x.forces.size() == y.forces.size(),
+                "a test changes when it is written");
+        for (std::size_t f = 0; f < x.forces.size(); ++f)
+            promise(x.forces[f].block == y.forces[f].block && same(x.forces[f].height_m, y.forces[f].height_m) &&
+                        same(x.forces[f].value_n.values, y.forces[f].value_n.values),
+                    "a force changes when it is written");
         promise(x.name == y.name && x.motion_id == y.motion_id && x.repeat == y.repeat && x.kind == y.kind &&
                     same(x.rate_hz, y.rate_hz) && x.run_order == y.run_order && x.collapsed == y.collapsed &&
                     same(x.collapse_time_s, y.collapse_time_s),
@@ -53,10 +62,10 @@ void check_same(const Campaign& a, const Campaign& b)
 void check_sizes(const Campaign& campaign)
 {
     const std::size_t blocks = block_count(campaign);
-    for (const MeasuredRun& run : campaign.runs)
+    for (const MeasuredRun* run : every_run(campaign))
         for (const SeriesName& name : series_names())
-            promise(name.in(run).empty() ||
-                        name.in(run).values.size() == run.time_s.size() * (name.per_block ? blocks : 1),
+            promise(name.in(*run).empty() ||
+                        name.in(*run).values.size() == run->time_s.size() * (name.per_block ? blocks : 1),
                     "a series does not fit its clock");
 }
 
@@ -88,6 +97,8 @@ const Original& original()
         campaign.specimen = sample_specimen(2);
         const SampleMotion motion = {.amplitude_m = 0.005, .frequency_hz = 2, .start_s = 0.1, .duration_s = 0.8};
         campaign.runs = {sample_run(campaign.specimen, "000", 1, motion, 50, 1)};
+        campaign.tests = sample_tests(campaign.specimen, 20);
+        campaign.laboratory.stroke_m = 0.02;
         const fs::path file = folder() / "campaign.h5";
         write_campaign(campaign, file);
         return Original{file_content(file), objects_in(file)};
@@ -145,11 +156,43 @@ Verdict judge(std::string_view input)
 std::string mutated(std::string_view input, Random& random)
 {
     static const std::vector<std::string> words = [] {
-        std::vector<std::string> all = {"@campaign.toml\n", "@runs/a.csv\n", "time_s",     "time_ms",
-                                        "[[run]]\n",        "[specimen]\n",  "joints",     "name",
-                                        "gravity_m_s2",     "rate_hz",       "collapsed",  "collapse_time_s",
-                                        "base_source",      "\"command\"",   "base_clock", "run_order",
-                                        "motion_id",        "repeat",        "kind",       "friction_nominal"};
+        std::vector<std::string> all = {"@campaign.toml\n",
+                                        "@runs/a.csv\n",
+                                        "time_s",
+                                        "time_ms",
+                                        "[[run]]\n",
+                                        "[specimen]\n",
+                                        "joints",
+                                        "name",
+                                        "gravity_m_s2",
+                                        "rate_hz",
+                                        "collapsed",
+                                        "collapse_time_s",
+                                        "base_source",
+                                        "\"command\"",
+                                        "base_clock",
+                                        "run_order",
+                                        "motion_id",
+                                        "repeat",
+                                        "kind",
+                                        "friction_nominal",
+                                        "format_version = 2",
+                                        "\"pull\"",
+                                        "\"tilt\"",
+                                        "joint = 1",
+                                        "present = [0, 1]",
+                                        "clamped = [0]",
+                                        "taped = [[0, 1]]",
+                                        "[[run.dummy]]\n",
+                                        "[[run.force]]\n",
+                                        "block = 1",
+                                        "height_m = 0.01",
+                                        "force_a_n",
+                                        "released_s = 0.2",
+                                        "[columns]\n",
+                                        "[laboratory]\n",
+                                        "may_dismantle",
+                                        "motion"};
         for (const SeriesName& series : series_names())
             for (const char* block : {"", "0", "1"})
                 all.push_back(std::string(series.column) + block + series.suffix);

@@ -76,7 +76,6 @@ void tell(const Comparison& comparison)
             promise(limit.cells.size() == comparison.places(), "a limit state has other cells than the comparison");
         answer_text(comparison, variant);
         harm_text(comparison, variant);
-        dependence_texts(comparison, variant);
         what_would_change_it(comparison, variant);
     }
 }

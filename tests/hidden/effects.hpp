@@ -15,6 +15,7 @@ struct BedEffect {
     double stribeck_m_s = 1;      ///< stribeck: over which velocity it falls
     double wear_per_m = 0;        ///< friction_wear: mu (1 - k S), S the path slipped
     double adhesion_n_m = 0;      ///< adhesion: shear held per contact length until the first slip
+    double tension_n_m = 0;       ///< adhesion: and tension, until an end opens or the bed slips
     double dowel_n_m = 0;         ///< dowel: stiffness
     double dowel_yield_n = 0;     ///< dowel: the force at which it yields
     double dowel_gap_m = 0;       ///< dowel: free play to either side

@@ -204,6 +204,22 @@ const std::vector<std::pair<std::string, Draw1>>& listed()
     return effects;
 }
 
+/// The same mechanisms in another form, which no seed draws.
+const std::vector<std::pair<std::string, Draw1>>& variants()
+{
+    static const std::vector<std::pair<std::string, Draw1>> effects = {
+        {"bond",
+         [](Drawing& d) { // adhesion that holds tension too, of the weight above per width
+             d.made.name = "adhesion";
+             BedEffect& bed = d.a_bed();
+             const double weight = d.pressed(bed) / d.width();
+             bed.adhesion_n_m = d.size("adhesion_n_m", d.draws.log_uniform(0.3, 2) * 0.65 * weight);
+             bed.tension_n_m = d.draws.log_uniform(0.05, 0.5) * weight;
+         }},
+    };
+    return effects;
+}
+
 /// And what no list has.
 const std::vector<std::pair<std::string, Draw1>>& outside()
 {
@@ -301,6 +317,12 @@ const std::vector<std::string>& outside_names()
     return names;
 }
 
+const std::vector<std::string>& variant_names()
+{
+    static const std::vector<std::string> names = names_of(variants());
+    return names;
+}
+
 bool applies(std::string_view name, Law law)
 {
     // rigid corners have neither an exponent nor dashpots
@@ -316,10 +338,10 @@ HiddenEffect draw_effect(std::string_view name, const Planned& planned, const Mo
 {
     HiddenEffect made;
     made.name = name;
-    for (const auto* list : {&listed(), &outside()})
+    for (const auto* list : {&listed(), &variants(), &outside()})
         for (const auto& [its_name, draw] : *list)
             if (its_name == name) {
-                made.listed = list == &listed();
+                made.listed = list != &outside();
                 Drawing drawing{planned, model, draws, made};
                 draw(drawing);
             }
@@ -334,13 +356,14 @@ Effects together(const std::vector<HiddenEffect>& effects)
             BedEffect& to = all.beds[j];
             const BedEffect& from = one.effects.beds[j];
             for (const auto member :
-                 {&BedEffect::friction_ratio, &BedEffect::dynamic_ratio,     &BedEffect::stribeck_m_s,
-                  &BedEffect::wear_per_m,     &BedEffect::adhesion_n_m,      &BedEffect::dowel_n_m,
-                  &BedEffect::dowel_yield_n,  &BedEffect::dowel_gap_m,       &BedEffect::exponent_change,
-                  &BedEffect::rate_factor,    &BedEffect::end_dashpot_n_s_m, &BedEffect::chip_left_m,
-                  &BedEffect::chip_right_m,   &BedEffect::corner_wear_m_rad, &BedEffect::wedge_rad,
-                  &BedEffect::heat_per_j,     &BedEffect::heat_time_s,       &BedEffect::direction,
-                  &BedEffect::patch_drop,     &BedEffect::patch_at_m,        &BedEffect::patch_width_m})
+                 {&BedEffect::friction_ratio,  &BedEffect::dynamic_ratio, &BedEffect::stribeck_m_s,
+                  &BedEffect::wear_per_m,      &BedEffect::adhesion_n_m,  &BedEffect::tension_n_m,
+                  &BedEffect::dowel_n_m,       &BedEffect::dowel_yield_n, &BedEffect::dowel_gap_m,
+                  &BedEffect::exponent_change, &BedEffect::rate_factor,   &BedEffect::end_dashpot_n_s_m,
+                  &BedEffect::chip_left_m,     &BedEffect::chip_right_m,  &BedEffect::corner_wear_m_rad,
+                  &BedEffect::wedge_rad,       &BedEffect::heat_per_j,    &BedEffect::heat_time_s,
+                  &BedEffect::direction,       &BedEffect::patch_drop,    &BedEffect::patch_at_m,
+                  &BedEffect::patch_width_m})
                 take(to, from, member);
         }
         for (std::size_t i = 0; i < max_bodies; ++i)

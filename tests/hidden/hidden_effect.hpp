@@ -24,6 +24,8 @@ struct HiddenEffect {
 /// Names in the order of their numbers: the mechanisms, then those outside the list.
 const std::vector<std::string>& listed_names();
 const std::vector<std::string>& outside_names();
+/// Other forms of listed mechanisms, which only a wish draws; the effect has the name of its mechanism.
+const std::vector<std::string>& variant_names();
 
 /// True if an effect means something under a law and on a specimen.
 bool applies(std::string_view name, Law law);

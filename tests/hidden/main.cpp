@@ -3,12 +3,13 @@
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/suggest.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "io/measured/measured_file.hpp"
+#include "tests/hidden/joint_test.hpp"
 #include "tests/hidden/score/answer.hpp"
 #include "tests/hidden/score/coverage.hpp"
 #include "tests/hidden/score/detectability.hpp"
 #include "tests/hidden/score/score.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -51,7 +52,8 @@ Seeds parse_seeds(const std::string& text)
 void check_effect(const std::string& name)
 {
     std::vector<std::string> names = listed_names();
-    names.insert(names.end(), outside_names().begin(), outside_names().end());
+    for (const auto* more : {&variant_names(), &outside_names()})
+        names.insert(names.end(), more->begin(), more->end());
     if (std::find(names.begin(), names.end(), name) != names.end())
         return;
     const auto meant = nearest_word(name, names);
@@ -156,6 +158,71 @@ void coverage_of_folder(const fs::path& answers, const fs::path& calibrations, c
     tell(markdown(coverage(known, said_of(known, calibrations, read_calibration))), page);
 }
 
+/// The shakes of the campaign are done before if they leave something behind.
+void do_tests(std::uint64_t seed, Wish wish, const fs::path& plan, const fs::path& out)
+{
+    const Campaign planned = read_campaign(plan);
+    Wish brief = wish;
+    brief.most_motions = 0;
+    VirtualCampaign made = make_campaign(seed, brief);
+    if (made.model.effects.persists)
+        made = make_campaign(seed, wish);
+    const Campaign done = tested(made, planned);
+    write_campaign(done, out);
+    for (const MeasuredRun& run : done.tests)
+        fmt::print("run {}: {}{}\n", run.name, to_string(run.test),
+                   run.collapsed.value_or(false) ? fmt::format(", fell at {:.2f} s", run.collapse_time_s) : "");
+}
+
+/// What a campaign is wished to be, by options of a command.
+class WishOptions {
+public:
+    explicit WishOptions(CLI::App& command)
+    {
+        command
+            .add_option("--effect", effects_, "the hidden effect, instead of that of the seed; given twice for a pair")
+            ->allow_extra_args(false);
+        command.add_flag("--nothing", nothing_, "no hidden effect, for any seed")->excludes("--effect");
+        command.add_flag("--short", brief_, "two runs without repeats, for tests");
+        command.add_option("--law", law_, "baseline contact law, instead of that of the seed")
+            ->check(CLI::IsMember({"nonsmooth", "compliant"}));
+        slippery_ = command
+                        .add_option("--friction", friction_,
+                                    "FROM TO: true friction over the nominal one of the file, uniform in the logarithm")
+                        ->check(CLI::Range(0.1, 3.0));
+    }
+
+    Wish wish() const
+    {
+        Wish wish;
+        if (brief_)
+            wish.most_motions = 2;
+        if (!law_.empty())
+            wish.law = law_ == "nonsmooth" ? Law::nonsmooth : Law::compliant;
+        if (slippery_->count() > 0 && friction_.first > friction_.second)
+            throw InputError("--friction", 0, "the first number is above the second. Give FROM TO with FROM <= TO.");
+        if (slippery_->count() > 0)
+            wish.friction = friction_;
+        for (const std::string& name : effects_)
+            check_effect(name);
+        for (const std::string& name : effects_)
+            if (wish.law && !applies(name, *wish.law))
+                throw InputError(
+                    "--effect", 0,
+                    fmt::format("{} is not defined under the law {}.\n  Choose the other law.", name, law_));
+        if (nothing_ || !effects_.empty())
+            wish.effects = effects_;
+        return wish;
+    }
+
+private:
+    std::string law_;
+    std::vector<std::string> effects_;
+    bool nothing_ = false, brief_ = false;
+    std::pair<double, double> friction_;
+    CLI::Option* slippery_ = nullptr;
+};
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -163,25 +230,21 @@ int main(int argc, char** argv)
     CLI::App app("Virtual shake-table campaigns with hidden effects, and the score of their diagnoses.");
     app.require_subcommand(1);
 
-    std::string seeds, out, law;
-    std::vector<std::string> effects;
-    bool nothing = false, brief = false;
+    std::string seeds, out;
     auto* make = app.add_subcommand(
         "generate", "writes campaign_SEED.h5, its study and answers/SEED.toml; continues an interrupted run");
     make->add_option("--seeds", seeds, "A..B")->required();
     make->add_option("--out", out, "folder")->required();
-    make->add_option("--effect", effects, "the hidden effect, instead of that of the seed; given twice for a pair")
-        ->allow_extra_args(false);
-    make->add_flag("--nothing", nothing, "no hidden effect, for any seed")->excludes("--effect");
-    make->add_flag("--short", brief, "two runs without repeats, for tests");
-    make->add_option("--law", law, "baseline contact law, instead of that of the seed")
-        ->check(CLI::IsMember({"nonsmooth", "compliant"}));
+    WishOptions wish(*make);
 
-    std::pair<double, double> friction;
-    auto* slippery =
-        make->add_option("--friction", friction,
-                         "FROM TO: true friction over the nominal one of the file, uniform in the logarithm")
-            ->check(CLI::Range(0.1, 3.0));
+    std::string plan, tests_file;
+    std::uint64_t seed = 0;
+    auto* test = app.add_subcommand("test", "does the tests on single joints that a file plans, with the specimen of a "
+                                            "campaign; options as for 'generate' of that campaign");
+    test->add_option("--campaign-seed", seed, "seed of the campaign")->required();
+    test->add_option("--plan", plan, "measured data of version 2 with runs that have no measured series")->required();
+    test->add_option("--out", tests_file, "the same file with what was measured")->required();
+    WishOptions test_wish(*test);
 
     std::string answers, diagnoses, page;
     auto* judge_them = app.add_subcommand("score", "compares diagnoses with answers");
@@ -202,26 +265,9 @@ int main(int argc, char** argv)
     try {
         app.parse(argc, argv);
         if (make->parsed()) {
-            Wish wish;
-            if (brief)
-                wish.most_motions = 2;
-            if (!law.empty())
-                wish.law = law == "nonsmooth" ? Law::nonsmooth : Law::compliant;
-            if (slippery->count() > 0 && friction.first > friction.second)
-                throw InputError("--friction", 0,
-                                 "the first number is above the second. Give FROM TO with FROM <= TO.");
-            if (slippery->count() > 0)
-                wish.friction = friction;
-            for (const std::string& name : effects)
-                check_effect(name);
-            for (const std::string& name : effects)
-                if (wish.law && !applies(name, *wish.law))
-                    throw InputError(
-                        "--effect", 0,
-                        fmt::format("{} is not defined under the law {}.\n  Choose the other law.", name, law));
-            if (nothing || !effects.empty())
-                wish.effects = effects;
-            generate(parse_seeds(seeds), out, wish);
+            generate(parse_seeds(seeds), out, wish.wish());
+        } else if (test->parsed()) {
+            do_tests(seed, test_wish.wish(), plan, tests_file);
         } else if (list->parsed()) {
             for (const auto* names : {&listed_names(), &outside_names()})
                 for (const std::string& name : *names)

@@ -113,10 +113,26 @@ Jet reported(const Shaking& shaking, const BaseEffect& effect, bool of_command, 
 {
     // The clock: the table does at t what the file says for t + tau.
     const double at = time - effect.time_offset_s;
-    const Jet commanded = shaking.at(at);
-    if (of_command || effect.distortion_ratio == 0) // what the table does is the gain times that
-        return commanded;
-    return distorted(commanded, effect, peaks(shaking).u);
+    const bool distorts = !of_command && effect.distortion_ratio != 0;
+    return reported(shaking.at(at), effect, of_command, distorts ? peaks(shaking).u : 0);
+}
+
+Jet reported(const Jet& commanded, const BaseEffect& effect, bool of_command, double peak_m)
+{
+    // what the table does is the gain times that
+    return of_command ? commanded : distorted(commanded, effect, peak_m);
+}
+
+BaseState table_at(const Jet& commanded, const BaseEffect& effect, double peak_m)
+{
+    const Jet u = effect.gain * distorted(commanded, effect, peak_m);
+    BaseState state;
+    state.x = u.u;
+    state.vx = u.v;
+    state.y = effect.vertical_ratio * u.u;
+    state.vy = effect.vertical_ratio * u.v;
+    state.theta = effect.pitch_rad_s2_m * u.a;
+    return state;
 }
 
 TableMotion::TableMotion(const Shaking& shaking, const BaseEffect& effect, double step_s)
@@ -128,12 +144,7 @@ TableMotion::TableMotion(const Shaking& shaking, const BaseEffect& effect, doubl
     double pitch_before = 0;
     for (long i = 0; i <= 2 * steps; ++i) {
         const double t = 0.5 * step_s * static_cast<double>(i);
-        const Jet u = effect.gain * distorted(shaking.at(t), effect, peak);
-        BaseState state;
-        state.x = u.u;
-        state.vx = u.v;
-        state.y = effect.vertical_ratio * u.u;
-        state.vy = effect.vertical_ratio * u.v;
+        BaseState state = table_at(shaking.at(t), effect, peak);
         if (effect.vertical_m_s2 != 0) {
             const Jet rise = smooth_rise(t - shaking.from_s, shaking.rise_s);
             const Jet fall = smooth_rise(shaking.to_s - t, shaking.fall_s);
@@ -142,7 +153,6 @@ TableMotion::TableMotion(const Shaking& shaking, const BaseEffect& effect, doubl
             state.y += own.u;
             state.vy += own.v;
         }
-        state.theta = effect.pitch_rad_s2_m * u.a;
         state.omega = i > 0 ? (state.theta - pitch_before) / (0.5 * step_s) : 0;
         pitch_before = state.theta;
         states_.push_back(state);

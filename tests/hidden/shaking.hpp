@@ -51,6 +51,10 @@ struct ShakingBand {
 /// Draws a motion of a kind. Its peak acceleration is 1 m/s2 until it is scaled.
 Shaking draw_shaking(const std::string& kind, const ShakingBand& band, Draws& draws);
 
+/// What the table does when it is commanded so much, but for a vertical motion of its own frequency.
+/// @param peak_m greatest commanded displacement
+BaseState table_at(const Jet& commanded, const BaseEffect& effect, double peak_m);
+
 /// The table through one run, at every half step of the integrator from the start; before it the table is still.
 class TableMotion {
 public:
@@ -66,8 +70,9 @@ private:
     std::vector<BaseState> states_;
 };
 
-/// What the file says of the table at a time if its sensor adds no noise.
+/// What the file says of the table if its sensor adds no noise, where so much is commanded, and at a time of a run.
 /// @param of_command the command; otherwise a sensor that sees all that the table does horizontally but for its gain
+Jet reported(const Jet& commanded, const BaseEffect& effect, bool of_command, double peak_m);
 Jet reported(const Shaking& shaking, const BaseEffect& effect, bool of_command, double time);
 
 } // namespace stylobate::hidden

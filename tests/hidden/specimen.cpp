@@ -154,7 +154,7 @@ void scatter(Model& model, const Specimen& specimen, Draws& draws)
         model.beds[j].friction *= 1 + friction_scatter * draws.normal();
 }
 
-State put_on_table(const Model& model, const Specimen& specimen, Draws placement)
+State laid_by_hand(const Model& model, const Specimen& specimen, Draws placement)
 {
     State state;
     // laid bed by bed, each block on the face below it; what lies on two columns on the second, and settles
@@ -181,7 +181,11 @@ State put_on_table(const Model& model, const Specimen& specimen, Draws placement
         put.x = cx + effect.eccentricity_m * std::cos(theta);
         put.y = cy + effect.eccentricity_m * std::sin(theta);
     }
+    return state;
+}
 
+void let_rest(const Model& model, State& state)
+{
     // until it rests: on a still table, with the velocities fading (in a time that belongs to the block's size)
     Shaking still;
     still.duration_s = 2 * model.step_s;
@@ -193,7 +197,8 @@ State put_on_table(const Model& model, const Specimen& specimen, Draws placement
     // nothing is worn by being put there, and what depends on the time has not begun
     Model resting = model;
     for (BedEffect& effect : resting.effects.beds)
-        effect.dowel_n_m = 0;
+        effect.dowel_n_m = effect.tension_n_m = 0;
+    resting.rod_count = 0;
     for (state.step = -steps; state.step < 0;) {
         step(resting, table, state);
         for (BodyState& body : state.bodies) {
@@ -204,12 +209,20 @@ State put_on_table(const Model& model, const Specimen& specimen, Draws placement
     }
     for (int j = 0; j < model.bed_count; ++j) {
         BedState& bed = state.beds[static_cast<std::size_t>(j)];
+        if (!can_move(model, model.beds[static_cast<std::size_t>(j)]))
+            continue;
         const BedEnds ends = ends_of_bed(model, j, state, {});
         bed.slip_m = bed.heat_j = bed.turned_rad = 0;
         bed.slipped = false;
         bed.dowel_at_m = ends.position;
         bed.width_m = bed.width_at_rest_m = ends.width;
     }
+}
+
+State put_on_table(const Model& model, const Specimen& specimen, Draws placement)
+{
+    State state = laid_by_hand(model, specimen, placement);
+    let_rest(model, state);
     return state;
 }
 

@@ -39,8 +39,13 @@ Model make_specimen(const Planned& planned, Law law, Draws making, Draws paramet
 /// Scatters friction, widths and masses of a model once more, by their tolerances.
 void scatter(Model& model, const Specimen& specimen, Draws& draws);
 
-/// Put on the table by hand: every block within the placement's tolerance of its place, and what an effect shifts; then
-/// left alone until it rests.
+/// Laid by hand, bed by bed: every block within the placement's tolerance of its place, and what an effect shifts.
+State laid_by_hand(const Model& model, const Specimen& specimen, Draws placement);
+
+/// Left alone on the still table until it rests: then its beds remember nothing but where they are.
+void let_rest(const Model& model, State& state);
+
+/// Laid by hand, and left alone until it rests.
 State put_on_table(const Model& model, const Specimen& specimen, Draws placement);
 
 /// The study file that a user would write for the specimen: nominal sizes and friction, and the usual stiffness of dry

@@ -315,6 +315,25 @@ TEST(HiddenEffects, EachMakesADifference)
     }
 }
 
+TEST(HiddenEffects, ABondIsAdhesionThatHoldsTension)
+{
+    Draws plan(5, Draw::plan), strength(5, Draw::effect);
+    const Planned planned = plan_specimen(SpecimenKind::two_drums, plan);
+    const Model healthy = make_specimen(planned, Law::nonsmooth, Draws(5, Draw::making), Draws(5, Draw::law));
+    ASSERT_EQ(variant_names(), std::vector<std::string>{"bond"});
+    const HiddenEffect bond = draw_effect("bond", planned, healthy, strength);
+    EXPECT_EQ(bond.name, "adhesion");
+    EXPECT_TRUE(bond.listed);
+    const Effects all = together({bond});
+    double tension = 0, shear = 0;
+    for (const BedEffect& bed : all.beds) {
+        tension += bed.tension_n_m;
+        shear += bed.adhesion_n_m;
+    }
+    EXPECT_GT(tension, 0);
+    EXPECT_EQ(shear, bond.size);
+}
+
 // ---- campaigns and what can be seen in them -------------------------------------------------------------------------
 
 TEST(Detectability, NoiseIsThatOfTwoSlopes)

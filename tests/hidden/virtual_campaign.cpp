@@ -1,17 +1,16 @@
 #include "tests/hidden/virtual_campaign.hpp"
 
+#include "tests/hidden/sensors.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace stylobate::hidden {
 
 namespace {
-
-constexpr double sensor_m_s2 = 0.02; ///< noise of the table's accelerometer, 1 sigma
 
 /// Of how many in a hundred campaigns which kind is.
 constexpr int nothing_percent = 68, single_percent = 18, pair_percent = 5; // the rest is outside the list
@@ -110,15 +109,8 @@ void choose_amplitude(const Model& model, const Planned& planned, std::uint64_t 
     shaking.scale_to(stands > 0 ? stands : peak); // what answers by nothing or too much is shaken below that
 }
 
-void add_noise(Series& series, double sd, Draws& draws)
-{
-    for (double& value : series.values)
-        value += sd * draws.normal();
-    series.noise_sd = sd;
-}
-
 /// What the file gives of a run.
-MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index, bool table_seen)
+MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index)
 {
     const Planned& planned = made.planned;
     MeasuredRun seen;
@@ -146,35 +138,28 @@ MeasuredRun seen_run(const VirtualCampaign& made, const TrueRun& run, int index,
     add_noise(seen.base_acceleration_m_s2, sensor_m_s2, table);
     add_noise(seen.base_displacement_m, planned.sensor_m, table);
 
-    const double missing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<const BodyState*> places, tables;
+    std::vector<BodyState> states(made.table_seen ? frames : 0);
     for (std::size_t k = 0; k < frames; ++k) {
         const bool standing = k < static_cast<std::size_t>(run.history.frames);
-        for (std::size_t i = 0; i < blocks; ++i) {
-            const BodyState* place = standing ? &run.history.places[k * blocks + i] : nullptr;
-            seen.blocks.x_m.values.push_back(place ? place->x + cameras_zero : missing);
-            seen.blocks.y_m.values.push_back(place ? place->y : missing);
-            seen.blocks.theta_rad.values.push_back(place ? place->theta : missing);
+        for (std::size_t i = 0; i < blocks; ++i)
+            places.push_back(standing ? &run.history.places[k * blocks + i] : nullptr);
+        if (made.table_seen && standing) {
+            const BaseState& base = run.history.table[k];
+            states[k].x = base.x;
+            states[k].y = base.y;
+            states[k].theta = base.theta;
         }
-        if (table_seen && standing) {
-            seen.table.x_m.values.push_back(run.history.table[k].x + cameras_zero);
-            seen.table.y_m.values.push_back(run.history.table[k].y);
-            seen.table.theta_rad.values.push_back(run.history.table[k].theta);
-        } else if (table_seen) {
-            for (Series* series : {&seen.table.x_m, &seen.table.y_m, &seen.table.theta_rad})
-                series->values.push_back(missing);
-        }
+        if (made.table_seen)
+            tables.push_back(standing ? &states[k] : nullptr);
     }
-    for (SeenMotion* motion : {&seen.blocks, &seen.table}) {
-        add_noise(motion->x_m, planned.camera_m, cameras);
-        add_noise(motion->y_m, planned.camera_m, cameras);
-        add_noise(motion->theta_rad, planned.camera_rad, cameras);
-    }
+    seen.blocks = by_cameras(places, cameras_zero, planned, cameras);
+    seen.table = by_cameras(tables, cameras_zero, planned, cameras);
     return seen;
 }
 
 /// Each motion so many times, the specimen put back by hand in between.
-void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, const std::vector<int>& repeats,
-               bool table_seen)
+void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, const std::vector<int>& repeats)
 {
     const State* worn = nullptr;
     made.campaign.specimen = made.planned.specimen;
@@ -190,7 +175,7 @@ void shake_all(VirtualCampaign& made, const std::vector<Shaking>& shakings, cons
             made.runs.push_back(std::move(run));
             if (made.model.effects.persists)
                 worn = &made.runs.back().history.end;
-            MeasuredRun seen = seen_run(made, made.runs.back(), index, table_seen);
+            MeasuredRun seen = seen_run(made, made.runs.back(), index);
             seen.motion_id = static_cast<int>(i);
             seen.repeat = repeat;
             made.campaign.runs.push_back(std::move(seen));
@@ -222,7 +207,7 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
             bed.friction *= ratio;
     }
     made.of_command = plan.chance(0.3);
-    const bool table_seen = plan.chance(0.25);
+    made.table_seen = plan.chance(0.25);
 
     const std::vector<std::string> drawn = draw_names(made.model.law, plan);
     const std::vector<std::string> names = wish.effects.value_or(drawn);
@@ -245,7 +230,7 @@ VirtualCampaign make_campaign(std::uint64_t seed, const Wish& wish)
     for (int i = 0; i < motions; ++i)
         choose_amplitude(made.model, made.planned, seed, i, shakings[static_cast<std::size_t>(i)]);
     made.campaign.source = fmt::format("campaign_{}", seed);
-    shake_all(made, shakings, repeats, table_seen);
+    shake_all(made, shakings, repeats);
     return made;
 }
 
@@ -257,6 +242,7 @@ VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, 
     other.model =
         make_specimen(made.planned, made.model.law, Draws(other.seed, Draw::making), Draws(made.seed, Draw::law));
     other.of_command = made.of_command;
+    other.table_seen = made.table_seen;
     if (with_effects) {
         other.effects = made.effects;
         other.model.effects = made.model.effects;
@@ -271,7 +257,7 @@ VirtualCampaign another_like(const VirtualCampaign& made, std::uint64_t number, 
         ++repeats.back();
     }
     other.campaign.source = fmt::format("{}_like_{}", made.campaign.source, number);
-    shake_all(other, shakings, repeats, !made.campaign.runs.front().table.x_m.values.empty());
+    shake_all(other, shakings, repeats);
     return other;
 }
 

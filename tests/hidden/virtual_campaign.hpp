@@ -37,6 +37,7 @@ struct VirtualCampaign {
     Model model;                       ///< the specimen as it was made, with all that is hidden
     std::vector<HiddenEffect> effects; ///< none, one or two
     bool of_command = false;           ///< the file knows the command alone
+    bool table_seen = false;           ///< the cameras see the table too
     std::vector<TrueRun> runs;
 };
 

@@ -76,6 +76,26 @@ std::vector<Case> cases()
                            block.mechanisms.tie_n_m_s = 1e-4;
                        }
                    }});
+    all.push_back({"rod", [](Realization& r) {
+                       BlockMechanisms& e = r.blocks[3].mechanisms;
+                       e.rod_right_n_m = 2e3;
+                       e.rod_left_n_m = 1e3;
+                       e.rod_height_m = 0.01;
+                       e.rod_speed_m_s = -0.02;
+                       e.rod_start_s = 0.01;
+                       e.rod_travel_m = 0.003;
+                       e.rod_laboratory = 0.5;
+                   }});
+    all.push_back({"table_tilt", [](Realization& r) {
+                       std::vector<double> acceleration(100, 0.0);
+                       acceleration[1] = 10;
+                       acceleration[60] = -10;
+                       r.tilt = std::make_shared<const Motion>(motion_of(std::move(acceleration), 0.01));
+                   }});
+    joint("adhesion with tension", [](JointMechanisms& e) {
+        e.adhesion_n_m = 20;
+        e.adhesion_tension_n_m = 30;
+    });
     all.push_back({"eccentricity", [](Realization& r) {
                        for (Block& block : r.blocks)
                            block.mechanisms.eccentricity_m = block.fixed ? 0 : 0.001;

@@ -1,6 +1,6 @@
 /// Every kind of file given to every verb: taken, or told what it is and which verb takes it; what `info` says of each.
 
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"

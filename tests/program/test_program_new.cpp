@@ -85,6 +85,28 @@ TEST_F(NewStudy, ASurfaceShowsWhereTheColumnFalls)
     EXPECT_LT(collapsed, 128 / 2);
 }
 
+TEST_F(NewStudy, WritesACampaignForEachKindOfTest)
+{
+    const Ended made = run({"new", "campaign", "--test", "push", "-o", "lab"});
+    ASSERT_EQ(made.status, 0) << testing::PrintToString(made);
+    EXPECT_EQ(made.err, "");
+    EXPECT_NE(made.out.find("lab/campaign.toml\nlab/runs/push_1.csv\n"), std::string::npos) << made.out;
+    EXPECT_NE(made.out.find("stylobate info lab "), std::string::npos) << made.out;
+    expect_refused({"info", "lab"}, {"run push_1", "no samples"});
+    std::ofstream(folder / "lab/runs/push_1.csv", std::ios::app) << "0,0,0,14.5,0,0,43.5,0\n0.01,0,0,14.5,0,0,43.5,0\n";
+    const Ended told = run({"info", "lab"});
+    EXPECT_EQ(told.status, 0) << testing::PrintToString(told);
+    EXPECT_NE(told.out.find("tests of joints: 1 push"), std::string::npos) << told.out;
+
+    EXPECT_EQ(run({"new", "campaign", "--test", "rest", "--quiet"}).out, "campaign/campaign.toml\n");
+    EXPECT_EQ(run({"info", "campaign"}).status, 0);
+    expect_refused({"new", "campaign", "-o", "lab"}, {"lab", "holds files already", "--force"});
+    EXPECT_EQ(run({"new", "campaign", "-o", "lab", "--force"}).status, 0);
+    expect_refused({"new", "campaign", "--test", "pul"}, {"pul", "pull"});
+    expect_refused({"new", "campaign", "--structure", "column"}, {"--structure", "not of a campaign"});
+    expect_refused({"new", "single", "--test", "pull"}, {"--test is of a campaign"});
+}
+
 TEST_F(NewStudy, TheSchemaIsOneJsonObject)
 {
     const Ended schema = run({"schema"});

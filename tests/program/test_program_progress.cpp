@@ -3,7 +3,7 @@
 
 #include "studies/workflow/workflow.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/program/program.hpp"
 

@@ -231,7 +231,7 @@ TEST_F(RiskProgram, NothingIsComparedWithWhatIsNotDetermined)
     const JsonValue json = json_of(ended);
     ASSERT_FALSE(state_of(json, "collapse", "lognormal")["determined"].boolean);
     EXPECT_NE(ended.out.find("\"closed_form\": {\"value\": null"), std::string::npos) << ended.out;
-    EXPECT_NE(run(Words{"info", "f_risk.h5"}).out.find("by the fragility, new in each:     not determined"),
+    EXPECT_NE(run(Words{"info", "f_risk.h5"}).out.find("By the fragility, new in each:   not determined"),
               std::string::npos);
 }
 
@@ -306,7 +306,7 @@ TEST_F(RiskProgram, TheChangeOfAComparisonIsThatOfTheRows)
     EXPECT_NE(info.out.find("percentage points"), std::string::npos) << info.out;
     ASSERT_EQ(run(Words{"report", "c_risk.h5"}).status, 0);
     EXPECT_NE(read_bytes(folder / "c_risk.html").find("In 100 years the limit state"), std::string::npos);
-    EXPECT_NE(info.out.find("note: " + left_out_text(2) + "\n"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("  - " + left_out_text(2) + "\n"), std::string::npos) << info.out;
     EXPECT_EQ(count_of(read_page(folder / "c_risk.html"), left_out_text(2)), 1U);
     EXPECT_EQ(run(Words{"export", "c_risk.h5", "--to", "svg"}).status, 0);
     EXPECT_TRUE(fs::exists(folder / "c_risk.svg"));

@@ -64,7 +64,8 @@ bool tables_given(const Study& study, const LaneSet::Place& place)
 {
     const BaseMechanisms& base = place.realization.base;
     const bool on_device = !BaseMotion::on_host(study) || BaseMotion::along_shared_samples(study);
-    return !on_device || place.realization.vertical != nullptr || base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
+    return !on_device || place.realization.vertical != nullptr || place.realization.tilt != nullptr ||
+           base.vertical_ratio != 0 || base.pitch_rad_s2_m != 0;
 }
 
 void write_tables(LaneSet& one, std::uint64_t step, double* tables)

@@ -32,7 +32,7 @@ BedLaw law_of(const BedAtRest& bed, ContactForm form, double load_n)
     law.faces.wedge_sine = std::sin(e.wedge_rad);
     law.faces.wedge_versine = 2 * std::sin(0.5 * e.wedge_rad) * std::sin(0.5 * e.wedge_rad);
     law.K_n = bed.joint.normal_stiffness_n_m2;
-    law.bonded = bed.joint.strengthening.bonded();
+    law.bonded = bed.joint.bonded();
     law.exponent = e.force_exponent - 1;
     law.per_reference = 1 / e.reference_overlap_m2;
     if (form == ContactForm::points)

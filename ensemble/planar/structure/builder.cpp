@@ -12,6 +12,24 @@
 #include <set>
 
 namespace stylobate {
+
+namespace {
+
+/// The rotation of a base that is turned at a rate, which it takes up and gives up within about 0.2 s each.
+Motion turning(const BaseMechanisms& base)
+{
+    constexpr double spacing_s = 0.1;
+    const double time_s = std::abs(base.tilt_rad) / base.tilt_rate_rad_s;
+    const auto pieces = static_cast<std::size_t>(std::max(1.0, std::round(time_s / spacing_s)));
+    const double dt = time_s / static_cast<double>(pieces);
+    std::vector<double> acceleration(pieces + 4, 0.0);
+    acceleration[1] += std::copysign(base.tilt_rate_rad_s, base.tilt_rad) / dt;
+    acceleration[1 + pieces] -= acceleration[1];
+    return motion_of(std::move(acceleration), dt);
+}
+
+} // namespace
+
 PlanarBuilder::PlanarBuilder(const Study& study)
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
       nominal_(nominal_values(study, layout_, mechanisms_.acting())), restitution_(nominal_restitution(study, layout_)),
@@ -51,6 +69,7 @@ Realization PlanarBuilder::build(RealizationValues values, RealizationHeader hea
     realization.restitution_law = study_->contact.restitution_law;
     realization.initial_tilt_rad = study_->initial.tilt_rad;
     realization.initial_tilt_block = study_->initial.tilt_from_block;
+    realization.initial_lift_m = study_->initial.lift_m;
     for (std::size_t i = 0; i < layout_.blocks.size(); ++i)
         values[Quantity::drum_offset][i] +=
             mechanisms_.offset_m(values, i) + (values.twin_m.empty() ? 0 : values.twin_m[i]);
@@ -62,6 +81,8 @@ Realization PlanarBuilder::build(RealizationValues values, RealizationHeader hea
     join(values, realization);
     watch(values, realization);
     mechanisms_.apply(values, realization);
+    if (realization.base.tilt_rad != 0)
+        realization.tilt = std::make_shared<const Motion>(turning(realization.base));
     realization.base_tilt_rad = values[Quantity::tilt][0];
     return realization;
 }

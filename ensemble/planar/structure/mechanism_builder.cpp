@@ -33,6 +33,19 @@ bool has_strengthening_rows(const MechanismRule& rule)
            });
 }
 
+/// Whether it is adhesion that holds against opening: the rows of strengthening have its bond. Where none is given none
+/// is drawn.
+bool holds(const ActingMechanism& acting)
+{
+    for (std::size_t p = 0; p < acting.rule->parameters.size(); ++p) {
+        const auto* member = std::get_if<double JointMechanisms::*>(&acting.rule->parameters[p].member);
+        const std::vector<double>& values = acting.values[p];
+        if (member && *member == &JointMechanisms::adhesion_tension_n_m)
+            return std::any_of(values.begin(), values.end(), [](double value) { return value > 0; });
+    }
+    return false;
+}
+
 /// Sets the member of a realization that a parameter is.
 void set(const MechanismParameter& parameter, std::size_t place, double value, Realization& realization)
 {
@@ -110,7 +123,7 @@ MechanismBuilder::MechanismBuilder(const Study& study, const Layout& layout)
     with_mechanisms_ = damped_at_ends_ || study.vertical.has_value();
     for (const ActingMechanism& acting : acting_) {
         with_mechanisms_ = with_mechanisms_ || (acting.may_act && has_mechanism_rows(*acting.rule));
-        strengthened_ = strengthened_ || (acting.may_act && has_strengthening_rows(*acting.rule));
+        strengthened_ = strengthened_ || (acting.may_act && (has_strengthening_rows(*acting.rule) || holds(acting)));
     }
     for (std::size_t i = 0; i < layout.blocks.size(); ++i)
         right_.push_back(right_neighbour(layout, static_cast<int>(i)));

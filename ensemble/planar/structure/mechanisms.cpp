@@ -76,18 +76,42 @@ void store_bed(const BedAtRest& bed, int j, double step_s, double spring_n, cons
     b.at(R::bearing_dashpot, j, lane) = e.bearing_n_s_m / step_s;
     b.at(R::bearing_per_radius, j, lane) = e.bearing_per_m;
     b.at(R::rest_offset, j, lane) = offset_m(bed, rest);
-    b.at(R::bond_tension, j, lane) = e.bond_tension_n_m;
-    b.at(R::bond_cohesion, j, lane) = e.bond_cohesion_n_m;
+    b.at(R::bond_tension, j, lane) = bed.joint.bond_tension_n_m();
+    b.at(R::bond_cohesion, j, lane) = bed.joint.bond_cohesion_n_m();
     b.at(R::hold_limit, j, lane) = e.hold_n;
     b.at(R::hold_stiffness, j, lane) = e.hold_n > 0 ? e.hold_stiffness_n_m : 0;
     b.at(R::per_hold_stiffness, j, lane) = e.hold_n > 0 ? 1 / e.hold_stiffness_n_m : 0;
     b.at(R::hold_length, j, lane) = e.hold_length_m;
     b.at(R::hold_spread, j, lane) = e.hold_spread_m;
-    if (e.bonded()) { // the bond has what friction would hold
+    if (bed.joint.bonded()) { // the bond has what friction would hold
         b.at(R::bond, j, lane) = 1;
         b.at(R::bond_spring, j, lane) = spring_n;
         b.at(OfJoint::spring, j, lane) = 0;
         b.at(OfJoint::shear_force, j, lane) = 0;
+    }
+}
+
+void store_rods(const Statics& statics, const std::vector<int>& order, const Bundle& b, int lane)
+{
+    using R = OfBlockMechanisms;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const auto i = static_cast<std::size_t>(order[k]);
+        const Block& block = statics.realization.blocks[i];
+        const BlockMechanisms& e = block.mechanisms;
+        if (block.fixed || !e.has_rod())
+            continue;
+        const int at = static_cast<int>(k);
+        const double arm = e.rod_height_m - block.half_height_m;
+        const double travel = std::copysign(e.rod_travel_m, e.rod_speed_m_s);
+        b.at(R::rod_right, at, lane) = e.rod_right_n_m;
+        b.at(R::rod_left, at, lane) = e.rod_left_n_m;
+        b.at(R::rod_arm, at, lane) = arm;
+        b.at(R::rod_zero, at, lane) = statics.start.x_m[i] - arm * std::sin(statics.start.theta_rad[i]);
+        b.at(R::rod_share, at, lane) = e.rod_laboratory;
+        b.at(R::rod_least, at, lane) = std::min(travel, 0.0);
+        b.at(R::rod_most, at, lane) = std::max(travel, 0.0);
+        b.at(R::rod_step, at, lane) = e.rod_speed_m_s * statics.realization.step_s;
+        b.at(R::rod_path, at, lane) = -e.rod_speed_m_s * e.rod_start_s;
     }
 }
 
@@ -100,8 +124,9 @@ StepModel model_of(const Realization& r)
         std::any_of(r.blocks.begin(), r.blocks.end(),
                     [](const Block& block) { return block.strengthening != BlockStrengthening{}; }) ||
         std::any_of(r.joints.begin(), r.joints.end(),
-                    [](const Joint& joint) { return joint.strengthening != JointStrengthening{}; });
-    const bool mechanisms = strengthened || r.with_mechanisms || r.vertical != nullptr || r.base != BaseMechanisms{} ||
+                    [](const Joint& joint) { return joint.strengthening != JointStrengthening{} || joint.bonded(); });
+    const bool mechanisms = strengthened || r.with_mechanisms || r.vertical != nullptr || r.tilt != nullptr ||
+                            r.base != BaseMechanisms{} ||
                             std::any_of(r.blocks.begin(), r.blocks.end(),
                                         [](const Block& block) { return block.mechanisms != BlockMechanisms{}; }) ||
                             std::any_of(r.joints.begin(), r.joints.end(),
@@ -125,6 +150,7 @@ void store_mechanisms(const Statics& statics, const std::vector<int>& order, con
         b.at(OfBlockMechanisms::tie_pull, i, lane) = dt * dt * block.mechanisms.tie_n / block.mass_kg;
         b.at(OfBlockMechanisms::tie_turning, i, lane) = dt * block.mechanisms.tie_n_m_s / block.inertia_kg_m2;
     }
+    store_rods(statics, order, b, lane);
     // of beds: watched pairs meet as in the paper's model
     for (int j = 0; j < r.beds(); ++j) {
         using J = OfJointMechanisms;
@@ -135,7 +161,7 @@ void store_mechanisms(const Statics& statics, const std::vector<int>& order, con
         b.at(J::friction_drop, j, lane) = 1 - e.dynamic_ratio;
         b.at(J::per_stribeck_step, j, lane) = 1 / (e.stribeck_velocity_m_s * dt);
         b.at(J::wear, j, lane) = e.wear_per_m;
-        b.at(J::adhesion, j, lane) = e.adhesion_n_m;
+        b.at(J::adhesion, j, lane) = joint.adhesion_n_m();
         b.at(J::dowel_stiffness, j, lane) = e.dowel_stiffness_n_m;
         b.at(J::per_dowel_stiffness, j, lane) = e.dowel_stiffness_n_m > 0 ? 1 / e.dowel_stiffness_n_m : 0;
         b.at(J::dowel_yield, j, lane) = e.dowel_yield_n;

@@ -280,8 +280,8 @@ bool rests_otherwise(const Realization& r)
                        }) ||
            std::any_of(r.joints.begin(), r.joints.end(), [](const Joint& joint) {
                const JointMechanisms& e = joint.mechanisms;
-               return joint.strengthening.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 ||
-                      e.chip_right_m != 0 || e.wedge_rad != 0;
+               return joint.bonded() || e.force_exponent != 1 || e.chip_left_m != 0 || e.chip_right_m != 0 ||
+                      e.wedge_rad != 0;
            });
 }
 

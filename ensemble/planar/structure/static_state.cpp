@@ -82,7 +82,7 @@ void lean(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<
             poses[i].y = about.y + sine * dx + cosine * dy;
             poses[i].theta += r.initial_tilt_rad;
         }
-        if (r.form != ContactForm::rigid)
+        if (r.form != ContactForm::rigid && r.initial_lift_m == 0)
             press_in(r, beds, poses, moved, bed.force_n, foot.half_height_m);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -108,6 +108,30 @@ void lean(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<
             press_in(r, beds, poses, moved, r.blocks[i].mass_kg * r.gravity_m_s2 * std::cos(r.base_tilt_rad),
                      r.blocks[i].half_height_m);
     }
+}
+
+/// Raises the columns from `initial_tilt_block` up, and the epistyles; nothing presses where they stood.
+void lift(const Realization& r, const std::vector<BedAtRest>& beds, std::vector<Pose>& poses,
+          std::vector<double>& spring_n)
+{
+    std::vector<int> drums_below; // of each column
+    std::vector<bool> raised(poses.size(), false);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Block& block = r.blocks[i];
+        bool high = block.role == BlockRole::epistyle;
+        if (block.role == BlockRole::drum) {
+            const auto column = static_cast<std::size_t>(block.column);
+            drums_below.resize(std::max(drums_below.size(), column + 1), 0);
+            high = drums_below[column]++ >= r.initial_tilt_block;
+        }
+        raised[i] = high && !block.fixed;
+        if (raised[i])
+            poses[i].y += r.initial_lift_m;
+    }
+    for (std::size_t j = 0; j < beds.size(); ++j)
+        if (raised[static_cast<std::size_t>(beds[j].joint.lower)] !=
+            raised[static_cast<std::size_t>(beds[j].joint.upper)])
+            spring_n[j] = 0;
 }
 
 /// A single column, bed by bed from the bottom.
@@ -141,7 +165,7 @@ void stack_up(const Realization& r, std::vector<Pose>& poses, std::vector<double
         poses[static_cast<std::size_t>(joint.upper)] = {l.x + cx * std::cos(l.theta) - cy * std::sin(l.theta),
                                                         l.y + cx * std::sin(l.theta) + cy * std::cos(l.theta),
                                                         l.theta + bed.rotation_rad};
-        const double limit = joint.friction * weight + joint.mechanisms.adhesion_n_m * length;
+        const double limit = joint.friction * weight + joint.adhesion_n_m() * length;
         spring_n.push_back(std::clamp(weight * slope, -limit, limit));
     }
 }
@@ -210,8 +234,8 @@ void stack_up_with_mechanisms(const Realization& r, const std::vector<BedAtRest>
             moved = std::max(
                 {moved, std::fabs(put.x - pose.x), std::fabs(put.y - pose.y), std::fabs(put.theta - pose.theta)});
             pose = put;
-            const double bond = joint.strengthening.bonded() ? joint.strengthening.bond_cohesion_n_m : 0;
-            const double limit = joint.friction * N + (joint.mechanisms.adhesion_n_m + bond) * length;
+            const double bond = joint.bonded() ? joint.bond_cohesion_n_m() : 0;
+            const double limit = joint.friction * N + (joint.adhesion_n_m() + bond) * length;
             spring_n.push_back(std::clamp(T, -limit, limit));
         }
     }
@@ -259,11 +283,15 @@ Statics::Statics(const Realization& r) : realization(r)
         stack_up(r, poses, spring_n);
     spring_n.resize(r.joints.size(), 0);
     start = state_of(r, poses, std::move(spring_n));
-    if (r.initial_tilt_rad != 0) {
-        before_tilt = start;
+    if (r.initial_tilt_rad == 0 && r.initial_lift_m == 0)
+        return;
+    before_tilt = start;
+    if (r.initial_tilt_rad != 0)
         lean(r, beds(), poses);
-        start = state_of(r, poses, before_tilt->spring_n);
-    }
+    std::vector<double> held_n = before_tilt->spring_n;
+    if (r.initial_lift_m != 0)
+        lift(r, beds(), poses, held_n);
+    start = state_of(r, poses, std::move(held_n));
 }
 
 StaticState static_state(const Realization& r)

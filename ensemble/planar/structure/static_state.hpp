@@ -31,6 +31,8 @@ struct StaticState {
 /// corner of that block, which sinks in until the bed carries what is above. Epistyles are carried along, level, on the
 /// corners that have risen.
 ///
+/// With `initial_lift_m` the same part, turned or not, is held so high above its bed: it falls from the start on.
+///
 /// @pre each free drum is the upper block of exactly one bed, and the beds of a column come from the bottom up
 struct Statics {
     explicit Statics(const Realization& realization);
@@ -39,7 +41,7 @@ struct Statics {
 
     const Realization& realization;
     StaticState start;                      ///< in which the realization starts
-    std::optional<StaticState> before_tilt; ///< the rest that the initial tilt ended, where there is one
+    std::optional<StaticState> before_tilt; ///< the rest that the initial tilt or lift ended, where there is one
 
 private:
     mutable std::vector<BedAtRest> beds_;

@@ -104,6 +104,14 @@ double caught_between(const Block& block, const Joint& joint)
                          (k_n * face * face / 12 + k_t * arm * arm) / block.inertia_kg_m2});
 }
 
+/// Stiffness of a block against its rod, at the rod's point.
+Eigen::Matrix3d rod_stiffness(const Block& block)
+{
+    const BlockMechanisms& e = block.mechanisms;
+    const Eigen::Vector3d along(1, 0, block.half_height_m - e.rod_height_m);
+    return std::max(e.rod_right_n_m, e.rod_left_n_m) * along * along.transpose();
+}
+
 /// What watched pairs ask of the step, when they catch a block between them.
 struct CaughtPairs {
     double w2 = 0;   ///< [1/s2]
@@ -251,7 +259,7 @@ StepBound step_bound(const Realization& r)
         stiffness[b](0, 0) += std::max(r.blocks[b].mechanisms.tie_n_m, 0.0);
         damping[b](0, 0) += r.blocks[b].mechanisms.tie_n_s_m;
         damping[b](2, 2) += r.blocks[b].mechanisms.tie_n_m_s;
-        stiffness[b] += held_stiffness(r, static_cast<int>(b));
+        stiffness[b] += held_stiffness(r, static_cast<int>(b)) + rod_stiffness(r.blocks[b]);
     }
 
     StepBound bound;
@@ -354,6 +362,7 @@ Vibration assemble(const Realization& r, const std::vector<FullContact>& contact
             v.root_mass.segment<3>(v.first[b]) = Eigen::Vector3d(root, root, std::sqrt(blocks[b].inertia_kg_m2));
             const BlockMechanisms& e = blocks[b].mechanisms;
             v.K(v.first[b], v.first[b]) += e.tie_n_m;
+            v.K.block<3, 3>(v.first[b], v.first[b]) += rod_stiffness(blocks[b]);
             v.C(v.first[b], v.first[b]) += e.tie_n_s_m;
             v.C(v.first[b] + 2, v.first[b] + 2) += e.tie_n_m_s;
         }

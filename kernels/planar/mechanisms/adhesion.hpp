@@ -5,9 +5,12 @@
 ///
 /// In space the same with the area of the patch: |F_T| <= mu F_N + c A, c [Pa].
 ///
+/// With a tension t [N/m] the bond holds against opening too: it is then that of `mortar.hpp`, with f_t D = t and
+/// c D = c, and has its rows; the limit of the shear is the same.
+///
 /// Source: cohesion of the Mohr-Coulomb law; its loss at the first slip is an own choice.
 ///
-/// Parameter: c [N/m].  Neutral: 0.  Acts in the friction of a bed; there is no tension across the faces.
+/// Parameter: c [N/m].  Neutral: 0.  Acts in the friction of a bed, which has no tension across its faces.
 /// Signature: only the first slip comes late, and with a jump (the friction spring releases c L).
 /// Confounded with mu where a run has one slip only.
 

@@ -17,6 +17,7 @@
 #include "kernels/planar/mechanisms/hertz.hpp"
 #include "kernels/planar/mechanisms/points.hpp"
 #include "kernels/planar/mechanisms/rate_damping.hpp"
+#include "kernels/planar/mechanisms/rod.hpp"
 #include "kernels/planar/mechanisms/strengthening.hpp"
 #include "kernels/planar/mechanisms/stribeck.hpp"
 #include "kernels/planar/mechanisms/table_pitch.hpp"
@@ -273,7 +274,8 @@ public:
           gravity_x_(rows.get(OfRealization::gravity_dx)), gravity_y_(rows.get(OfRealization::gravity_dy)),
           base_(rows.get(OfBase::second, step)), vertical_(rows.get(OfVertical::second, step)),
           base_dx_(rows.get(OfRealizationMechanisms::base_dx)), base_dy_(rows.get(OfRealizationMechanisms::base_dy)),
-          level_x_(gravity_x_ - base_), level_y_(vertical_pull(gravity_y_, vertical_)), x_(level_x_), y_(level_y_)
+          base_x_(rows.get(OfRealizationMechanisms::base_x)), level_x_(gravity_x_ - base_),
+          level_y_(vertical_pull(gravity_y_, vertical_)), x_(level_x_), y_(level_y_)
     {
         const Real zero(0.0);
         pitched_ = any((pitch_.angle != zero) | (pitch_.increment != zero) | (pitch_.second != zero));
@@ -282,7 +284,9 @@ public:
             x_ = turned.x;
             y_ = turned.y;
         }
-        rows.put(OfRealizationMechanisms::base_dx, base_dx_ + base_);
+        const Real next_dx = base_dx_ + base_;
+        rows.put(OfRealizationMechanisms::base_dx, next_dx);
+        rows.put(OfRealizationMechanisms::base_x, base_x_ + next_dx);
         rows.put(OfRealizationMechanisms::base_dy, base_dy_ + vertical_);
     }
 
@@ -293,6 +297,7 @@ public:
         const Real mass = rows_.get(OfBlock::mass, i), inertia = rows_.get(OfBlock::inertia, i);
         Real px = x_ + rows_.get(B::nudge_x, i), py = y_ + rows_.get(B::nudge_y, i);
         Real ptheta = rows_.get(B::nudge_theta, i);
+        add_rod(i, px, ptheta);
         Real lab_x = dx + base_dx_, lab_y = dy + base_dy_;
         if (pitched_) {
             const Real x = rows_.get(B::reference_x, i) + rows_.get(OfBlock::x, i);
@@ -340,9 +345,29 @@ public:
     }
 
 private:
+    /// The rod of a block, as dt2 x its accelerations; its end goes on.
+    STYLOBATE_INLINE void add_rod(int i, Real& px, Real& ptheta) const
+    {
+        using B = OfBlockMechanisms;
+        const Real none(0.0), right = rows_.get(B::rod_right, i), left = rows_.get(B::rod_left, i);
+        const auto held = (right != none) | (left != none);
+        if (!any(held))
+            return;
+        const Real e = rows_.get(B::eccentricity, i), arm = rows_.get(B::rod_arm, i), path = rows_.get(B::rod_path, i);
+        const Real sine = rows_.get(OfBlock::sine, i), versine = rows_.get(OfBlock::versine, i);
+        const Real centre = centre_from_mass_x(rows_.get(OfBlock::x, i), e, versine);
+        const Real end =
+            rod_end(path, rows_.get(B::rod_least, i), rows_.get(B::rod_most, i), rows_.get(B::rod_share, i), base_x_);
+        const Real force = rod_force(right, left, end - (rod_point(centre, arm, sine) - rows_.get(B::rod_zero, i)));
+        const Real up = fms(arm, Real(1.0) - versine, e * sine); // of the point above the centre of mass
+        px = select(held, fma(rows_.get(OfBlock::dt2_per_mass, i), force, px), px);
+        ptheta = select(held, fnma(rows_.get(OfBlock::dt2_per_inertia, i), up * force, ptheta), ptheta);
+        rows_.put(B::rod_path, i, path + rows_.get(B::rod_step, i));
+    }
+
     const Rows<Real, Layout>& rows_;
     const Pitch<Real> pitch_;
-    const Real gravity_x_, gravity_y_, base_, vertical_, base_dx_, base_dy_;
+    const Real gravity_x_, gravity_y_, base_, vertical_, base_dx_, base_dy_, base_x_;
     const Real level_x_, level_y_; ///< gravity and the base's acceleration, in the level frame
     Real x_, y_;                   ///< the same in the base's
     bool pitched_ = false;

@@ -12,6 +12,8 @@
 /// Source: motion in a rotating frame (Goldstein, Poole & Safko, "Classical Mechanics", 3rd edition (2002), section
 /// 4.10).
 ///
+/// phi(t) may be given too, by samples (`table_tilt`, `RealizationHeader::tilt`): nothing of it is left out.
+///
 /// Parameter: k_p with phi = k_p U'' [rad s2/m].  Neutral: 0.  Acts in the update of all blocks.
 /// Signature: as a gain of the base motion that grows with the square of the frequency; g phi at low frequency.
 /// Confounded with `sensor_gain` at one frequency.

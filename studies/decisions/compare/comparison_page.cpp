@@ -6,16 +6,13 @@
 #include "io/plots/plot_maps.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/decisions/compare/study_difference.hpp"
-#include "studies/experiment/conventions.hpp"
 #include "studies/kinds/fragility/fragility.hpp"
 #include "studies/report/html_figure.hpp"
-#include "studies/report/left_out.hpp"
 #include "studies/results/structure_sketch.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -52,62 +49,35 @@ Figure stripes_figure(const Comparison& c, const std::string& limit)
 
 namespace fs = std::filesystem;
 
-std::string unknown_text(const VariantComparison& variant, const LimitComparison& limit)
-{
-    const std::uint64_t unknown = variant.unknown(limit);
-    return unknown > 0 ? fmt::format(" ({} pairs left out: still moving at the end)", unknown) : std::string();
-}
-
-/// "dowels: the probability of collapse changes by -10.2 to +5.8 percentage points (95 % interval)"
-std::string answer_title(const Comparison& comparison, const VariantComparison& variant)
-{
-    const LimitComparison& limit = variant.limits.front();
-    if (limit.overall.counts.pairs() == 0)
-        return variant.name;
-    return fmt::format("{}: the probability of {} changes by {} ({:g} % interval)", variant.name, limit.name,
-                       points_text(limit.overall), 100 * comparison.level);
-}
-
-Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
-{
-    switch (limit.verdict(place)) {
-    case ChangeVerdict::better:
-        return tag("good", "better");
-    case ChangeVerdict::worse:
-        return tag("bad", "worse");
-    default:
-        return verdict_text(limit, place);
-    }
-}
-
 class ComparisonPage {
 public:
     ComparisonPage(const Comparison& comparison, const std::string& file, const std::optional<std::string>& title,
                    std::vector<std::string>& warnings)
         : c_(comparison), file_(file), warnings_(warnings),
-          page_(title.value_or("Comparison with " + (c_.title.empty() ? c_.base_name : c_.title)),
-                fmt::format("{}. Made by stylobate {}.", file, c_.code_version))
+          page_(title.value_or(comparison_title(c_)), fmt::format("{}. Made by stylobate {}.", file, c_.code_version))
     {
     }
 
     Document page()
     {
-        page_.section("The answer");
-        answers();
+        add_answer(c_, page_);
         page_.section("The intervention");
         interventions();
-        page_.section("What the answer depends on");
-        dependence();
-        page_.section("What changes");
-        page_.paragraph(
-            common_text(c_) +
-            fmt::format(" Differences are variant minus base, with paired intervals at {:g} %.", 100 * c_.level));
-        overall();
-        capacities();
+        add_dependence(c_, page_);
+        page_.note("Not examined: what the studies hold fixed. Another structure, shaking, contact form or range of "
+                   "the drawn quantities can have another answer.");
+        add_changes(c_, page_);
+        if (!capacity_rows(c_, c_.variants.front().limits.front()).empty())
+            page_.note("The ratio of the geometric means over the realizations. Capacities beyond the range of the "
+                       "study count as at its end, and between two intensities of the study (\"steps\") the shares are "
+                       "not known, so that the ratio may be off by this factor: more intensities make it sharper. The "
+                       "ratio is a bound where the two still differ there, and drawn towards 1 where a part of both "
+                       "stands at the strongest shaking or falls at the weakest.");
         pictures();
-        named();
-        page_.section("What is common");
-        common();
+        add_named(c_, page_, std::numeric_limits<std::size_t>::max());
+        add_common(c_, page_);
+        page_.note("A drawn number depends on the seed, the realization, the quantity and the joint or block, and on "
+                   "nothing else of the study. Which draws are common is found in the numbers of the results.");
         page_.section("Reproduction");
         commands();
         page_.details("The study of the base, " + c_.base_name, [&] { page_.block(c_.base_toml); });
@@ -117,25 +87,6 @@ public:
     }
 
 private:
-    void answers()
-    {
-        for (const VariantComparison& variant : c_.variants) {
-            if (variant.limits.empty())
-                continue;
-            const LimitComparison& limit = variant.limits.front();
-            const ChangeVerdict verdict = limit.verdict(limit.overall);
-            page_.box(verdict == ChangeVerdict::better  ? "good"
-                      : verdict == ChangeVerdict::worse ? "bad"
-                                                        : "warn",
-                      answer_title(c_, variant), answer_text(c_, variant));
-            if (const std::optional<std::string> harm = harm_text(c_, variant))
-                page_.note(variant.name + ": " + *harm);
-        }
-        if (const std::optional<std::string> conventions = conventions_text_of(c_.base_toml))
-            page_.note(fmt::format("Conventions of {}: {}.", c_.base_name, *conventions));
-        add_left_out_of(page_, c_.base_toml);
-    }
-
     /// Draws it, or says why not.
     void picture(const char* what, const std::string& caption, const std::function<void(const fs::path& png)>& draw)
     {
@@ -193,48 +144,6 @@ private:
         page_.table(table);
     }
 
-    void dependence()
-    {
-        if (c_.motions > 0)
-            page_.paragraph("Pairs share motions here, so no test by drawn quantity was made. How much the answer "
-                            "depends on the motions is in the width of its intervals, which take motions, and not "
-                            "pairs, as independent.");
-        else if (c_.adaptive_budget > 0)
-            page_.paragraph("No test by drawn quantity was made: an adaptive comparison chooses the number of pairs of "
-                            "a cell by their outcomes.");
-        else if (std::ranges::all_of(c_.variants, [](const auto& variant) { return variant.depends.empty(); }))
-            page_.paragraph("No test by drawn quantity was made: none varies among the pairs of the base.");
-        else
-            page_.paragraph(fmt::format(
-                "Differences of the first limit state in the lower, middle and upper third of each drawn quantity, "
-                "means over the cells. A quantity counts where the adjusted p-value of its rank test is at most {:g}.",
-                c_.rate));
-        for (const VariantComparison& variant : c_.variants) {
-            if (variant.limits.empty())
-                continue;
-            HtmlTable table{
-                "lrrrr", {"quantity", "lower third", "middle third", "upper third", "adjusted p"}, {}, variant.name};
-            for (const InputDependence& input : variant.depends) {
-                std::vector<Html> row = {input.input};
-                for (const PairedDifference& third : input.found.thirds)
-                    row.emplace_back(
-                        fmt::format("{:+.3f} ({:+.3f} to {:+.3f})", third.value, third.lower, third.upper));
-                row.emplace_back(fmt::format("{:.2g}", input.p_adjusted));
-                table.rows.push_back(std::move(row));
-            }
-            if (!table.rows.empty())
-                page_.table(table);
-            page_.heading("What would change it: " + variant.name);
-            std::vector<Html> items;
-            for (const std::string& sentence : what_would_change_it(c_, variant))
-                items.emplace_back(sentence);
-            page_.list(items);
-        }
-        page_.note(
-            "Not examined: what the studies hold fixed. Another structure, shaking, contact form or range of the "
-            "drawn quantities can have another answer.");
-    }
-
     void commands()
     {
         std::string studies = "base.toml", results = c_.base_results;
@@ -259,54 +168,6 @@ private:
                                 results, options, file));
     }
 
-    void overall()
-    {
-        for (const VariantComparison& variant : c_.variants) {
-            HtmlTable table{"lrrrrl",
-                            {"limit state", "base", variant.name, "difference", "saved by pairing", "verdict"},
-                            {},
-                            fmt::format("{}: {} pairs", variant.name, variant.pairs)};
-            if (variant.dropped > 0)
-                table.caption += fmt::format(", {} dropped as invalid in either", variant.dropped);
-            for (const LimitComparison& limit : variant.limits)
-                table.rows.push_back({limit.describe + unknown_text(variant, limit), share_text(limit.overall.base),
-                                      share_text(limit.overall.variant), difference_text(limit.overall),
-                                      std::isfinite(limit.overall.unpaired)
-                                          ? fmt::format("a factor of {:.2g}", limit.overall.saving())
-                                          : "unknown",
-                                      verdict_tag(limit, limit.overall)});
-            page_.table(table);
-        }
-    }
-
-    /// Of the first limit state, a column for each variant.
-    void capacities()
-    {
-        HtmlTable table{"l", {"shaking"}, {}, {}};
-        for (const VariantComparison& variant : c_.variants) {
-            const std::vector<CapacityRow> rows = capacity_rows(c_, variant.limits.front());
-            if (rows.empty())
-                return;
-            table.align += "r";
-            table.head.emplace_back(variant.name);
-            table.rows.resize(rows.size());
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                if (table.rows[i].empty())
-                    table.rows[i].emplace_back(rows[i].place);
-                table.rows[i].emplace_back(capacity_text(rows[i].ratio));
-            }
-        }
-        table.caption = fmt::format("Capacity ({} at {}) over that of the base", capacity_measure(c_),
-                                    c_.variants.front().limits.front().name);
-        page_.table(table);
-        page_.note(
-            "The ratio of the geometric means over the realizations. Capacities beyond the range of the study "
-            "count as at its end, and between two intensities of the study (\"steps\") the shares are not known, "
-            "so that the ratio may be off by this factor: more intensities make it sharper. The ratio is a bound where "
-            "the two still differ there, and drawn towards 1 "
-            "where a part of both stands at the strongest shaking or falls at the weakest.");
-    }
-
     void pictures()
     {
         const std::string limit = c_.variants.front().limits.front().name;
@@ -327,61 +188,6 @@ private:
             fmt::format("Shares of {} by stripe, with intervals of each share by the motions. The intervals of "
                         "differences are narrower.",
                         limit));
-    }
-
-    void named()
-    {
-        if (c_.places() == 1)
-            return;
-        page_.section("Where it changes");
-        page_.paragraph("Cells that are named by the exact test of their discordant pairs, over all cells of a limit "
-                        "state: " +
-                        adjustment_text(c_) + ".");
-        for (const VariantComparison& variant : c_.variants) {
-            std::string none; // limit states of which no cell is named
-            for (const LimitComparison& limit : variant.limits) {
-                if (!limit.damage)
-                    continue;
-                const bool worse = list(variant, limit, true), better = list(variant, limit, false);
-                if (!worse && !better)
-                    none += (none.empty() ? "" : ", ") + limit.name;
-            }
-            if (!none.empty())
-                page_.note(fmt::format("{}: no cell is named of {}.", variant.name, none));
-        }
-    }
-
-    /// @returns whether a cell is named
-    bool list(const VariantComparison& variant, const LimitComparison& limit, bool worse)
-    {
-        const std::vector<std::size_t> cells = limit.named(c_.rate, worse);
-        const std::string what = fmt::format("{}: {} {} in {} of {} cells", variant.name, limit.name,
-                                             worse ? "worse" : "better", cells.size(), limit.cells.size());
-        if (cells.empty())
-            return false;
-        HtmlTable table{"lrrrr", {"place", "base", variant.name, "difference", "adjusted p"}, {}, what};
-        for (const std::size_t cell : cells)
-            table.rows.push_back({c_.place(cell), fmt::format("{:.3f}", limit.cells[cell].base.probability),
-                                  fmt::format("{:.3f}", limit.cells[cell].variant.probability),
-                                  difference_text(limit.cells[cell]),
-                                  fmt::format("{:.2g}", limit.cells[cell].p_adjusted)});
-        page_.table(table);
-        return true;
-    }
-
-    void common()
-    {
-        page_.paragraph("A drawn number depends on the seed, the realization, the quantity and the joint or block, and "
-                        "on nothing else of the study. The table is found in the numbers of the results.");
-        for (const VariantComparison& variant : c_.variants) {
-            HtmlTable table{"lrl", {"quantity", "numbers", "draws"}, {}, variant.name};
-            for (const CommonInput& input : variant.inputs)
-                table.rows.push_back({input.name, fmt::format("{}", input.numbers), to_string(input.draws)});
-            if (!table.rows.empty())
-                page_.table(table);
-            for (const std::string& note : variant.notes)
-                page_.note(variant.name + ": " + note);
-        }
     }
 
     const Comparison& c_;

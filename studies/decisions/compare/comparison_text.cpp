@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace stylobate {
 
@@ -32,44 +31,17 @@ void visit_fields(std::type_identity<ComparisonRow>, F&& f)
 
 namespace {
 
-constexpr std::size_t most_named = 10; ///< cells in a line of text
-
-/// Cells of one direction: their number, and the largest differences.
-std::string named_text(const Comparison& comparison, const LimitComparison& limit, bool worse)
-{
-    const std::vector<std::size_t> cells = limit.named(comparison.rate, worse);
-    if (cells.empty())
-        return {};
-    const char* what = limit.damage ? (worse ? "worse" : "better") : worse ? "more" : "less";
-    std::string text = fmt::format("    {} in {} of {} cells ({}):\n", what, cells.size(), limit.cells.size(),
-                                   adjustment_text(comparison));
-    for (std::size_t i = 0; i < std::min(cells.size(), most_named); ++i) {
-        const PlaceComparison& place = limit.cells[cells[i]];
-        text += fmt::format("      {}: {}, adjusted p = {:.2g}\n", comparison.place(cells[i]), difference_text(place),
-                            place.p_adjusted);
-    }
-    if (cells.size() > most_named)
-        text += fmt::format("      and {} more\n", cells.size() - most_named);
-    return text;
-}
-
 Json place_json(const LimitComparison& limit, const PlaceComparison& place)
 {
     Json json = Json::object();
     json.member("pairs", place.counts.pairs());
-    add_members(json, place.counts)
-        .member("base", json_of(place.base))
-        .member("variant", json_of(place.variant))
-        .member("difference", place.difference)
-        .member("lower", place.lower)
-        .member("upper", place.upper)
-        .member("unpaired_realizations", place.unpaired)
-        .member("saving", place.saving())
-        .member("p", place.p)
-        .member("p_adjusted", place.p_adjusted)
+    add_members(json, place.counts).member("base", json_of(place.base)).member("variant", json_of(place.variant));
+    add_members(json, place,
+                {"difference", {"lower", "difference_lower"}, {"upper", "difference_upper"}, "unpaired_realizations"})
+        .member("saving", place.saving());
+    return add_members(json, place, {"p", "p_adjusted"})
         .member("verdict", to_string(limit.verdict(place)))
         .member("largest_difference", place.largest());
-    return json;
 }
 
 Json cells_json(const Comparison& comparison, const LimitComparison& limit)
@@ -118,17 +90,6 @@ Json input_json(const CommonInput& input)
     return json_of(input, {{"quantity", "inputs"}, {"numbers", "input_numbers"}, {"draws", "input_draws"}});
 }
 
-/// Of the first limit state, over the frequencies.
-std::string capacities_text(const Comparison& comparison, const VariantComparison& variant)
-{
-    std::string text;
-    for (const CapacityRow& row : capacity_rows(comparison, variant.limits.front()))
-        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", row.place, capacity_text(row.ratio));
-    return text.empty() ? text
-                        : fmt::format("  capacity ({} at {}) over that of the base: {}\n", capacity_measure(comparison),
-                                      variant.limits.front().name, text);
-}
-
 Json variant_json(const Comparison& comparison, const VariantComparison& variant)
 {
     Json limits = Json::object();
@@ -158,35 +119,26 @@ std::string inputs_text(const VariantComparison& variant)
     return text;
 }
 
-std::string variant_text(const Comparison& comparison, const VariantComparison& variant)
+/// "dowels: the probability of collapse changes by -10.2 to +5.8 percentage points (95 % interval)"
+std::string answer_title(const Comparison& comparison, const VariantComparison& variant)
 {
-    std::string text = fmt::format("{}: {} {}", variant.name, variant.pairs, variant.pairs == 1 ? "pair" : "pairs");
-    if (variant.dropped > 0)
-        text += fmt::format(", {} dropped ({} invalid in the base, {} in the variant)", variant.dropped,
-                            variant.invalid_base, variant.invalid_variant);
-    text += "\n";
-    if (!variant.inputs.empty())
-        text += "  draws: " + inputs_text(variant) + "\n";
-    for (const std::string& note : variant.notes)
-        text += "  " + note + "\n";
-    if (variant.pairs == 0)
-        return text + "  no pair of realizations is valid in both studies: nothing can be said\n";
-    for (const LimitComparison& limit : variant.limits) {
-        const PlaceComparison& all = limit.overall;
-        text += fmt::format("  {}: {} to {}, difference {}: {}\n", limit.name, share_text(all.base),
-                            share_text(all.variant), difference_text(all), verdict_text(limit, all));
-        text += fmt::format("    {} discordant pairs ({} base alone, {} variant alone); {}\n", all.counts.discordant(),
-                            all.counts.base_only, all.counts.variant_only, saving_text(all));
-        if (const std::uint64_t unknown = variant.unknown(limit); unknown > 0)
-            text += fmt::format("    of {} pairs: in the other {} a structure still moved at the end\n",
-                                all.counts.pairs(), unknown);
-        if (limit.cells.size() > 1)
-            text += named_text(comparison, limit, true) + named_text(comparison, limit, false);
+    const LimitComparison& limit = variant.limits.front();
+    if (limit.overall.counts.pairs() == 0)
+        return variant.name;
+    return fmt::format("{}: the probability of {} changes by {} ({:g} % interval)", variant.name, limit.name,
+                       points_text(limit.overall), 100 * comparison.level);
+}
+
+Html verdict_tag(const LimitComparison& limit, const PlaceComparison& place)
+{
+    switch (limit.verdict(place)) {
+    case ChangeVerdict::better:
+        return tag("good", "better");
+    case ChangeVerdict::worse:
+        return tag("bad", "worse");
+    default:
+        return verdict_text(limit, place);
     }
-    text += capacities_text(comparison, variant);
-    for (const std::string& dependence : dependence_texts(comparison, variant))
-        text += "  depends on " + dependence + "\n";
-    return text;
 }
 
 } // namespace
@@ -227,14 +179,6 @@ std::string capacity_text(const CapacityRatio& ratio)
                        ratio.grid);
 }
 
-std::string saving_text(const PlaceComparison& place)
-{
-    if (!std::isfinite(place.unpaired))
-        return "what pairing saved is not known";
-    return place.saving() < 1.05 ? fmt::format("pairing saved nothing (a factor of {:.1f})", place.saving())
-                                 : fmt::format("pairing saved a factor of {:.2g}", place.saving());
-}
-
 std::string adjustment_text(const Comparison& comparison)
 {
     return comparison.adjustment == "holm"
@@ -249,23 +193,6 @@ std::string common_text(const Comparison& comparison)
                              "motions.",
                              comparison.motions)
                : std::string("The same realizations under the same shaking; pairs are independent of each other.");
-}
-
-std::string comparison_text(const Comparison& comparison)
-{
-    std::string text = fmt::format("base {}; intervals at {:g} %. {}\n", comparison.base_name, 100 * comparison.level,
-                                   common_text(comparison));
-    if (const std::optional<std::string> conventions = conventions_text_of(comparison.base_toml))
-        text += "conventions of the base: " + *conventions + "\n";
-    if (const std::optional<std::string> left_out = left_out_text_of(comparison.base_toml))
-        text += *left_out + "\n";
-    if (comparison.adaptive_budget > 0)
-        text += fmt::format("adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
-                            "smaller than {:g}; intervals are valid wherever a cell has stopped\n",
-                            comparison.adaptive_budget, comparison.adaptive_rounds, comparison.adaptive_margin);
-    for (const VariantComparison& variant : comparison.variants)
-        text += variant_text(comparison, variant);
-    return text;
 }
 
 Json comparison_json(const Comparison& comparison)
@@ -405,17 +332,6 @@ std::optional<std::string> harm_text(const Comparison& c, const VariantCompariso
     return cells_text(c, variant, true);
 }
 
-std::vector<std::string> dependence_texts(const Comparison& c, const VariantComparison& variant)
-{
-    std::vector<std::string> all;
-    for (const InputDependence& input : variant.depends)
-        if (depends(c, input))
-            all.push_back(fmt::format("{}: the difference is {} at {}, and {} at {} (adjusted p = {:.2g}).",
-                                      input.input, interval_text(input.found.thirds[0]), third_text(input, 0),
-                                      interval_text(input.found.thirds[2]), third_text(input, 2), input.p_adjusted));
-    return all;
-}
-
 std::vector<std::string> what_would_change_it(const Comparison& c, const VariantComparison& variant)
 {
     const LimitComparison& limit = variant.limits.front();
@@ -447,6 +363,197 @@ std::vector<std::string> what_would_change_it(const Comparison& c, const Variant
         all.push_back(variant.depends.empty() ? "Nothing that was examined: no test by drawn quantity was made."
                                               : "None of the drawn quantities is shown to change it.");
     return all;
+}
+
+std::string comparison_title(const Comparison& c)
+{
+    return "Comparison with " + (c.title.empty() ? c.base_name : c.title);
+}
+
+void add_answer(const Comparison& c, Document& page)
+{
+    page.section("The answer");
+    for (const VariantComparison& variant : c.variants) {
+        const LimitComparison& limit = variant.limits.front();
+        const ChangeVerdict verdict = limit.verdict(limit.overall);
+        page.box(verdict == ChangeVerdict::better  ? "good"
+                 : verdict == ChangeVerdict::worse ? "bad"
+                                                   : "warn",
+                 answer_title(c, variant), answer_text(c, variant));
+        if (const std::optional<std::string> harm = harm_text(c, variant))
+            page.note(variant.name + ": " + *harm);
+    }
+    if (c.adaptive_budget > 0)
+        page.note(fmt::format("Adaptive: at most {} pairs of each variant, in {} rounds, until collapse is decided or "
+                              "smaller than {:g}; intervals are valid wherever a cell has stopped.",
+                              c.adaptive_budget, c.adaptive_rounds, c.adaptive_margin));
+    if (const std::optional<std::string> conventions = conventions_text_of(c.base_toml))
+        page.note(fmt::format("Conventions of {}: {}.", c.base_name, *conventions));
+    add_left_out_of(page, c.base_toml);
+}
+
+void add_dependence(const Comparison& c, Document& page)
+{
+    page.section("What the answer depends on");
+    if (c.motions > 0)
+        page.paragraph("Pairs share motions here, so no test by drawn quantity was made. How much the answer depends "
+                       "on the motions is in the width of its intervals, which take motions, and not pairs, as "
+                       "independent.");
+    else if (c.adaptive_budget > 0)
+        page.paragraph("No test by drawn quantity was made: an adaptive comparison chooses the number of pairs of a "
+                       "cell by their outcomes.");
+    else if (std::ranges::all_of(c.variants, [](const auto& variant) { return variant.depends.empty(); }))
+        page.paragraph("No test by drawn quantity was made: none varies among the pairs of the base.");
+    else
+        page.paragraph(fmt::format(
+            "Differences of the first limit state in the lower, middle and upper third of each drawn quantity, means "
+            "over the cells. A quantity counts where the adjusted p-value of its rank test is at most {:g}.",
+            c.rate));
+    for (const VariantComparison& variant : c.variants) {
+        HtmlTable table{
+            "lrrrr", {"quantity: its middle third", "below it", "in it", "above it", "adjusted p"}, {}, variant.name};
+        for (const InputDependence& input : variant.depends) {
+            std::vector<Html>& row = table.rows.emplace_back(std::vector<Html>{third_text(input, 1)});
+            for (const PairedDifference& third : input.found.thirds)
+                row.emplace_back(interval_text(third));
+            row.emplace_back(fmt::format("{:.2g}", input.p_adjusted));
+        }
+        if (!table.rows.empty())
+            page.table(table);
+        page.heading("What would change it: " + variant.name);
+        const std::vector<std::string> changes = what_would_change_it(c, variant);
+        page.list({changes.begin(), changes.end()});
+    }
+}
+
+namespace {
+
+/// A row of the table of all limit states.
+std::vector<Html> limit_row(const VariantComparison& variant, const LimitComparison& limit)
+{
+    const PlaceComparison& all = limit.overall;
+    if (all.counts.pairs() == 0)
+        return {limit.name, "no pair"};
+    std::string meaning = limit.describe;
+    if (const std::uint64_t unknown = variant.unknown(limit); unknown > 0)
+        meaning += fmt::format(" ({} left out: still moving at the end)", counted(unknown, "pair"));
+    return {limit.name,
+            share_text(all.base),
+            share_text(all.variant),
+            difference_text(all),
+            verdict_tag(limit, all),
+            fmt::format("{}", all.counts.base_only),
+            fmt::format("{}", all.counts.variant_only),
+            std::isfinite(all.unpaired) ? fmt::format("a factor of {:.2g}", all.saving()) : "unknown",
+            meaning};
+}
+
+/// Of the first limit state, a column for each variant; without rows where there are no capacities.
+HtmlTable capacity_table(const Comparison& c)
+{
+    HtmlTable table{"l", {"shaking"}, {}, {}};
+    table.caption = fmt::format("Capacity ({} at {}) over that of the base", capacity_measure(c),
+                                c.variants.front().limits.front().name);
+    for (const VariantComparison& variant : c.variants) {
+        const std::vector<CapacityRow> rows = capacity_rows(c, variant.limits.front());
+        table.align += "r";
+        table.head.emplace_back(variant.name);
+        table.rows.resize(rows.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (table.rows[i].empty())
+                table.rows[i].emplace_back(rows[i].place);
+            table.rows[i].emplace_back(capacity_text(rows[i].ratio));
+        }
+    }
+    return table;
+}
+
+} // namespace
+
+void add_changes(const Comparison& c, Document& page)
+{
+    page.section("What changes");
+    page.paragraph(
+        fmt::format("{} Differences are variant minus base ({}), with paired intervals at {:g} %. Base alone "
+                    "and variant alone: pairs of which this one alone reached the limit state.",
+                    common_text(c), c.base_name, 100 * c.level));
+    for (const VariantComparison& variant : c.variants) {
+        HtmlTable table{"lrrrlrrrl",
+                        {"limit state", "base", variant.name, "difference", "verdict", "base alone", "variant alone",
+                         "saved by pairing", "meaning"},
+                        {},
+                        fmt::format("{}: {}", variant.name, counted(variant.pairs, "pair"))};
+        if (variant.dropped > 0)
+            table.caption += fmt::format(", {} dropped ({} invalid in the base, {} in the variant)", variant.dropped,
+                                         variant.invalid_base, variant.invalid_variant);
+        for (const LimitComparison& limit : variant.limits)
+            table.rows.push_back(limit_row(variant, limit));
+        page.table(table);
+    }
+    if (const HtmlTable capacities = capacity_table(c); !capacities.rows.empty())
+        page.table(capacities);
+}
+
+void add_named(const Comparison& c, Document& page, std::size_t most)
+{
+    if (c.places() == 1)
+        return;
+    page.section("Where it changes");
+    page.paragraph("Cells that are named by the exact test of their discordant pairs, over all cells of a limit "
+                   "state: " +
+                   adjustment_text(c) + ".");
+    for (const VariantComparison& variant : c.variants) {
+        std::vector<std::string> none; // limit states of which no cell is named
+        for (const LimitComparison& limit : variant.limits) {
+            const std::vector<std::size_t> more = limit.named(c.rate, true), less = limit.named(c.rate, false);
+            HtmlTable table{"lrrrr", {"place", "base", variant.name, "difference", "adjusted p"}, {}, ""};
+            table.caption = fmt::format("{}: {} {} in {} and {} in {} of {} cells", variant.name, limit.name,
+                                        limit.damage ? "worse" : "more", more.size(), limit.damage ? "better" : "less",
+                                        less.size(), limit.cells.size());
+            for (const std::vector<std::size_t>& cells : {more, less}) {
+                for (std::size_t i = 0; i < std::min(cells.size(), most); ++i) {
+                    const PlaceComparison& cell = limit.cells[cells[i]];
+                    table.rows.push_back({c.place(cells[i]), fmt::format("{:.3f}", cell.base.probability),
+                                          fmt::format("{:.3f}", cell.variant.probability), difference_text(cell),
+                                          fmt::format("{:.2g}", cell.p_adjusted)});
+                }
+                if (cells.size() > most)
+                    table.rows.push_back({fmt::format("and {} more", cells.size() - most)});
+            }
+            if (table.rows.empty())
+                none.push_back(limit.name);
+            else
+                page.table(table);
+        }
+        if (!none.empty())
+            page.note(fmt::format("{}: no cell is named of {}.", variant.name, fmt::join(none, ", ")));
+    }
+}
+
+void add_common(const Comparison& c, Document& page)
+{
+    page.section("What is common");
+    std::vector<std::pair<std::string, Html>> draws;
+    for (const VariantComparison& variant : c.variants)
+        if (!variant.inputs.empty())
+            draws.emplace_back("Draws of " + variant.name, inputs_text(variant));
+    if (!draws.empty())
+        page.facts(draws);
+    for (const VariantComparison& variant : c.variants)
+        for (const std::string& note : variant.notes)
+            page.note(variant.name + ": " + note);
+}
+
+std::string comparison_text(const Comparison& comparison)
+{
+    constexpr std::size_t most_named = 10; // the file and the page have all
+    Document document(comparison_title(comparison));
+    add_answer(comparison, document);
+    add_dependence(comparison, document);
+    add_changes(comparison, document);
+    add_named(comparison, document, most_named);
+    add_common(comparison, document);
+    return console_text(document);
 }
 
 } // namespace stylobate

@@ -7,6 +7,7 @@
 #include "studies/report/document.hpp"
 #include "studies/report/json.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 
 namespace stylobate {
 
+/// For a terminal: what stands on the page too, without its pictures, definitions and studies.
 std::string comparison_text(const Comparison& comparison);
 Json comparison_json(const Comparison& comparison);
 /// A row for each variant, limit state and cell, and for all cells together.
@@ -25,14 +27,12 @@ std::string verdict_text(const LimitComparison& limit, const PlaceComparison& pl
 std::string points_text(const PlaceComparison& place);
 /// "0.231 (0.205 to 0.259)"
 std::string share_text(const Share& share);
-/// "-0.043 [-0.060, -0.027]"
+/// "-0.0430 (-0.0600 to -0.0270)"
 std::string difference_text(const PlaceComparison& place);
 /// "1.20 (1.12 to 1.29; steps x 1.1)", "at least 3.1 (2.9 to 3.3; steps x 1.1)", "not in this range" where no intensity
 /// separates the two.
 std::string capacity_text(const CapacityRatio& ratio);
 
-/// How many times as many realizations an unpaired comparison would need: "pairing saved a factor of 20".
-std::string saving_text(const PlaceComparison& place);
 /// What names of cells mean: "Benjamini-Hochberg, false names at most 5 %".
 std::string adjustment_text(const Comparison& comparison);
 /// How draws and motions are common by construction, in a sentence.
@@ -45,14 +45,24 @@ std::string answer_text(const Comparison& comparison, const VariantComparison& v
 /// Where it harms, with the number of cells and the worst one; nullopt where no cell is named.
 std::optional<std::string> harm_text(const Comparison& comparison, const VariantComparison& variant);
 
-/// One sentence for each quantity on which the gain depends: "Friction: the difference is -0.08 [-0.10, -0.06] where it
-/// is below 0.65, and -0.01 [-0.03, 0.01] where it is above 0.71 (adjusted p = 1e-5)." Those of an adjusted p-value of
-/// at most the comparison's rate of false names.
-std::vector<std::string> dependence_texts(const Comparison& comparison, const VariantComparison& variant);
-
 /// What would change the answer: the other sign, or no difference shown, in a third of a quantity; cells in which it
 /// harms though it helps over all, or the other way round; what more pairs would decide. At least one sentence.
 std::vector<std::string> what_would_change_it(const Comparison& comparison, const VariantComparison& variant);
+
+/// "Comparison with A column".
+std::string comparison_title(const Comparison& comparison);
+
+/// Sections of the page and of the text for a terminal: the answers, with conventions and what the model leaves out;
+/// the differences by thirds of each drawn quantity, and what would change the answer; all limit states with their
+/// discordant pairs, and capacities; cells that are named, at most `most` in each direction; common draws and notes.
+/// @pre each variant has a limit state
+/// @{
+void add_answer(const Comparison& comparison, Document& page);
+void add_dependence(const Comparison& comparison, Document& page);
+void add_changes(const Comparison& comparison, Document& page);
+void add_named(const Comparison& comparison, Document& page, std::size_t most);
+void add_common(const Comparison& comparison, Document& page);
+/// @}
 
 /// For a reader who decides: the answer in a sentence with its interval, the structure, what the answer depends on and
 /// what would change it; then what changes, where it harms, what is common, the studies and the commands. Where the map

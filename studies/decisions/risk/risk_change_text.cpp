@@ -40,23 +40,6 @@ std::vector<std::string> remarks(const RiskChange& change, const VariantChange& 
     return all;
 }
 
-std::string state_text(const RiskChange& change, const VariantChange& variant, const StateChange& s)
-{
-    const RiskNumber &base = s.change.base.frequency, &other = s.change.variant.frequency;
-    std::string text = fmt::format("  {} ({}): {}\n", s.state, s.meaning, s.verdict());
-    if (s.determined)
-        text += fmt::format("    {:<13} {} {}; {} {}; change {}; ratio {}\n", "a year:", change.base_name,
-                            frequency_text(base), variant.name, frequency_text(other), change_text(s.change.frequency),
-                            ratio_text(s.change.ratio));
-    for (std::size_t i = 0; s.determined && i < change.years.size(); ++i)
-        text += fmt::format("    {:<13} {} {}; {} {}; change {}\n", fmt::format("in {:g} years:", change.years[i]),
-                            change.base_name, over_text(base, change.years[i]), variant.name,
-                            over_text(other, change.years[i]), points_text(s.change.probability[i]));
-    for (const std::string& remark : remarks(change, variant, s))
-        text += "    " + remark + "\n";
-    return text;
-}
-
 std::string intervals_text(const RiskChange& change)
 {
     return fmt::format("Both structures meet the same {} motions. Intervals are of the motions{}; a motion is drawn "
@@ -94,21 +77,6 @@ Json state_json(const StateChange& s, const std::vector<double>& years)
 }
 
 } // namespace
-
-std::string risk_text(const RiskChange& change)
-{
-    std::string text = fmt::format("{}: change of risk by {} and the hazard {}, {:g} % intervals\n", change.title,
-                                   change.comparison_file, hazard_text(change.hazard), 100 * change.level);
-    text += intervals_text(change) + "\n" + as_new_text + "\n";
-    for (const VariantChange& variant : change.variants) {
-        text += variant.name + "\n";
-        for (const StateChange& s : variant.states)
-            text += state_text(change, variant, s);
-    }
-    for (const std::string& remark : change.says)
-        text += "note: " + remark + "\n";
-    return text;
-}
 
 Json risk_json(const RiskChange& change)
 {
@@ -163,11 +131,10 @@ std::string change_title(const RiskChange& change, const VariantChange& variant)
 
 } // namespace
 
-Document risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
+namespace {
+
+void add_answer(const RiskChange& change, Document& page)
 {
-    Document page(title.value_or("Change of risk: " + change.title),
-                  fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,
-                              hazard_text(change.hazard), change.code_version));
     page.section("The answer");
     for (const VariantChange& variant : change.variants) {
         const StateChange& s = variant.principal();
@@ -177,45 +144,73 @@ Document risk_page(const RiskChange& change, const std::string& file, const std:
                                                               : "warn",
                  change_title(change, variant), risk_change_answer(change, variant));
     }
+}
+
+/// A row a year, and one for each number of years.
+void add_state(const RiskChange& change, const StateChange& s, HtmlTable& table)
+{
+    if (!s.determined) {
+        table.rows.push_back({s.state, "", "", "", "", "", s.verdict(), s.meaning});
+        return;
+    }
+    const RiskNumber &base = s.change.base.frequency, &other = s.change.variant.frequency;
+    table.rows.push_back({s.state, "a year", frequency_text(base), frequency_text(other),
+                          change_text(s.change.frequency), ratio_text(s.change.ratio), s.verdict(), s.meaning});
+    for (std::size_t i = 0; i < change.years.size(); ++i)
+        table.rows.push_back({"", fmt::format("in {:g} years", change.years[i]), over_text(base, change.years[i]),
+                              over_text(other, change.years[i]), points_text(s.change.probability[i])});
+}
+
+void add_result(const RiskChange& change, Document& page)
+{
     page.section("Result");
     page.paragraph(intervals_text(change) + " " + as_new_text);
     for (const VariantChange& variant : change.variants) {
-        HtmlTable table{"llll",
-                        {"limit state", "a year, " + change.base_name, "a year, " + variant.name, "change a year"},
+        HtmlTable table{"llllllll",
+                        {"limit state", "", change.base_name, variant.name, "change", "ratio", "risk", "meaning"},
                         {},
                         variant.name};
-        for (const double years : change.years) {
-            table.align += "l";
-            table.head.emplace_back(fmt::format("change in {:g} years", years));
-        }
-        table.align += "l";
-        table.head.emplace_back("risk");
-        for (const StateChange& s : variant.states) {
-            std::vector<Html> row{s.meaning};
-            if (s.determined) {
-                row.emplace_back(frequency_text(s.change.base.frequency));
-                row.emplace_back(frequency_text(s.change.variant.frequency));
-                row.emplace_back(change_text(s.change.frequency));
-                for (const ChangeNumber& p : s.change.probability)
-                    row.emplace_back(points_text(p));
-            }
-            row.resize(table.head.size() - 1);
-            row.emplace_back(s.verdict());
-            table.rows.push_back(std::move(row));
-        }
+        for (const StateChange& s : variant.states)
+            add_state(change, s, table);
         page.table(table);
     }
-    add_change_figures(change, page);
+}
+
+void add_notes(const RiskChange& change, Document& page)
+{
     std::vector<Html> notes;
     for (const VariantChange& variant : change.variants)
         for (const StateChange& s : variant.states)
             for (const std::string& remark : remarks(change, variant, s))
                 notes.emplace_back(fmt::format("{}, {}: {}", variant.name, s.state, remark));
     notes.insert(notes.end(), change.says.begin(), change.says.end());
-    if (!notes.empty()) {
-        page.section("Notes");
-        page.list(notes);
-    }
+    if (notes.empty())
+        return;
+    page.section("Notes");
+    page.list(notes);
+}
+
+} // namespace
+
+std::string risk_text(const RiskChange& change)
+{
+    Document document(fmt::format("Change of risk: {}, comparison {}, hazard {}", change.title, change.comparison_file,
+                                  hazard_text(change.hazard)));
+    add_answer(change, document);
+    add_result(change, document);
+    add_notes(change, document);
+    return console_text(document);
+}
+
+Document risk_page(const RiskChange& change, const std::string& file, const std::optional<std::string>& title)
+{
+    Document page(title.value_or("Change of risk: " + change.title),
+                  fmt::format("Comparison {}, hazard {}. Made by stylobate {}.", change.comparison_file,
+                              hazard_text(change.hazard), change.code_version));
+    add_answer(change, page);
+    add_result(change, page);
+    add_change_figures(change, page);
+    add_notes(change, page);
     page.section("Reproduction");
     page.facts({{"This estimate", std::filesystem::path(file).filename().string()},
                 {"Comparison", change.comparison_file},

@@ -2,9 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "io/plots/figure_file.hpp"
-#include "studies/experiment/conventions.hpp"
 #include "studies/report/html_figure.hpp"
-#include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
 
@@ -126,49 +124,11 @@ std::vector<Figure> risk_figures(const Risk& risk, const StateRisk& state)
     return figures;
 }
 
-void add_result(const Risk& risk, Document& page)
+void add_part_figures(const Risk& risk, Document& page)
 {
-    page.section("Result");
-    HtmlTable table{"ll", {"limit state", "fragility"}, {}, ""};
-    for (const std::string& head : risk_heads(risk)) {
-        table.align += "l";
-        table.head.emplace_back(head);
-    }
-    table.align.back() = 'r';
-    for (const StateRisk* s : risk.chosen()) {
-        std::vector<Html>& row = table.rows.emplace_back(std::vector<Html>{s->meaning, to_string(s->form)});
-        if (s->determined)
-            for (const std::string& cell : risk_cells(risk, *s))
-                row.emplace_back(cell);
-        else
-            row.emplace_back(
-                fmt::format("not determined; {} for any curve that rises", bounds_text(s->estimate.bounds)));
-        row.resize(table.head.size());
-    }
-    page.table(table);
-    page.note(fmt::format(
-        "In brackets: {:g} % intervals, of the fragility (its motions) and of the hazard (its "
-        "fractiles) together. Each earthquake meets the structure as new. Probabilities over years "
-        "are those of a Poisson process. The values are by the best estimate of the hazard; the "
-        "mean hazard is the mean of its curves over their fractiles, by which the frequency is the "
-        "mean over what is not known of the hazard. The last column is the part of the squared width of the "
-        "interval, on a logarithmic scale, that is of the fragility.",
-        100 * risk.level));
-}
-
-void add_parts(const Risk& risk, Document& page)
-{
-    page.section("Contributing intensities");
     const StateRisk& s = risk.principal();
-    if (s.determined && s.estimate.unseen > 0)
-        page.note(
-            fmt::format("Not excluded by the runs at intensities where none reached the state, and in no interval "
-                        "of this page: {:.2g} a year.",
-                        s.estimate.unseen));
-    if (!s.determined || !(s.estimate.frequency.value > 0)) {
-        page.paragraph("The frequency of this limit state is not determined or 0: " + s.note);
+    if (!s.determined || !(s.estimate.frequency.value > 0))
         return;
-    }
     const std::vector<Figure> figures = risk_figures(risk, s);
     page.figure(figure_svg(figures[0], 200),
                 risk.hazard.fractiles.empty()
@@ -184,37 +144,6 @@ void add_parts(const Risk& risk, Document& page)
         fmt::format("How often the limit state is reached by the intensities between two stripes; bars: {:g} %. "
                     "A bar that ends at the upper edge goes on: the table has its limit.",
                     100 * risk.level));
-    HtmlTable table{"lrl", {describe_measure(risk.hazard.measure), "share", "a year"}, {}, ""};
-    for (const FrequencyPart& part : s.estimate.parts)
-        table.rows.push_back(
-            {range_text(part), fmt::format("{:.1f} %", 100 * part.frequency.value / s.estimate.frequency.value),
-             part.frequency.value > 0 ? frequency_text(part.frequency) : std::string("no run reached it")});
-    page.table(table);
-    page.note(fmt::format("From outside of the range of the runs: {:.2g} % below, {:.2g} % above. From outside of the "
-                          "hazard's points: {:.2g} %. Any curve that rises would give {} a year.",
-                          100 * s.estimate.below, 100 * s.estimate.above, 100 * s.estimate.beyond_hazard,
-                          bounds_text(s.estimate.bounds)));
-}
-
-void add_sequences(const SequenceRisk& s, Document& page)
-{
-    page.section("Damage carried from earthquake to earthquake");
-    const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
-    page.facts(
-        {{"Histories", fmt::format("{} of {:g} years", s.histories, s.years)},
-         {"Earthquakes", fmt::format("{:.3g} a year above {:.3g}", s.events_a_year, s.threshold)},
-         {"Fallen, damage carried along", percent(s.carried_share)},
-         {"Fallen, new in every earthquake", percent(s.fresh_share)},
-         {"Difference, paired", percent(s.difference)},
-         {"Ratio, paired", std::isfinite(s.ratio.limits.upper) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.ratio.value,
-                                                                             s.ratio.limits.lower, s.ratio.limits.upper)
-                                                               : std::string("not determined")},
-         {"By the fragility", std::isnan(s.closed_form.value) ? std::string("not determined") : percent(s.closed_form)},
-         {"Threshold", s.threshold_says},
-         {"With weaker earthquakes too",
-          s.checked == 0 ? std::string("not checked")
-                         : fmt::format("down to {:.3g}, in {} histories: difference {}", s.checked_threshold, s.checked,
-                                       percent(s.check_difference))}});
 }
 
 } // namespace
@@ -224,22 +153,11 @@ Document risk_page(const Risk& risk, const std::string& file, const std::optiona
     Document page(title.value_or("Risk: " + risk.title),
                   fmt::format("Fragility of {}, hazard {}. Made by stylobate {}.", risk.fragility_file,
                               hazard_text(risk.hazard), risk.code_version));
-    page.section("The answer");
-    page.box(risk.principal().determined ? "main" : "warn", risk_answer_title(risk), risk_answer(risk));
-    page.paragraph(risk_grounds(risk));
-    if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
-        page.paragraph("Conventions: " + *conventions + ".");
-    add_left_out_of(page, risk.study_text);
+    add_answer(risk, page);
     add_result(risk, page);
     add_parts(risk, page);
-    if (risk.sequences)
-        add_sequences(*risk.sequences, page);
-    page.section("Notes");
-    std::vector<Html> notes;
-    for (const StateRisk* s : risk.chosen())
-        notes.emplace_back(s->state + ": " + form_text(risk, *s));
-    notes.insert(notes.end(), risk.says.begin(), risk.says.end());
-    page.list(notes);
+    add_part_figures(risk, page);
+    add_notes(risk, page);
     page.section("Reproduction");
     page.facts({{"This estimate", std::filesystem::path(file).filename().string()},
                 {"Fragility", risk.fragility_file},

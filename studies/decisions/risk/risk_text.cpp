@@ -14,90 +14,6 @@ namespace stylobate {
 
 namespace {
 
-/// Pads the cells but the last one: the first is wider.
-std::string padded(const std::vector<std::string>& cells)
-{
-    std::string text = fmt::format("{:<34}", cells.front());
-    for (std::size_t i = 1; i + 1 < cells.size(); ++i)
-        text += fmt::format(" {:<26}", cells[i]);
-    return text + " " + cells.back() + "\n";
-}
-
-std::string table_text(const Risk& risk)
-{
-    std::string text = fmt::format("  {:<16} {:<10} ", "limit state", "fragility") + padded(risk_heads(risk));
-    for (const StateRisk* s : risk.chosen())
-        text += fmt::format("  {:<16} {:<10} ", s->state, to_string(s->form)) +
-                (s->determined ? padded(risk_cells(risk, *s))
-                               : fmt::format("not determined; {} a year for any curve that rises\n",
-                                             bounds_text(s->estimate.bounds)));
-    return text;
-}
-
-/// What the runs do not exclude where none reached the state: the only place that says so.
-std::string unseen_text(const FrequencyEstimate& e)
-{
-    return e.unseen > 0
-               ? fmt::format("  not excluded at intensities where no run reached it, and in no interval: {:.2g} "
-                             "a year\n",
-                             e.unseen)
-               : std::string();
-}
-
-/// Where the frequency of the principal limit state comes from.
-std::string parts_text(const Risk& risk)
-{
-    const StateRisk& s = risk.principal();
-    const FrequencyEstimate& e = s.estimate;
-    if (!s.determined)
-        return {};
-    if (!(e.frequency.value > 0))
-        return unseen_text(e);
-    std::string text = fmt::format("Intensities that contribute to '{}', {} in {}:\n", s.state,
-                                   short_measure(risk.hazard.measure), measure_unit(risk.hazard.measure));
-    for (const FrequencyPart& part : e.parts)
-        if (const double share = part.frequency.value / e.frequency.value; share >= 0.005)
-            text += fmt::format("  {:<22} {:>4.0f} %   {} a year\n", range_text(part), 100 * share,
-                                frequency_text(part.frequency));
-    text += fmt::format("  from outside of the range of the runs: {:.2g} % below, {:.2g} % above; from outside of the "
-                        "hazard's points: {:.2g} %\n",
-                        100 * e.below, 100 * e.above, 100 * e.beyond_hazard);
-    text += fmt::format("  any curve that rises, {}: {} a year\n",
-                        s.form == FragilityForm::lognormal ? "and agrees with the fitted one within that range"
-                                                           : "through the shares of the stripes",
-                        bounds_text(e.bounds));
-    return text + unseen_text(e);
-}
-
-std::string sequence_text(const SequenceRisk& s)
-{
-    const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
-    std::string text = fmt::format("{} histories of {:g} years; {:.3g} earthquakes a year above {:.3g}, {} in all, at "
-                                   "most {} in one history; {} runs\n",
-                                   s.histories, s.years, s.events_a_year, s.threshold, s.events, s.most_events, s.runs);
-    text += fmt::format("  fallen, damage carried along:      {}\n", percent(s.carried_share));
-    text += fmt::format("  fallen, new in every earthquake:   {}\n", percent(s.fresh_share));
-    text += fmt::format("  difference, paired:                {}\n", percent(s.difference));
-    text += std::isfinite(s.ratio.limits.upper)
-                ? fmt::format("  ratio, paired:                     {:.3g} ({:.3g} to {:.3g})\n", s.ratio.value,
-                              s.ratio.limits.lower, s.ratio.limits.upper)
-                : std::string("  ratio, paired:                     not determined: too few histories with a fall\n");
-    text += fmt::format("  by the fragility, new in each:     {}\n",
-                        std::isnan(s.closed_form.value) ? "not determined" : percent(s.closed_form));
-    text += fmt::format("  threshold: {}\n", s.threshold_says);
-    if (s.checked > 0)
-        text +=
-            fmt::format("  with earthquakes down to {:.3g} in {} histories: {} fall that had stood, {} stand that had "
-                        "fallen; difference {}{}\n",
-                        s.checked_threshold, s.checked, s.then_fell, s.then_stood, percent(s.check_difference),
-                        s.check_difference.limits.lower > 0 ? ": weaker earthquakes count, lower the threshold" : "");
-    else
-        text += "  the threshold is not checked: below it there are too many earthquakes\n";
-    if (s.invalid > 0)
-        text += fmt::format("  {} histories are left out: a realization was invalid\n", s.invalid);
-    return text;
-}
-
 Json sequences_json(const SequenceRisk& s)
 {
     return json_of(s, {"years",
@@ -175,30 +91,6 @@ std::string over_text(const RiskNumber& frequency, double years)
     return percent_text(p.value, p.total);
 }
 
-std::vector<std::string> risk_heads(const Risk& risk)
-{
-    std::vector<std::string> heads{"a year"};
-    for (const double years : risk.years)
-        heads.push_back(fmt::format("in {:g} years", years));
-    heads.push_back(fmt::format("in {:g} years, mean hazard", risk.years.back()));
-    heads.emplace_back("uncertainty due to fragility");
-    return heads;
-}
-
-std::vector<std::string> risk_cells(const Risk& risk, const StateRisk& state)
-{
-    const auto percent = [](const char* format, double share) {
-        return std::isnan(share) ? "–" : fmt::format(fmt::runtime(format), 100 * share);
-    };
-    const FrequencyEstimate& e = state.estimate;
-    std::vector<std::string> cells{frequency_text(e.frequency)};
-    for (const double years : risk.years)
-        cells.push_back(over_text(e.frequency, years));
-    cells.push_back(percent("{:.3g} %", probability_over(e.by_mean_hazard, risk.years.back())));
-    cells.push_back(percent("{:.0f} %", e.frequency.fragility_part));
-    return cells;
-}
-
 std::string hazard_text(const HazardModel& hazard)
 {
     return hazard.site ? hazard.source + " at " + *hazard.site : hazard.source;
@@ -213,46 +105,6 @@ std::string bounds_text(const Limits& bounds)
 std::string frequency_text(const RiskNumber& number)
 {
     return fmt::format("{:.3g} ({:.3g} to {:.3g})", number.value, number.total.lower, number.total.upper);
-}
-
-std::string form_text(const Risk& risk, const StateRisk& state)
-{
-    std::string text = state.note;
-    for (const StateRisk& other : risk.states)
-        if (other.state == state.state && !other.chosen && other.determined)
-            text +=
-                fmt::format("; by {} it would be {} a year",
-                            other.form == FragilityForm::shares ? "the shares of the stripes" : "the lognormal curve",
-                            frequency_text(other.estimate.frequency));
-    return text;
-}
-
-std::string range_text(const FrequencyPart& part)
-{
-    return part.from == 0        ? fmt::format("below {:.3g}", part.to)
-           : std::isinf(part.to) ? fmt::format("above {:.3g}", part.from)
-                                 : fmt::format("from {:.3g} to {:.3g}", part.from, part.to);
-}
-
-std::string risk_text(const Risk& risk)
-{
-    std::string text = fmt::format("{}: limit states of {} by the hazard {}, {:g} % intervals\n", risk.title,
-                                   risk.fragility_file, hazard_text(risk.hazard), 100 * risk.level);
-    text += std::string(as_new_text) + "\n";
-    if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
-        text += "conventions: " + *conventions + "\n";
-    if (const std::optional<std::string> left_out = left_out_text_of(risk.study_text))
-        text += *left_out + "\n";
-    if (!risk.hazard.fractiles.empty())
-        text += "Values are by the best estimate of the hazard; the mean hazard is the mean over its fractiles.\n";
-    text += table_text(risk) + parts_text(risk);
-    for (const StateRisk* s : risk.chosen())
-        text += fmt::format("{}: {}\n", s->state, form_text(risk, *s));
-    if (risk.sequences)
-        text += sequence_text(*risk.sequences);
-    for (const std::string& remark : risk.says)
-        text += "note: " + remark + "\n";
-    return text;
 }
 
 Json risk_json(const Risk& risk)
@@ -321,17 +173,6 @@ std::string risk_answer(const Risk& risk)
                               100 * probability_over(s.estimate.by_mean_hazard, years));
 }
 
-std::string risk_answer_title(const Risk& risk)
-{
-    const StateRisk& s = risk.principal();
-    if (!s.determined)
-        return s.meaning + ": not determined";
-    const double years = risk.years.back();
-    const Limits p = probability_over(s.estimate.frequency, years).total;
-    return fmt::format("Probability in {:g} years: {:.3g} to {:.3g} % ({:g} % interval)", years, 100 * p.lower,
-                       100 * p.upper, 100 * risk.level);
-}
-
 std::string risk_grounds(const Risk& risk)
 {
     const StateRisk& s = risk.principal();
@@ -358,6 +199,174 @@ std::string risk_grounds(const Risk& risk)
     if (part < small_part)
         return text + "A better hazard curve would narrow it; more motions hardly would.";
     return text + "A better hazard curve and more motions in the study would both narrow it.";
+}
+
+namespace {
+
+/// "Probability in 100 years: 1.31 to 9.84 % (90 % interval)"; where it is not determined, the limit state.
+std::string answer_title(const Risk& risk)
+{
+    const StateRisk& s = risk.principal();
+    if (!s.determined)
+        return s.meaning + ": not determined";
+    const double years = risk.years.back();
+    const Limits p = probability_over(s.estimate.frequency, years).total;
+    return fmt::format("Probability in {:g} years: {:.3g} to {:.3g} % ({:g} % interval)", years, 100 * p.lower,
+                       100 * p.upper, 100 * risk.level);
+}
+
+/// Cells of a limit state: its frequency, probabilities, and the part of the interval that is of the fragility.
+std::vector<Html> state_row(const Risk& risk, const StateRisk& state)
+{
+    const FrequencyEstimate& e = state.estimate;
+    std::vector<Html> row{state.state, to_string(state.form)};
+    if (state.determined) {
+        const auto percent = [](const char* format, double share) {
+            return std::isnan(share) ? "–" : fmt::format(fmt::runtime(format), 100 * share);
+        };
+        row.emplace_back(frequency_text(e.frequency));
+        for (const double years : risk.years)
+            row.emplace_back(over_text(e.frequency, years));
+        row.emplace_back(percent("{:.3g} %", probability_over(e.by_mean_hazard, risk.years.back())));
+        row.emplace_back(percent("{:.0f} %", e.frequency.fragility_part));
+    } else {
+        row.emplace_back("not determined");
+        row.resize(risk.years.size() + 5);
+    }
+    row.emplace_back(state.meaning);
+    return row;
+}
+
+/// Why a state has its form of the fragility, what the other one would give, and what bounds there are.
+std::string form_text(const Risk& risk, const StateRisk& state)
+{
+    std::string text = state.note;
+    for (const StateRisk& other : risk.states)
+        if (other.state == state.state && !other.chosen && other.determined)
+            text +=
+                fmt::format("; by {} it would be {} a year",
+                            other.form == FragilityForm::shares ? "the shares of the stripes" : "the lognormal curve",
+                            frequency_text(other.estimate.frequency));
+    return state.determined
+               ? text
+               : fmt::format("{} a year by any curve that rises. {}", bounds_text(state.estimate.bounds), text);
+}
+
+/// "from 0.5 to 0.6", "below 0.5", "above 3".
+std::string range_text(const FrequencyPart& part)
+{
+    return part.from == 0        ? fmt::format("below {:.3g}", part.to)
+           : std::isinf(part.to) ? fmt::format("above {:.3g}", part.from)
+                                 : fmt::format("from {:.3g} to {:.3g}", part.from, part.to);
+}
+
+void add_sequences(const SequenceRisk& s, Document& page)
+{
+    page.section("Damage carried from earthquake to earthquake");
+    const auto percent = [](const SequenceNumber& n) { return percent_text(n.value, n.limits); };
+    page.facts(
+        {{"Histories",
+          fmt::format("{} of {:g} years{}; {} runs", s.histories, s.years,
+                      s.invalid > 0 ? fmt::format(", {} left out: a realization was invalid", s.invalid) : "", s.runs)},
+         {"Earthquakes", fmt::format("{:.3g} a year above {:.3g}, {} in all, at most {} in one history",
+                                     s.events_a_year, s.threshold, s.events, s.most_events)},
+         {"Fallen, damage carried along", percent(s.carried_share)},
+         {"Fallen, new in every earthquake", percent(s.fresh_share)},
+         {"Difference, paired", percent(s.difference)},
+         {"Ratio, paired", std::isfinite(s.ratio.limits.upper) ? fmt::format("{:.3g} ({:.3g} to {:.3g})", s.ratio.value,
+                                                                             s.ratio.limits.lower, s.ratio.limits.upper)
+                                                               : "not determined: too few histories with a fall"},
+         {"By the fragility, new in each", std::isnan(s.closed_form.value) ? "not determined" : percent(s.closed_form)},
+         {"Threshold", s.threshold_says},
+         {"With weaker earthquakes too",
+          s.checked == 0
+              ? "not checked: below the threshold there are too many earthquakes"
+              : fmt::format("down to {:.3g}, in {} histories: {} fall that had stood, {} stand that "
+                            "had fallen; difference {}{}",
+                            s.checked_threshold, s.checked, s.then_fell, s.then_stood, percent(s.check_difference),
+                            s.check_difference.limits.lower > 0 ? ": weaker earthquakes count, lower the threshold"
+                                                                : "")}});
+}
+
+} // namespace
+
+void add_answer(const Risk& risk, Document& page)
+{
+    const StateRisk& s = risk.principal();
+    page.section("The answer");
+    page.box(s.determined ? "main" : "warn", answer_title(risk), risk_answer(risk));
+    if (const std::string grounds = risk_grounds(risk); !grounds.empty())
+        page.paragraph(grounds);
+    if (s.determined && s.estimate.unseen > 0) // the only place that says so
+        page.note(fmt::format("Not excluded at intensities where no run reached it, and in no interval: {:.2g} a year.",
+                              s.estimate.unseen));
+    if (const std::optional<std::string> conventions = conventions_text_of(risk.study_text))
+        page.paragraph("Conventions: " + *conventions + ".");
+    add_left_out_of(page, risk.study_text);
+}
+
+void add_result(const Risk& risk, Document& page)
+{
+    page.section("Result");
+    HtmlTable table{"lll", {"limit state", "fragility", "a year"}, {}, ""};
+    for (const double years : risk.years)
+        table.head.emplace_back(fmt::format("in {:g} years", years));
+    table.head.emplace_back(fmt::format("in {:g} years, mean hazard", risk.years.back()));
+    table.head.emplace_back("due to fragility");
+    table.align += std::string(risk.years.size(), 'l') + "rrl";
+    table.head.emplace_back("meaning");
+    for (const StateRisk* s : risk.chosen())
+        table.rows.push_back(state_row(risk, *s));
+    page.table(table);
+    std::string note = fmt::format("In brackets: {:g} % intervals, of the fragility (its motions)", 100 * risk.level);
+    if (!risk.hazard.fractiles.empty())
+        note += " and of the hazard (its fractiles) together. Due to fragility: its part of the squared width on a "
+                "logarithmic scale. Values are by the best estimate of the hazard; the mean hazard is the mean of its "
+                "curves over their fractiles";
+    page.note(note + ". " + as_new_text);
+}
+
+void add_parts(const Risk& risk, Document& page)
+{
+    const StateRisk& s = risk.principal();
+    const FrequencyEstimate& e = s.estimate;
+    if (!s.determined || !(e.frequency.value > 0))
+        return;
+    page.section("Contributing intensities");
+    HtmlTable table{"lrl", {describe_measure(risk.hazard.measure), "share", "a year"}, {}, s.state + ": " + s.meaning};
+    for (const FrequencyPart& part : e.parts)
+        table.rows.push_back({range_text(part), fmt::format("{:.1f} %", 100 * part.frequency.value / e.frequency.value),
+                              part.frequency.value > 0 ? frequency_text(part.frequency) : "no run reached it"});
+    page.table(table);
+    page.note(fmt::format("From outside of the range of the runs: {:.2g} % below, {:.2g} % above; from outside of the "
+                          "hazard's points: {:.2g} %. Any curve that rises{} gives {} a year.",
+                          100 * e.below, 100 * e.above, 100 * e.beyond_hazard,
+                          s.form == FragilityForm::lognormal ? " and agrees with the fitted one within that range"
+                                                             : " through the shares of the stripes",
+                          bounds_text(e.bounds)));
+}
+
+void add_notes(const Risk& risk, Document& page)
+{
+    if (risk.sequences)
+        add_sequences(*risk.sequences, page);
+    page.section("Notes");
+    std::vector<Html> notes;
+    for (const StateRisk* s : risk.chosen())
+        notes.emplace_back(s->state + ": " + form_text(risk, *s));
+    notes.insert(notes.end(), risk.says.begin(), risk.says.end());
+    page.list(notes);
+}
+
+std::string risk_text(const Risk& risk)
+{
+    Document document(
+        fmt::format("Risk: {}, fragility of {}, hazard {}", risk.title, risk.fragility_file, hazard_text(risk.hazard)));
+    add_answer(risk, document);
+    add_result(risk, document);
+    add_parts(risk, document);
+    add_notes(risk, document);
+    return console_text(document);
 }
 
 } // namespace stylobate

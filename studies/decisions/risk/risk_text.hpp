@@ -13,9 +13,17 @@
 
 namespace stylobate {
 
-/// Lines for a terminal: each limit state with its frequency and probabilities, where the principal one's frequency
-/// comes from, and what a reader must know.
+/// For a terminal: what stands on the page too, without its pictures and the study.
 std::string risk_text(const Risk& risk);
+
+/// Sections of the page and of the text for a terminal: the answer with its grounds, conventions and what the model
+/// leaves out; the table of limit states; which intensities contribute to the principal one; histories, and notes.
+/// @{
+void add_answer(const Risk& risk, Document& page);
+void add_result(const Risk& risk, Document& page);
+void add_parts(const Risk& risk, Document& page);
+void add_notes(const Risk& risk, Document& page);
+/// @}
 
 /// All of it but the fragility's points.
 Json risk_json(const Risk& risk);
@@ -25,12 +33,6 @@ std::string percent_text(double value, const Limits& limits);
 
 /// The probability over years that a frequency gives, with its interval.
 std::string over_text(const RiskNumber& frequency, double years);
-
-/// Heads of the table of limit states: "a year", "in 100 years", ..., "in 100 years, mean hazard", "uncertainty due to
-/// fragility".
-std::vector<std::string> risk_heads(const Risk& risk);
-/// The cells of a limit state below them; a dash where there is nothing to say. @pre it is determined
-std::vector<std::string> risk_cells(const Risk& risk, const StateRisk& state);
 
 /// What every risk estimate assumes.
 inline constexpr char as_new_text[] = "Each earthquake meets the structure as new; years are of a Poisson process.";
@@ -44,26 +46,15 @@ std::string bounds_text(const Limits& bounds);
 /// "3.1e-05 (2.1e-05 to 4.4e-05)".
 std::string frequency_text(const RiskNumber& number);
 
-/// Why a state has its form of the fragility, and what the other one would give.
-std::string form_text(const Risk& risk, const StateRisk& state);
-
-/// "from 0.5 to 0.6", "below 0.5", "above 3".
-std::string range_text(const FrequencyPart& part);
-
 /// "In 100 years the limit state 'a block falls' is reached with a probability of 3.55 % (1.31 to 9.84; 90 % interval),
 /// on average once in 2770 years. By the mean hazard, the mean over its fractiles, the probability is 4.02 %." Of the
 /// principal limit state; where it is not determined, between which bounds.
 std::string risk_answer(const Risk& risk);
 
-/// The same as a heading, with the interval alone: "Probability in 100 years: 1.31 to 9.84 % (90 % interval)"; where
-/// it is not determined, the limit state.
-std::string risk_answer_title(const Risk& risk);
-
 /// Which intensities contribute, what makes the interval wide, and what would narrow it.
 std::string risk_grounds(const Risk& risk);
 
-/// Lines for a terminal: of each variant and limit state the frequency and the probabilities of both structures, and
-/// their change.
+/// For a terminal: what stands on the page too, without its figures.
 std::string risk_text(const RiskChange& change);
 Json risk_json(const RiskChange& change);
 

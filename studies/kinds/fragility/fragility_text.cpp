@@ -66,26 +66,36 @@ std::string percent_interval(const Limits& limits)
 }
 
 /// What a reader must know of a state besides its numbers.
-std::vector<std::string> remarks(const StateFragility& s)
+struct Remark {
+    std::string sentence; ///< which may be true of other states too
+    std::string detail;   ///< of this one; or nothing
+};
+
+std::vector<Remark> remarks(const StateFragility& s)
 {
-    std::vector<std::string> all = s.curve.says;
-    if (s.moving > 0)
-        all.push_back(fmt::format("Counted: {} of {} realizations. The other {} stand and still moved at the end, and "
-                                  "their residuals are not known.",
-                                  s.curve.trials, s.curve.trials + static_cast<double>(s.moving), s.moving));
+    std::vector<Remark> all;
     if (has_curve(s) && s.fit.p_value < fit_significance)
-        all.push_back(s.fit.says);
+        all.push_back({"The lognormal curve does not fit: use the shares of the stripes instead.",
+                       fmt::format("p = {:.2g}", s.fit.p_value)});
     if (s.stripes && s.stripes->p_monotone < 0.05)
-        all.push_back(s.stripes->says);
+        all.push_back(
+            {"Stronger shaking was less damaging somewhere, so that no curve that rises describes the shares.",
+             fmt::format("p = {:.2g}", s.stripes->p_monotone)});
+    for (const std::string& sentence : s.curve.says)
+        all.push_back({sentence, ""});
+    if (s.moving > 0)
+        all.push_back({fmt::format("{} of {} realizations stand and still moved at the end. Their residual "
+                                   "displacements are not known, so they are not counted.",
+                                   s.moving, s.curve.trials + static_cast<double>(s.moving)),
+                       ""});
     if (s.resurrected > 0)
-        all.push_back(fmt::format(
-            "{} of {} structures that reached it were spared by a stronger scaling of the same record ({}).",
-            s.resurrected, s.reached_ever,
-            percent(static_cast<double>(s.resurrected) / static_cast<double>(s.reached_ever))));
+        all.push_back({"Some structures that reached the limit state did not reach it under a stronger scaling of the "
+                       "same motion.",
+                       fmt::format("{} of {}", s.resurrected, s.reached_ever)});
     return all;
 }
 
-/// Names of limit states, and a remark of each in brackets; "" where there is none.
+/// Names of limit states, each with a remark in brackets.
 using Concerned = std::vector<std::pair<std::string, std::string>>;
 
 Html concerned_text(const Concerned& states, std::size_t all)
@@ -102,45 +112,23 @@ Html concerned_text(const Concerned& states, std::size_t all)
     return text;
 }
 
-/// What a reader of the page must know besides the numbers: each sentence once, with the limit states that it concerns.
+/// Each remark once, with the limit states that it concerns.
 std::vector<Html> limits_of_curves(const Fragility& f)
 {
-    Concerned unfit, falling, spared;
-    std::vector<std::pair<std::string, Concerned>> alike;
-    const auto say = [&](const StateFragility& s, const std::string& sentence) {
-        auto found = std::ranges::find(alike, sentence, &std::pair<std::string, Concerned>::first);
-        if (found == alike.end())
-            found = alike.insert(alike.end(), {sentence, {}});
-        found->second.emplace_back(s.state.name, "");
-    };
-    for (const StateFragility& s : f.states) {
-        if (has_curve(s) && s.fit.p_value < fit_significance)
-            unfit.emplace_back(s.state.name, fmt::format("p = {:.2g}", s.fit.p_value));
-        if (s.stripes && s.stripes->p_monotone < 0.05)
-            falling.emplace_back(s.state.name, fmt::format("p = {:.2g}", s.stripes->p_monotone));
-        if (s.resurrected > 0)
-            spared.emplace_back(s.state.name, fmt::format("{} of {}", s.resurrected, s.reached_ever));
-        for (const std::string& sentence : s.curve.says)
-            say(s, sentence);
-        if (s.moving > 0)
-            say(s, fmt::format("{} of {} realizations stand and still moved at the end. Their residual displacements "
-                               "are not known, so they are not counted.",
-                               s.moving, s.curve.trials + static_cast<double>(s.moving)));
-    }
+    std::vector<std::pair<std::string, Concerned>> said;
+    for (const StateFragility& s : f.states)
+        for (const Remark& remark : remarks(s)) {
+            auto found = std::ranges::find(said, remark.sentence, &std::pair<std::string, Concerned>::first);
+            if (found == said.end())
+                found = said.insert(said.end(), {remark.sentence, {}});
+            found->second.emplace_back(s.state.name, remark.detail);
+        }
     std::vector<Html> items;
-    const auto item = [&](const std::string& sentence, const Concerned& states) {
-        if (states.empty())
-            return;
-        Html text = sentence + " This concerns ";
-        text += concerned_text(states, f.states.size());
-        items.push_back(text += ".");
-    };
-    item("The lognormal curve does not fit: use the shares of the stripes instead.", unfit);
-    item("Stronger shaking was less damaging somewhere, so that no curve that rises describes the shares.", falling);
-    for (const auto& [sentence, states] : alike)
-        item(sentence, states);
-    item("Some structures that reached the limit state did not reach it under a stronger scaling of the same motion.",
-         spared);
+    for (const auto& [sentence, states] : said) {
+        items.emplace_back(sentence + " This concerns ");
+        items.back() += concerned_text(states, f.states.size());
+        items.back() += ".";
+    }
     return items;
 }
 
@@ -192,40 +180,85 @@ std::string design_text(const Fragility& f)
                        counted(f.structures, "structure"));
 }
 
-std::string fragility_text(const Fragility& f)
+namespace {
+
+HtmlTable states_table(const Fragility& f)
 {
-    std::string text = fmt::format("  {}; intensity: {}; {}\n", design_text(f), describe_measure(f.measure),
-                                   f.different < least_records ? "no intervals, as the motions are too few"
-                                                               : "in brackets: 95 % intervals, clustered by motion");
+    const std::string unit = page_unit(f.measure);
+    HtmlTable table{"nrrrrrl",
+                    {"name", "reached", unit.empty() ? "median" : "median [" + unit + "]", "95 %", "dispersion", "95 %",
+                     "limit state"},
+                    {},
+                    ""};
     for (const StateFragility& s : f.states) {
-        text += fmt::format("  {:<16} {:>6} of {}", s.state.name, s.curve.reached, s.curve.trials);
+        std::vector<Html> row = {s.state.name, fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
         if (has_curve(s))
-            text += fmt::format("; median {} ({}), dispersion {} ({})", number(s.curve.median.value),
-                                interval(s.curve.median.records), number(s.curve.dispersion.value),
-                                interval(s.curve.dispersion.records));
-        else if (const auto median = median_text(s.curve.median.records))
-            text += "; no curve, median " + *median;
-        text += "\n";
-        for (const std::string& remark : remarks(s))
-            text += fmt::format("      {}\n", remark);
-        if (s.state.kind == DamageState::Kind::collapse && s.shares)
-            text += fmt::format("      scatter at a given intensity: {}\n", share_text(*s.shares));
+            row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
+                                   number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
+        else
+            row.insert(row.end(), {"no curve", median_text(s.curve.median.records).value_or(""), "", ""});
+        row.emplace_back(s.state.describe);
+        table.rows.push_back(std::move(row));
     }
+    return table;
+}
+
+/// Where the scatter of the collapse comes from, and which measure has the least.
+void scatter_facts(const Fragility& f, Document& page)
+{
+    std::vector<std::pair<std::string, Html>> facts;
+    for (const StateFragility& s : f.states)
+        if (s.state.kind == DamageState::Kind::collapse && s.shares)
+            facts.emplace_back("Scatter of " + s.state.name + " at a given intensity", share_text(*s.shares));
     if (!f.measures.empty() && std::isfinite(f.measures.front().dispersion)) {
         const RankedMeasure& best = f.measures.front();
-        text += fmt::format("  best intensity measure for the collapse: {}; dispersion {} ({})\n",
-                            describe_measure(best.name), number(best.dispersion), interval(best.dispersion_limits));
+        facts.emplace_back("Best intensity measure for the collapse",
+                           fmt::format("{}, dispersion {} ({})", describe_measure(best.name), number(best.dispersion),
+                                       interval(best.dispersion_limits)));
     }
-    for (const SequenceShare& s : f.sequence)
-        text += fmt::format("  fallen by the end of shaking {}: {} of all stripes; expected for undamaged structures: "
-                            "{}; difference {}\n",
-                            s.shaking, percent(s.fallen), percent(s.fresh), percent_interval(s.beyond));
+    if (!facts.empty())
+        page.facts(facts);
+}
+
+/// What the console shows, and the first part of the page.
+void add_fragility(const Fragility& f, Document& page)
+{
+    page.paragraph(fmt::format("{}. Intensity: {}. {}", design_text(f), describe_measure(f.measure),
+                               f.different < least_records ? "There are no intervals, as the motions are too few."
+                                                           : "Intervals (95 %) are clustered by motion."));
     for (const std::string& line : f.says)
-        text += "  " + line + "\n";
-    return text;
+        page.box("warn", "Note", line);
+    page.table(states_table(f));
+    scatter_facts(f, page);
+    if (const std::vector<Html> items = limits_of_curves(f); !items.empty()) {
+        page.heading("Limits of the curves");
+        page.list(items);
+    }
+    if (f.sequence.empty())
+        return;
+    page.heading("Sequences of shakings");
+    HtmlTable table{"rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
+    for (const SequenceShare& s : f.sequence)
+        table.rows.push_back(
+            {fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh), percent_interval(s.beyond)});
+    page.table(table);
+}
+
+} // namespace
+
+std::string fragility_text(const Fragility& f)
+{
+    Document page;
+    add_fragility(f, page);
+    return console_text(page);
 }
 
 namespace {
+
+Json with_limits(const char* name, double value, const Limits& limits)
+{
+    return Json::object().member(name, value).member("lower", limits.lower).member("upper", limits.upper);
+}
 
 Json state_json(const StateFragility& s)
 {
@@ -234,50 +267,39 @@ Json state_json(const StateFragility& s)
         .member("limit_state", s.state.describe)
         .member("trials", s.curve.trials)
         .member("reached", s.curve.reached)
-        .member("curve", has_curve(s));
+        .member("curve", has_curve(s))
+        .member("median", limits_json(s.curve.median)); // without a curve, of any that does not fall
     if (has_curve(s))
-        state.member("median", limits_json(s.curve.median))
-            .member("dispersion", limits_json(s.curve.dispersion))
-            .member("lack_of_fit_p", s.fit.p_value);
-    else // of any curve that does not fall
-        state.member("median", limits_json(s.curve.median));
-    if (s.stripes) {
-        state.member("monotone_p", s.stripes->p_monotone);
-        Json stripes = Json::list();
-        for (const StripeShare& share : s.stripes->stripes)
-            stripes.item(Json::object()
-                             .member("intensity", share.intensity)
-                             .member("trials", share.trials)
-                             .member("reached", share.reached)
-                             .member("lower", share.limits.lower)
-                             .member("upper", share.limits.upper));
-        state.member("stripes", stripes);
-        state.member("resurrected", s.resurrected).member("reached_ever", s.reached_ever);
-    }
+        state.member("dispersion", limits_json(s.curve.dispersion)).member("lack_of_fit_p", s.fit.p_value);
+    if (s.stripes)
+        state.member("monotone_p", s.stripes->p_monotone)
+            .member("stripes", json_list(s.stripes->stripes,
+                                         [](const StripeShare& share) {
+                                             return Json::object()
+                                                 .member("intensity", share.intensity)
+                                                 .member("trials", share.trials)
+                                                 .member("reached", share.reached)
+                                                 .member("lower", share.limits.lower)
+                                                 .member("upper", share.limits.upper);
+                                         }))
+            .member("resurrected", s.resurrected)
+            .member("reached_ever", s.reached_ever);
     if (s.shares) {
         Json shares = Json::object();
         for (std::size_t l = 0; l < dispersion_levels; ++l)
             if (const DispersionShare& share = s.shares->levels[l]; share.known)
                 shares.member(to_string(static_cast<DispersionLevel>(l)),
-                              Json::object()
-                                  .member("share", share.share)
-                                  .member("lower", share.share_limits.lower)
-                                  .member("upper", share.share_limits.upper));
+                              with_limits("share", share.share, share.share_limits));
         state.member("scatter", shares);
     }
-    return state.member("says", Json::list(remarks(s)));
+    return state.member("says", json_list(remarks(s), [](const Remark& remark) {
+                            return remark.detail.empty() ? remark.sentence
+                                                         : remark.sentence + " (" + remark.detail + ")";
+                        }));
 }
 
 Json measure_json(const RankedMeasure& m)
 {
-    Json features = Json::list();
-    for (const Sufficiency& feature : m.sufficiency)
-        features.item(Json::object()
-                          .member("feature", feature.feature)
-                          .member("coefficient", feature.coefficient)
-                          .member("lower", feature.limits.lower)
-                          .member("upper", feature.limits.upper)
-                          .member("p", feature.p_value));
     return Json::object()
         .member("measure", m.name)
         .member("dispersion", m.dispersion)
@@ -287,96 +309,51 @@ Json measure_json(const RankedMeasure& m)
         .member("behind_lower_nats", m.behind.lower)
         .member("behind_upper_nats", m.behind.upper)
         .member("sufficient", m.sufficient)
-        .member("features", features);
+        .member("features", json_list(m.sufficiency, [](const Sufficiency& feature) {
+                    return with_limits("coefficient", feature.coefficient, feature.limits)
+                        .member("feature", feature.feature)
+                        .member("p", feature.p_value);
+                }));
 }
 
 } // namespace
 
 Json fragility_json(const Fragility& f)
 {
-    Json states = Json::list(), measures = Json::list();
-    for (const StateFragility& s : f.states)
-        states.item(state_json(s));
-    for (const RankedMeasure& m : f.measures)
-        measures.item(measure_json(m));
-    Json sequence = Json::list();
-    for (const SequenceShare& s : f.sequence)
-        sequence.item(Json::object()
-                          .member("shaking", s.shaking)
-                          .member("fallen", s.fallen)
-                          .member("as_new", s.fresh)
-                          .member("difference_lower", s.beyond.lower)
-                          .member("difference_upper", s.beyond.upper));
     return Json::object()
         .member("measure", f.measure)
         .member("motions", f.motions)
         .member("different_motions", f.different)
         .member("structures", f.structures)
-        .member("states", states)
-        .member("measures", measures)
-        .member("sequence", sequence)
+        .member("states", json_list(f.states, state_json))
+        .member("measures", json_list(f.measures, measure_json))
+        .member("sequence", json_list(f.sequence,
+                                      [](const SequenceShare& s) {
+                                          return Json::object()
+                                              .member("shaking", s.shaking)
+                                              .member("fallen", s.fallen)
+                                              .member("as_new", s.fresh)
+                                              .member("difference_lower", s.beyond.lower)
+                                              .member("difference_upper", s.beyond.upper);
+                                      }))
         .member("says", Json::list(f.says));
 }
-
-namespace {
-
-void sequence_section(const Fragility& f, Document& page)
-{
-    if (!f.sequence.empty()) {
-        page.heading("Sequences of shakings");
-        HtmlTable table_of{
-            "rrrr", {"shaking", "fallen by its end", "expected if undamaged", "difference, 95 %"}, {}, ""};
-        for (const SequenceShare& s : f.sequence)
-            table_of.rows.push_back(
-                {fmt::format("{}", s.shaking), percent(s.fallen), percent(s.fresh), percent_interval(s.beyond)});
-        page.table(table_of);
-        page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
-                  "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
-    }
-}
-
-} // namespace
 
 void fragility_section(const Fragility& f, Document& page)
 {
     page.section("Fragility");
-    page.paragraph(fmt::format(
-        "{}. Intensity: {}. Each curve is a lognormal fit by maximum likelihood. {}", design_text(f),
-        describe_measure(f.measure),
-        f.different < least_records
-            ? "There are no intervals, as the motions are too few."
-            : "Intervals (95 %) are clustered by motion: runs of one motion are not independent, and intervals that "
-              "assume independence would be too narrow."));
-    for (const std::string& line : f.says)
-        page.box("warn", "Note", line);
     if (!f.states.empty())
         page.figure(figure_svg(fragility_figure(f)),
-                    "The legend switches limit states on and off. Lines with bands: lognormal curves with their 95 % "
-                    "bands. Points with bars: shares of the stripes with their intervals. Where the lognormal curve "
-                    "does not fit (p below 0.05), and where there is none, a line through the points is the best curve "
-                    "that does not decrease.");
-    const std::string unit = page_unit(f.measure);
-    HtmlTable table{"lnrrrrr",
-                    {"limit state", "name", "reached", unit.empty() ? "median" : "median [" + unit + "]", "95 %",
-                     "dispersion", "95 %"},
-                    {},
-                    ""};
-    for (const StateFragility& s : f.states) {
-        std::vector<Html> row = {s.state.describe, code(s.state.name),
-                                 fmt::format("{} of {}", s.curve.reached, s.curve.trials)};
-        if (has_curve(s))
-            row.insert(row.end(), {number(s.curve.median.value), interval(s.curve.median.records),
-                                   number(s.curve.dispersion.value), interval(s.curve.dispersion.records)});
-        else
-            row.insert(row.end(), {"no curve", median_text(s.curve.median.records).value_or(""), "", ""});
-        table.rows.push_back(std::move(row));
-    }
-    page.table(table);
-    if (const std::vector<Html> items = limits_of_curves(f); !items.empty()) {
-        page.heading("Limits of the curves");
-        page.list(items);
-    }
-    sequence_section(f, page);
+                    "The legend switches limit states on and off. Lines with bands: lognormal curves by maximum "
+                    "likelihood with their 95 % bands. Points with bars: shares of the stripes with their intervals. "
+                    "Where the lognormal curve does not fit (p below 0.05), and where there is none, a line through "
+                    "the points is the best curve that does not decrease.");
+    add_fragility(f, page);
+    if (!f.sequence.empty())
+        page.note("Means of the stripes. Expected if undamaged: 1 - (1 - p)^k with the share p of the first shaking. "
+                  "The difference is the combined effect of accumulated damage and of the selection of the survivors.");
+    if (f.different >= least_records)
+        page.note("Runs of one motion are not independent: intervals that assume independence would be too narrow.");
     page.heading("Variance components");
     HtmlTable shares{"lrrrr", {"limit state", "motion", "imperfections", "contacts", "chaos"}, {}, ""};
     for (const StateFragility& s : f.states)

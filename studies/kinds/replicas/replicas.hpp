@@ -13,7 +13,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -77,9 +76,8 @@ std::string describe(const Replica& kind);
 std::string replicas_text(const Replicas& replicas);
 Json replicas_json(const Replicas& replicas);
 
-/// The section of a result's page. @param verdicts, growth put these pictures into the page
-void replicas_section(const Replicas& replicas, Document& page, const std::function<void()>& verdicts,
-                      const std::function<void()>& growth);
+/// The section of a result's page.
+void replicas_section(const Replicas& replicas, PageWriter& writer);
 
 /// `replicas.csv`: each cell and kind.
 std::string replicas_csv(const Replicas& replicas);

@@ -97,22 +97,7 @@ std::vector<std::pair<std::string, std::string>> ReplicasKind::files(const std::
 void ReplicasKind::sections(PageWriter& writer) const
 {
     SurfaceKind::sections(writer);
-    replicas_section(
-        replicas_, writer.page,
-        [&] {
-            writer.picture(
-                "Predictability of the verdict: a map for each kind of perturbed replica, with contours of the "
-                "probability of collapse.",
-                [&](const std::filesystem::path& png) {
-                    plot_discordance(replicas_, "Predictability of the verdict", png);
-                });
-        },
-        [&] {
-            writer.picture("Growth of the separation, and the predictability horizon of the motion.",
-                           [&](const std::filesystem::path& png) {
-                               plot_growth(replicas_, "Predictability horizon of the motion", png);
-                           });
-        });
+    replicas_section(replicas_, writer);
 }
 
 } // namespace stylobate

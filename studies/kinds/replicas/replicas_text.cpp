@@ -95,28 +95,44 @@ void add_cell(CsvRow& row, const Replicas& replicas, std::size_t cell)
     row << cell << replicas.frequency_hz[cell / np] << replicas.pga_m_s2[cell % np] << replicas.probability[cell];
 }
 
+/// What the console shows, and the first part of the page.
+void add_replicas(const Replicas& replicas, Document& page)
+{
+    HtmlTable table{"lrrrrrrrrr",
+                    {"replica", "discordant", "share", "95 %", "relative", "95 %", "certain", "probable", "coin flip",
+                     too_few_pairs},
+                    {},
+                    "Discordant pairs over all cells, relative to independent realizations, and cells by class"};
+    for (const KindDiscordance& kind : replicas.kinds)
+        table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.discordant, kind.all.all.trials),
+                              percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
+                              number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
+                              fmt::format("{}", kind.classes[0]), fmt::format("{}", kind.classes[1]),
+                              fmt::format("{}", kind.classes[2]), fmt::format("{}", kind.open)});
+    page.table(table);
+    if (const std::optional<std::string> open = open_text(replicas))
+        page.box("warn", "Note", *open);
+    page.paragraph(
+        fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
+                    lost_text(replicas)));
+    if (replicas.invalid_pairs > 0)
+        page.note(fmt::format("{} pairs with an invalid member are omitted.", replicas.invalid_pairs));
+    if (replicas.growth.empty())
+        return;
+    page.heading("Predictability horizon of the motion");
+    std::vector<Html> items;
+    for (const ReplicaGrowth& each : replicas.growth)
+        items.emplace_back(growth_sentence(replicas, each) + ".");
+    page.list(items);
+}
+
 } // namespace
 
 std::string replicas_text(const Replicas& replicas)
 {
-    std::string text = fmt::format(
-        "  discordant pairs (95 % intervals); relative to independent realizations; cells that are {} / {} / {} / {}\n",
-        sureness_names[0], sureness_names[1], sureness_names[2], too_few_pairs);
-    for (const KindDiscordance& kind : replicas.kinds)
-        text += fmt::format("    {:<18} {:>6} of {}, {} ({}); {} ({}); {} / {} / {} / {}\n", kind.name,
-                            kind.all.all.discordant, kind.all.all.trials, percent(kind.all.all.probability),
-                            percents(kind.all.all.lower, kind.all.all.upper), number(kind.all.ratio),
-                            interval(kind.all.lower, kind.all.upper), kind.classes[0], kind.classes[1], kind.classes[2],
-                            kind.open);
-    if (const std::optional<std::string> open = open_text(replicas))
-        text += fmt::format("  {}\n", *open);
-    text += fmt::format("  smallest displacement at which the verdict is not certain, and number of cells: {}\n",
-                        lost_text(replicas));
-    for (const ReplicaGrowth& growth : replicas.growth)
-        text += fmt::format("  {}\n", growth_sentence(replicas, growth));
-    if (replicas.invalid_pairs > 0)
-        text += fmt::format("  {} pairs with an invalid member are omitted\n", replicas.invalid_pairs);
-    return text;
+    Document page;
+    add_replicas(replicas, page);
+    return console_text(page);
 }
 
 Json replicas_json(const Replicas& replicas)
@@ -167,47 +183,28 @@ Json replicas_json(const Replicas& replicas)
         .member("growth", growths);
 }
 
-void replicas_section(const Replicas& replicas, Document& page, const std::function<void()>& verdicts,
-                      const std::function<void()>& growth)
+void replicas_section(const Replicas& replicas, PageWriter& writer)
 {
+    Document& page = writer.page;
     page.section("Predictability of the verdict");
     page.paragraph(fmt::format(
         "Each of the {} realizations of a cell was repeated as perturbed replicas, which share all draws and differ in "
         "one quantity. A verdict (collapsed or not) is certain where fewer than {:g} % of the pairs are discordant, "
         "and a coin flip where more than {:g} % are (two independent tosses of a fair coin differ in 50 %). A class is "
-        "assigned only where the 95 % interval of that share lies within it.",
+        "assigned only where the 95 % interval of that share lies within it. Relative to independent: the share of "
+        "discordant pairs over that of two independent realizations of the same cell. It is the fraction of the "
+        "verdict's variance in a cell that is due to the quantity in which the replicas differ.",
         replicas.realizations, 100 * certain_below, 100 * coin_flip_above));
-    verdicts();
-    HtmlTable table{"lrrrrrrrrr",
-                    {"replica", "discordant", "share", "95 %", "relative to independent", "95 %", "certain", "probable",
-                     "coin flip", too_few_pairs},
-                    {},
-                    "Pairs over all cells, and cells by class"};
-    for (const KindDiscordance& kind : replicas.kinds)
-        table.rows.push_back({kind.name, fmt::format("{} of {}", kind.all.all.discordant, kind.all.all.trials),
-                              percent(kind.all.all.probability), percents(kind.all.all.lower, kind.all.all.upper),
-                              number(kind.all.ratio), interval(kind.all.lower, kind.all.upper),
-                              fmt::format("{}", kind.classes[0]), fmt::format("{}", kind.classes[1]),
-                              fmt::format("{}", kind.classes[2]), fmt::format("{}", kind.open)});
-    page.table(table);
-    page.note("Relative to independent: the share of discordant pairs over that of two independent realizations of the "
-              "same cell. It is the fraction of the verdict's variance in a cell that is due to the quantity in which "
-              "the replicas differ.");
-    if (const std::optional<std::string> open = open_text(replicas))
-        page.box("warn", "Note", *open);
-    page.paragraph(
-        fmt::format("The smallest displacement at which the verdict is not certain, and the number of cells: {}.",
-                    lost_text(replicas)));
-    if (replicas.invalid_pairs > 0)
-        page.note(fmt::format("{} pairs with an invalid member are omitted.", replicas.invalid_pairs));
+    writer.picture(
+        "Predictability of the verdict: a map for each kind of perturbed replica, with contours of the "
+        "probability of collapse.",
+        [&](const std::filesystem::path& png) { plot_discordance(replicas, "Predictability of the verdict", png); });
+    add_replicas(replicas, page);
     if (replicas.growth.empty())
         return;
-    page.heading("Predictability horizon of the motion");
-    growth();
-    std::vector<Html> items;
-    for (const ReplicaGrowth& each : replicas.growth)
-        items.emplace_back(growth_sentence(replicas, each) + ".");
-    page.list(items);
+    writer.picture(
+        "Growth of the separation, and the predictability horizon of the motion.",
+        [&](const std::filesystem::path& png) { plot_growth(replicas, "Predictability horizon of the motion", png); });
     page.note(fmt::format("{} pairs of each cell were tracked. Growth: slope of the logarithm of the separation over "
                           "time, from the first motion of the original. Horizon: the time until the replicas are {:g} "
                           "% of a drum's width apart (or as many radians); a pair that ends before is counted as one "

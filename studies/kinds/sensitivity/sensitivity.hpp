@@ -59,7 +59,9 @@ private:
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
 };
 
-/// For the end of a run.
+/// A table for each outcome, and the remarks.
+void add_sensitivity(Document& page, const SensitivityTable& table);
+/// The same as a console shows it.
 std::string sensitivity_text(const SensitivityTable& table);
 Json sensitivity_json(const SensitivityTable& table);
 /// Bars of all indices of one outcome, factor by factor, with their intervals; Sobol's cut at -0.5 and 1.6.
@@ -67,8 +69,6 @@ Figure sensitivity_figure(const SensitivityTable& table, std::size_t outcome);
 /// For each outcome, bars of the factors' indices with their intervals. What is not determined has no bar.
 /// @throws InputError if the table is empty, and as `write_picture` does
 void plot_sensitivity(const SensitivityTable& table, const std::string& title, const std::filesystem::path& file);
-/// A figure and a table for each outcome, with its remarks.
-void add_sensitivity(Document& page, const SensitivityTable& table);
 
 /// What must be known of a table: factors without effect, outcomes that do not vary, rows left out.
 std::vector<std::string> sensitivity_remarks(const SensitivityTable& table);

@@ -68,29 +68,6 @@ std::string mean_text(const SensitivityTable& table, std::size_t outcome)
     return text;
 }
 
-/// Characters, of which one may be several bytes.
-std::size_t width_of(const std::string& text)
-{
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-/// Lines of columns that are as wide as what stands in them.
-std::string in_columns(const std::vector<std::vector<std::string>>& rows, const std::string& indent)
-{
-    std::vector<std::size_t> widths(rows.front().size());
-    for (const auto& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], width_of(row[i]));
-    std::string text;
-    for (const auto& row : rows) {
-        text += indent;
-        for (std::size_t i = 0; i < row.size(); ++i)
-            text += row[i] + (i + 1 < row.size() ? std::string(widths[i] - width_of(row[i]) + 2, ' ') : "\n");
-    }
-    return text;
-}
-
 /// Wider intervals of Sobol's indices are reported as too wide.
 constexpr double widest = 0.2;
 
@@ -181,25 +158,31 @@ std::vector<std::string> sensitivity_remarks(const SensitivityTable& table)
     return remarks;
 }
 
-std::string sensitivity_text(const SensitivityTable& table)
+void add_sensitivity(Document& page, const SensitivityTable& table)
 {
-    std::string text = fmt::format("  {}; in brackets: {}\n", design_text(table), describe_interval(table.interval));
-    const std::size_t n = table.factors.size();
+    page.note(fmt::format("{}; in brackets: {}.", design_text(table), describe_interval(table.interval)));
     for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
-        text += fmt::format("  {}: {}\n", spoken(table.outcomes[o]), mean_text(table, o));
-        std::vector<std::vector<std::string>> rows = {{""}};
+        HtmlTable of{"l" + std::string(table.indices.size(), 'r'), {"factor"}, {}, ""};
+        of.caption = fmt::format("{} ({}): {}", spoken(table.outcomes[o]), table.meanings[o], mean_text(table, o));
         for (const SensitivityTable::Index& index : table.indices)
-            rows.front().push_back(heading(index.name));
-        for (std::size_t k = 0; k < n; ++k) {
-            rows.push_back({spoken(table.factors[k])});
+            of.head.emplace_back(heading(index.name));
+        for (std::size_t k = 0; k < table.factors.size(); ++k) {
+            std::vector<Html> row = {spoken(table.factors[k])};
             for (const SensitivityTable::Index& index : table.indices)
-                rows.back().push_back(index_text(table, index, o, k));
+                row.emplace_back(index_text(table, index, o, k));
+            of.rows.push_back(std::move(row));
         }
-        text += in_columns(rows, "    ");
+        page.table(of);
     }
     for (const std::string& remark : sensitivity_remarks(table))
-        text += "  " + remark + '\n';
-    return text;
+        page.note(remark);
+}
+
+std::string sensitivity_text(const SensitivityTable& table)
+{
+    Document page;
+    add_sensitivity(page, table);
+    return console_text(page);
 }
 
 Json sensitivity_json(const SensitivityTable& table)
@@ -272,31 +255,6 @@ void plot_sensitivity(const SensitivityTable& table, const std::string& title, c
                   file);
 }
 
-void add_sensitivity(Document& page, const SensitivityTable& table)
-{
-    page.paragraph(explanation(table));
-    const std::size_t n = table.factors.size();
-    for (std::size_t o = 0; o < table.outcomes.size(); ++o)
-        page.figure(figure_svg(sensitivity_figure(table, o), 220),
-                    fmt::format("Indices of {}, with their intervals.", spoken(table.outcomes[o])));
-    for (std::size_t o = 0; o < table.outcomes.size(); ++o) {
-        HtmlTable of{"l" + std::string(table.indices.size(), 'r'), {"factor"}, {}, ""};
-        of.caption = fmt::format("{} ({}): {}", spoken(table.outcomes[o]), table.meanings[o], mean_text(table, o));
-        for (const SensitivityTable::Index& index : table.indices)
-            of.head.emplace_back(heading(index.name));
-        for (std::size_t k = 0; k < n; ++k) {
-            std::vector<Html> row = {spoken(table.factors[k])};
-            for (const SensitivityTable::Index& index : table.indices)
-                row.emplace_back(index_text(table, index, o, k));
-            of.rows.push_back(std::move(row));
-        }
-        page.table(of);
-    }
-    for (const std::string& remark : sensitivity_remarks(table))
-        page.note(remark);
-    page.note(fmt::format("{}; in brackets: {}.", design_text(table), describe_interval(table.interval)));
-}
-
 SensitivityKind::SensitivityKind(const Study& study, const ResultHeader& header)
     : Kind(study, header), outcomes_(study, header.input_names)
 {
@@ -358,6 +316,10 @@ std::optional<Answer> SensitivityKind::answer() const
 void SensitivityKind::sections(PageWriter& writer) const
 {
     writer.page.section("Sensitivity to the factors");
+    writer.page.paragraph(explanation(table_));
+    for (std::size_t o = 0; o < table_.outcomes.size(); ++o)
+        writer.page.figure(figure_svg(sensitivity_figure(table_, o), 220),
+                           fmt::format("Indices of {}, with their intervals.", spoken(table_.outcomes[o])));
     add_sensitivity(writer.page, table_);
 }
 

@@ -190,37 +190,37 @@ CombinedPast combined_past(const std::vector<StructurePast>& structures)
 
 std::string combined_text(const CombinedPast& c)
 {
-    std::string text = fmt::format("{} structures of one site: under {} of {} motions a structure of each agrees\n",
-                                   c.files.size(), c.agree, c.motions);
+    Document page(fmt::format("{} structures of one site: under {} of {} motions a structure of each agrees",
+                              c.files.size(), c.agree, c.motions));
+    std::vector<std::string> lines;
     for (std::size_t k = 0; k < c.files.size(); ++k)
-        text += fmt::format("  {}, 1 event: {}\n", c.files[k], exclusion_words(c.alone[k], c.prior, c.level, c.axes));
-    for (std::size_t e = 0; e < c.together.by_events.size(); ++e)
-        text += fmt::format("  together, {}: {}\n", e == 0 ? "1 event" : fmt::format("{} equal events", e + 1),
-                            exclusion_words(c.together.by_events[e], c.prior, c.level, c.axes));
-    text += "  " + threshold_words(c.together.by_events.front().rule, c.level) + "\n";
-    text += posterior_words(c.together.posterior, c.axes, c.level);
-    std::vector<std::string> lines = coverage_words(c.coverage, c.axes);
+        lines.push_back(
+            fmt::format("{}, 1 event: {}", c.files[k], exclusion_words(c.alone[k], c.prior, c.level, c.axes)));
+    for (const std::string& line : exclusions_words(c.together.by_events, c.prior, c.level, c.axes))
+        lines.push_back("together, " + line);
+    lines.push_back(threshold_words(c.together.by_events.front().rule, c.level));
+    for (const std::string& line : posterior_words(c.together.posterior, c.axes, c.level))
+        lines.push_back(line);
+    for (const std::string& line : coverage_words(c.coverage, c.axes))
+        lines.push_back("simulated sites: " + line);
     if (c.sites)
         for (const std::string& line : monument_words(*c.sites, c.level, c.axes.events > 1))
-            lines.push_back(line);
-    for (const std::string& line : lines)
-        text += "  simulated sites: " + line + "\n";
-    return text + left_out_text(c.dimensions) + "\n";
+            lines.push_back("simulated sites: " + line);
+    page.list({lines.begin(), lines.end()});
+    return console_text(page) + left_out_text(c.dimensions) + "\n";
 }
 
 Json combined_json(const CombinedPast& c)
 {
-    Json alone = Json::list(), together = Json::list();
+    Json alone = Json::list();
     for (std::size_t k = 0; k < c.files.size(); ++k)
         alone.item(Json::object().member("file", c.files[k]).member("exclusion", exclusion_json(c.alone[k])));
-    for (const Exclusion& e : c.together.by_events)
-        together.item(exclusion_json(e));
     Json json = Json::object();
     json.member("prior", c.prior)
         .member("left_out", left_out_text(c.dimensions))
         .member("level", c.level)
         .member("structures", alone)
-        .member("together_by_events", together)
+        .member("together_by_events", json_list(c.together.by_events, exclusion_json))
         .member("posterior", posterior_json(c.together.posterior, c.axes));
     if (!c.coverage.empty())
         json.member("exclusion_coverage", coverage_json(c.coverage, c.axes));

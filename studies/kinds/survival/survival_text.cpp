@@ -1,5 +1,6 @@
 #include "studies/kinds/survival/survival_text.hpp"
 
+#include "io/files/suggest.hpp"
 #include "studies/experiment/limit_state.hpp"
 #include "studies/report/html_figure.hpp"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <sstream>
 
 namespace stylobate {
 
@@ -93,6 +93,16 @@ std::string exclusion_words(const Exclusion& e, const std::string& prior, double
     return text;
 }
 
+std::vector<std::string> exclusions_words(const std::vector<Exclusion>& by_events, const std::string& prior,
+                                          double level, const PastAxes& axes)
+{
+    std::vector<std::string> lines;
+    for (std::size_t e = 0; e < by_events.size(); ++e)
+        lines.push_back(fmt::format("{}: {}", e == 0 ? "1 event" : fmt::format("{} equal events", e + 1),
+                                    exclusion_words(by_events[e], prior, level, axes)));
+    return lines;
+}
+
 std::string threshold_words(const ExclusionRule& rule, double level)
 {
     if (rule.absolute)
@@ -139,28 +149,29 @@ std::string alike_words(std::uint64_t built, std::uint64_t standing)
                        standing > 1 ? ", this one among them" : "");
 }
 
-std::string posterior_words(const PastPosterior& p, const PastAxes& axes, double level)
+std::vector<std::string> posterior_words(const PastPosterior& p, const PastAxes& axes, double level)
 {
     const std::size_t ni = axes.intensity.size(), cell = p.best % axes.cells_of_one();
-    std::string text = fmt::format(
-        "  most probable past: {} event{} of {:.3g} Hz, {:.3g} m/s2: probability of this cell {}\n"
-        "  PGA of the past: median {} m/s2; {:g} % credible interval: {} to {}\n",
-        p.best / axes.cells_of_one() + 1, p.best < axes.cells_of_one() ? "" : "s", axes.frequency_hz[cell / ni],
-        axes.intensity[cell % ni], percent_words(p.best_probability), estimate_words(p.intensity_median), 100 * level,
-        estimate_words(p.intensity_lower), estimate_words(p.intensity_upper));
-    text +=
-        fmt::format("  evidence (mean likelihood under the prior; its ratio compares studies of other motions): {}\n",
-                    estimate_words(p.evidence));
-    if (p.frequency.size() > 1) {
-        text += "  probability of the frequencies:";
-        for (std::size_t f = 0; f < p.frequency.size(); ++f)
-            text +=
-                fmt::format("{} {:.3g} Hz {}", f == 0 ? "" : ",", axes.frequency_hz[f], percent_words(p.frequency[f]));
-        text += "\n";
-    }
-    for (std::size_t e = 0; e < p.events.size() && p.events.size() > 1; ++e)
-        text += fmt::format("  probability of {} event{}: {}\n", e + 1, e == 0 ? "" : "s", percent_words(p.events[e]));
-    return text;
+    std::vector<std::string> lines = {
+        fmt::format("most probable past: {} of {:.3g} Hz, {:.3g} m/s2: probability of this cell {}",
+                    counted(p.best / axes.cells_of_one() + 1, "event"), axes.frequency_hz[cell / ni],
+                    axes.intensity[cell % ni], percent_words(p.best_probability)),
+        fmt::format("PGA of the past: median {} m/s2; {:g} % credible interval: {} to {}",
+                    estimate_words(p.intensity_median), 100 * level, estimate_words(p.intensity_lower),
+                    estimate_words(p.intensity_upper)),
+        fmt::format("evidence (mean likelihood under the prior; its ratio compares studies of other motions): {}",
+                    estimate_words(p.evidence))};
+    const auto shares = [&](const char* what, const std::vector<PastEstimate>& of, const auto& name) {
+        std::string line;
+        for (std::size_t i = 0; i < of.size(); ++i)
+            line += fmt::format("{}{} {}", i == 0 ? "" : ", ", name(i), percent_words(of[i]));
+        if (of.size() > 1)
+            lines.push_back(what + line);
+    };
+    shares("probability of the frequencies: ", p.frequency,
+           [&](std::size_t i) { return fmt::format("{:.3g} Hz", axes.frequency_hz[i]); });
+    shares("probability of the number of events: ", p.events, [](std::size_t i) { return fmt::format("{}:", i + 1); });
+    return lines;
 }
 
 std::vector<std::string> monument_words(const MonumentTest& test, double level, bool events)
@@ -242,11 +253,6 @@ std::string agreeing_words(const Survival& s)
                                           s.stand, s.valid);
 }
 
-std::string events_word(std::size_t events)
-{
-    return events == 1 ? "1 event" : fmt::format("{} equal events", events);
-}
-
 /// The PGA that one event of a frequency excludes.
 std::string frequency_words(const Survival& s, std::size_t f)
 {
@@ -274,37 +280,6 @@ Json nearest_json(const Survival& s)
 }
 
 } // namespace
-
-std::string survival_text(const Survival& s)
-{
-    if (s.axes.intensity.empty())
-        return {};
-    std::string text = "  " + agreeing_words(s) + "\n";
-    if (!s.judged()) {
-        text += "  the past " + not_judged_words(s) + "\n";
-    } else {
-        for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
-            text += fmt::format("  {}: {}\n", events_word(e + 1),
-                                exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes));
-        text += "  " + threshold_words(s.past->by_events.front().rule, s.level) + "\n";
-        for (std::size_t f = 0; f < s.by_frequency.size(); ++f)
-            text += fmt::format("    1 event at {:.3g} Hz: {}\n", s.axes.frequency_hz[f], frequency_words(s, f));
-        text += posterior_words(s.past->posterior, s.axes, s.level);
-        if (s.alike)
-            text += fmt::format("  {}, 1 event: {}\n{}", alike_words(s.built, s.standing_alike),
-                                exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes),
-                                posterior_words(s.alike->posterior, s.axes, s.level));
-    }
-    for (const std::string& line : coverage_words(s.coverage, s.axes))
-        text += "  simulated monuments: " + line + "\n";
-    if (s.monuments)
-        for (const std::string& line : monument_words(*s.monuments, s.level, s.axes.events > 1))
-            text += "  simulated monuments: " + line + "\n";
-    if (s.rates)
-        for (const std::string& line : rates_words(s))
-            text += "  " + line + "\n";
-    return text;
-}
 
 Json exclusion_json(const Exclusion& e)
 {
@@ -396,24 +371,15 @@ Json survival_json(const Survival& s)
     if (!s.judged()) {
         json.member("why_not_judged", not_judged_words(s));
     } else {
-        Json events = Json::list(), frequencies = Json::list();
-        for (const Exclusion& e : s.past->by_events)
-            events.item(exclusion_json(e));
-        for (const Exclusion& e : s.by_frequency)
-            frequencies.item(exclusion_json(e));
-        json.member("exclusion_by_events", events)
-            .member("exclusion_by_frequency", frequencies)
+        json.member("exclusion_by_events", json_list(s.past->by_events, exclusion_json))
+            .member("exclusion_by_frequency", json_list(s.by_frequency, exclusion_json))
             .member("posterior", posterior_json(s.past->posterior, s.axes));
-        if (s.alike) {
-            Json alike = Json::list();
-            for (const Exclusion& e : s.alike->by_events)
-                alike.item(exclusion_json(e));
+        if (s.alike)
             json.member("built_alike", Json::object()
                                            .member("built", s.built)
                                            .member("standing", s.standing_alike)
-                                           .member("exclusion_by_events", alike)
+                                           .member("exclusion_by_events", json_list(s.alike->by_events, exclusion_json))
                                            .member("posterior", posterior_json(s.alike->posterior, s.axes)));
-        }
         if (!s.coverage.empty())
             json.member("exclusion_coverage", coverage_json(s.coverage, s.axes));
     }
@@ -443,13 +409,11 @@ std::string sentence(std::string text)
     return text + ".";
 }
 
-/// The lines of `posterior_words`, each a sentence.
-std::vector<Html> posterior_items(const PastPosterior& posterior, const PastAxes& axes, double level)
+std::vector<Html> sentences(const std::vector<std::string>& lines)
 {
     std::vector<Html> items;
-    std::istringstream lines(posterior_words(posterior, axes, level));
-    for (std::string line; std::getline(lines, line);)
-        items.emplace_back(sentence(line.substr(line.find_first_not_of(' '))));
+    for (const std::string& line : lines)
+        items.emplace_back(sentence(line));
     return items;
 }
 
@@ -481,17 +445,14 @@ void survival_section(const Survival& s, PageWriter& writer)
         page.box("warn", "Not judged", "The past " + not_judged_words(s) + ".");
     } else {
         page.heading("Excluded shaking");
-        std::vector<Html> items;
-        for (std::size_t e = 0; e < s.past->by_events.size(); ++e)
-            items.emplace_back(
-                sentence(events_word(e + 1) + ": " + exclusion_words(s.past->by_events[e], s.prior, s.level, s.axes)));
+        std::vector<std::string> lines = exclusions_words(s.past->by_events, s.prior, s.level, s.axes);
         if (s.alike)
-            items.emplace_back(alike_words(s.built, s.standing_alike) + ", 1 event: " +
-                               exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes) + ".");
-        items.emplace_back(sentence(threshold_words(s.past->by_events.front().rule, s.level)));
+            lines.push_back(alike_words(s.built, s.standing_alike) +
+                            ", 1 event: " + exclusion_words(s.alike->by_events.front(), s.prior, s.level, s.axes));
+        lines.push_back(threshold_words(s.past->by_events.front().rule, s.level));
         for (const std::string& line : coverage_words(s.coverage, s.axes))
-            items.emplace_back("Simulated monuments: " + line + ".");
-        page.list(items);
+            lines.push_back("simulated monuments: " + line);
+        page.list(sentences(lines));
         page.figure(
             figure_svg(exclusion_figure(s)),
             "The likelihood over the PGA, as a part of its largest value; bands: 95 % intervals of the counts. "
@@ -509,27 +470,31 @@ void survival_section(const Survival& s, PageWriter& writer)
         if (!table.rows.empty())
             page.table(table);
         page.heading("The most probable past");
-        page.list(posterior_items(s.past->posterior, s.axes, s.level));
+        page.list(sentences(posterior_words(s.past->posterior, s.axes, s.level)));
         if (s.alike) {
             page.paragraph(sentence(alike_words(s.built, s.standing_alike)));
-            page.list(posterior_items(s.alike->posterior, s.axes, s.level));
+            page.list(sentences(posterior_words(s.alike->posterior, s.axes, s.level)));
         }
     }
     if (s.monuments) {
         page.heading("Test on simulated monuments");
-        std::vector<Html> items;
-        for (const std::string& line : monument_words(*s.monuments, s.level, s.axes.events > 1))
-            items.emplace_back(sentence(line));
-        page.list(items);
+        page.list(sentences(monument_words(*s.monuments, s.level, s.axes.events > 1)));
     }
     if (s.rates) {
         page.heading("The rates of the hazard curve");
-        std::vector<Html> items;
-        for (const std::string& line : rates_words(s))
-            items.emplace_back(sentence(line));
-        page.list(items);
+        page.list(sentences(rates_words(s)));
         page.figure(figure_svg(rates_figure(s)), "Density of the factor on all rates, before and after.");
     }
+}
+
+std::string survival_text(const Survival& s)
+{
+    if (s.axes.intensity.empty())
+        return {};
+    Document page;
+    PageWriter writer{page, [](const std::string&, const auto&) {}};
+    survival_section(s, writer);
+    return console_text(page);
 }
 
 } // namespace stylobate

@@ -14,6 +14,7 @@
 
 namespace stylobate {
 
+/// The section of the page as a console shows it; "" of an incomplete run.
 std::string survival_text(const Survival& survival);
 Json survival_json(const Survival& survival);
 /// The PGA of the past, with its credible interval.
@@ -24,8 +25,10 @@ void survival_section(const Survival& survival, PageWriter& writer);
 std::string not_judged_words(const Survival& survival);
 /// "5.31 (5.1 to 5.52)"; beyond the axis: "none".
 std::string estimate_words(const PastEstimate& estimate);
-/// An exclusion as sentences without the last full stop.
+/// An exclusion as sentences without the last full stop; and those of pasts of 1, 2, ... events, with their numbers.
 std::string exclusion_words(const Exclusion& exclusion, const std::string& prior, double level, const PastAxes& axes);
+std::vector<std::string> exclusions_words(const std::vector<Exclusion>& by_events, const std::string& prior,
+                                          double level, const PastAxes& axes);
 /// Of which likelihood shaking is excluded.
 std::string threshold_words(const ExclusionRule& rule, double level);
 /// How often a true PGA is excluded; none where nothing was calibrated.
@@ -37,8 +40,8 @@ Json monuments_json(const MonumentTest& monuments, double level);
 Json coverage_json(const std::vector<ExclusionCoverage>& coverage, const PastAxes& axes);
 Json exclusion_json(const Exclusion& exclusion);
 Json posterior_json(const PastPosterior& posterior, const PastAxes& axes);
-/// The most probable past, and the credible intervals: lines that are indented.
-std::string posterior_words(const PastPosterior& posterior, const PastAxes& axes, double level);
+/// The most probable past, and the credible intervals.
+std::vector<std::string> posterior_words(const PastPosterior& posterior, const PastAxes& axes, double level);
 /// @param events whether their number is unknown
 std::vector<std::string> monument_words(const MonumentTest& test, double level, bool events);
 /// @pre there are rates

@@ -20,19 +20,6 @@ constexpr std::uint64_t format_version = 4;       // 4: windows in motion
 constexpr std::uint64_t least_format_version = 3; // that is read
 constexpr char parameter_row[] = "parameter";     ///< column of a profile's points
 
-StoredForm stored(const FormCalibration& form)
-{
-    return {word_for(contact_form_names, form.form),
-            form.study.text,
-            form.score,
-            form.nominal_score,
-            form.roughness,
-            form.held_out,
-            form.parameters,
-            form.correlation,
-            form.runs};
-}
-
 Table table_of(const StoredForm& form)
 {
     const std::size_t n = form.parameters.size();
@@ -86,6 +73,24 @@ const StoredForm& StoredCalibration::best() const
     return *std::ranges::find(forms, best_form, &StoredForm::name);
 }
 
+StoredCalibration stored(const Calibration& c)
+{
+    StoredCalibration whole;
+    whole.measured = c.measured;
+    whole.evidence = c.from_outcomes ? "outcomes" : "histories";
+    whole.best_form = word_for(contact_form_names, c.forms[c.best].form);
+    whole.notes = c.notes;
+    whole.parameter_sets = c.parameter_sets;
+    whole.simulations = c.simulations;
+    whole.window_simulations = c.window_simulations;
+    whole.block_steps = c.block_steps;
+    whole.seconds = c.seconds;
+    for (const FormCalibration& form : c.forms)
+        whole.forms.push_back({word_for(contact_form_names, form.form), form.study.text, form.score, form.nominal_score,
+                               form.roughness, form.held_out, form.parameters, form.correlation, form.runs});
+    return whole;
+}
+
 StoredCalibration read_calibration(const std::filesystem::path& file)
 {
     try {
@@ -109,22 +114,13 @@ StoredCalibration read_calibration(const std::filesystem::path& file)
 void write_calibration(const Calibration& calibration, const Study& start, const std::string& code_version,
                        const std::filesystem::path& file)
 {
-    StoredCalibration whole;
-    whole.measured = calibration.measured;
-    whole.evidence = calibration.from_outcomes ? "outcomes" : "histories";
-    whole.best_form = word_for(contact_form_names, calibration.forms[calibration.best].form);
+    StoredCalibration whole = stored(calibration);
     whole.code_version = code_version;
     whole.start_toml = start.text.empty() ? study_text(start) : start.text;
-    whole.notes = calibration.notes;
-    whole.parameter_sets = calibration.parameter_sets;
-    whole.simulations = calibration.simulations;
-    whole.window_simulations = calibration.window_simulations;
-    whole.block_steps = calibration.block_steps;
-    whole.seconds = calibration.seconds;
     Table table("calibration"), forms("forms");
     add_record(table, whole);
-    for (const FormCalibration& form : calibration.forms)
-        forms.add(table_of(stored(form)));
+    for (const StoredForm& form : whole.forms)
+        forms.add(table_of(form));
     table.add(std::move(forms));
     if (calibration.motion) {
         Table motion("motion");

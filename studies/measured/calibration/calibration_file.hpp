@@ -41,6 +41,9 @@ struct StoredCalibration {
     const StoredForm& best() const;
 };
 
+/// All of a calibration but its start study, the version of the program, and the windows in motion.
+StoredCalibration stored(const Calibration& calibration);
+
 /// @throws InputError if the file is none, of another format version, or damaged
 StoredCalibration read_calibration(const std::filesystem::path& file);
 

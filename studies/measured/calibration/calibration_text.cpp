@@ -2,7 +2,6 @@
 
 #include "io/keys/words.hpp"
 #include "studies/measured/calibration/calibration_file.hpp"
-#include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/left_out.hpp"
@@ -19,11 +18,6 @@ namespace stylobate {
 
 namespace {
 
-const char* form_name(ContactForm form)
-{
-    return word_for(contact_form_names, form);
-}
-
 Json parameter_json(const FittedParameter& p)
 {
     Json json =
@@ -38,11 +32,11 @@ Json run_json(const RunScore& run)
     return json_of(run, {{"run", "name"}, "motion_id", "units", "nominal_score", "calibrated_score"});
 }
 
-Json form_json(const FormCalibration& form)
+Json form_json(const StoredForm& form)
 {
     const PairedGain& gain = form.held_out;
     return Json::object()
-        .member("form", form_name(form.form))
+        .member("form", form.name)
         .member("parameters", json_list(form.parameters, parameter_json))
         .member("score", form.score)
         .member("nominal_score", form.nominal_score)
@@ -51,41 +45,7 @@ Json form_json(const FormCalibration& form)
         .member("runs", json_list(form.runs, run_json));
 }
 
-std::string form_text(const FormCalibration& form, bool from_outcomes)
-{
-    std::string text =
-        fmt::format("contact form {}\n  {:<36} {:>11} {:>11}\n", form_name(form.form), "", "start", "calibrated");
-    for (const FittedParameter& p : form.parameters)
-        text += fmt::format("  {:<36} {:>11.4g} {:>11.4g}   {}\n      {}\n", p.key, p.start, p.value, interval_words(p),
-                            p.note);
-    if (form.held_out.groups == 0)
-        return text;
-    std::size_t units = 0;
-    for (const RunScore& run : form.runs)
-        units += run.units;
-    text += fmt::format(
-        "  on held-out motions: score {:+.1f} nats above that of the start study in {} {} ({:+.1f} to {:+.1f}, "
-        "95 %): {}\n",
-        form.held_out.total, units, from_outcomes ? "runs" : "windows", form.held_out.low, form.held_out.high,
-        form.held_out.low > 0    ? "better prediction"
-        : form.held_out.high < 0 ? "worse prediction"
-                                 : "no significant difference");
-    return text;
-}
-
 } // namespace
-
-std::string calibration_text(const Calibration& c)
-{
-    std::string text;
-    for (const FormCalibration& form : c.forms)
-        text += form_text(form, c.from_outcomes);
-    if (c.forms.size() > 1)
-        text += fmt::format("best on held-out motions: {}\n", form_name(c.forms[c.best].form));
-    for (const std::string& note : c.notes)
-        text += fmt::format("note: {}\n", note);
-    return text + left_out_text(2) + "\n"; // the model of every calibration is planar
-}
 
 std::string calibration_cost(const Calibration& c)
 {
@@ -103,27 +63,22 @@ std::string calibration_progress(const std::string& stage, const Progress& p)
 
 Json calibration_json(const Calibration& c)
 {
-    return Json::object()
-        .member("measured", c.measured)
-        .member("evidence", c.from_outcomes ? "outcomes" : "histories")
-        .member("best_form", form_name(c.forms[c.best].form))
-        .member("forms", json_list(c.forms, form_json))
+    const StoredCalibration whole = stored(c);
+    Json json = json_of(whole, {"measured", "evidence", "best_form"});
+    json.member("forms", json_list(whole.forms, form_json))
         .member("notes", Json::list(c.notes))
         .member("left_out", left_out_text(2))
         .member("parameter_sets", c.parameter_sets)
-        .member("restored_sets", c.restored_sets)
-        .member("simulations", c.simulations)
-        .member("window_simulations", c.window_simulations)
-        .member("block_steps", c.block_steps)
-        .member("seconds", c.seconds);
+        .member("restored_sets", c.restored_sets);
+    return add_members(json, whole, {"simulations", "window_simulations", "block_steps", "seconds"});
 }
 
 std::string calibrated_text(const Calibration& calibration, const std::string& measured)
 {
     const FormCalibration& best = calibration.forms[calibration.best];
-    std::string text =
-        fmt::format("# Calibrated with {}, contact form {}, by stylobate {}.\n",
-                    std::filesystem::path(measured).filename().string(), form_name(best.form), code_version());
+    std::string text = fmt::format("# Calibrated with {}, contact form {}, by stylobate {}.\n",
+                                   std::filesystem::path(measured).filename().string(),
+                                   word_for(contact_form_names, best.form), code_version());
     for (const FittedParameter& p : best.parameters)
         text += fmt::format("# {} = {:.5g}, {}{}{}\n", p.key, p.value, interval_words(p), p.note.empty() ? "" : ": ",
                             p.note);
@@ -175,12 +130,82 @@ std::string gain_text(const PairedGain& gain)
     return fmt::format("{:+.1f}{}", gain.total, range);
 }
 
+const char* unit_of_evidence(const StoredCalibration& c)
+{
+    return c.evidence == "outcomes" ? "runs" : "windows";
+}
+
+/// The parameters of a contact form, and which of them replace each other.
+void add_form(const StoredForm& form, Document& page)
+{
+    HtmlTable table{"lrrrrnl",
+                    {"parameter", "start", "calibrated", "95 % interval", "searched", "", ""},
+                    {},
+                    "Contact form " + form.name};
+    for (const FittedParameter& p : form.parameters)
+        table.rows.push_back({code(p.key), parameter_text(p.start), parameter_text(p.value), interval(p),
+                              fmt::format("{:.4g} to {:.4g}", p.from, p.to),
+                              p.determined  ? tag("good", "determined")
+                              : p.effective ? tag("warn", "effective")
+                                            : tag("warn", "not determined"),
+                              p.note});
+    page.table(table);
+    std::vector<std::string> pairs;
+    const std::size_t n = form.parameters.size();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j)
+            if (const double r = form.correlation[i * n + j]; std::abs(r) > strong_correlation)
+                pairs.push_back(fmt::format("{} and {} ({:+.2f})", form.parameters[i].key, form.parameters[j].key, r));
+    if (!pairs.empty())
+        page.note("Strongly correlated and therefore partly interchangeable: " + list_words(pairs) + ".");
+}
+
+/// What the console shows, and the first part of the page.
+void add_calibration(const StoredCalibration& c, Document& page)
+{
+    const StoredForm& best = c.best();
+    const std::size_t all = best.parameters.size();
+    const auto known = static_cast<std::size_t>(std::ranges::count_if(best.parameters, &FittedParameter::determined));
+    const PairedGain& gain = best.held_out;
+    const bool helps = gain.groups > 0 && gain.low > 0, hurts = gain.groups > 0 && gain.high < 0;
+    page.box(hurts                   ? "bad"
+             : helps && known == all ? "good"
+                                     : "warn",
+             fmt::format("Determined: {} of {}", known, all),
+             fmt::format("These data determine {}. {}",
+                         known < all ? fmt::format("{} of {} fitted parameters",
+                                                   known == 0 ? "none" : fmt::format("{}", known), all)
+                         : all == 1  ? "the fitted parameter"
+                                     : fmt::format("all {} fitted parameters", all),
+                         gain.groups == 0 ? "The calibrated study was not tested on held-out motions."
+                                          : fmt::format("On held-out motions, {}.", held_out_words(gain))));
+    for (const StoredForm& form : c.forms)
+        add_form(form, page);
+    HtmlTable table{"lrrrl",
+                    {"form", "score minus that of the start study [nat]", "on held-out motions [nat] (95 %)",
+                     unit_of_evidence(c), ""},
+                    {},
+                    "Gain by each contact form"};
+    for (const StoredForm& form : c.forms) {
+        std::size_t units = 0;
+        for (const RunScore& run : form.runs)
+            units += run.units;
+        table.rows.push_back({form.name, signed_number(form.score - form.nominal_score), gain_text(form.held_out),
+                              fmt::format("{}", units),
+                              &form == &best && c.forms.size() > 1 ? tag("good", "best") : Html()});
+    }
+    page.table(table);
+    if (!c.notes.empty()) {
+        page.heading("Data that could not be used");
+        page.list({c.notes.begin(), c.notes.end()});
+    }
+}
+
 class CalibrationPage {
 public:
     CalibrationPage(const StoredCalibration& calibration, const std::string& file,
                     const std::optional<std::string>& title)
-        : c_(calibration), best_(calibration.best()), unit_(c_.evidence == "outcomes" ? "runs" : "windows"),
-          file_(file),
+        : c_(calibration), best_(calibration.best()), file_(file),
           page_(title.value_or("Calibration: " + name_of(c_.measured)),
                 fmt::format("With the {} of {}. Made by stylobate {}.", c_.evidence, c_.measured, c_.code_version))
     {
@@ -189,99 +214,31 @@ public:
     Document page()
     {
         result();
-        parameters();
-        undetermined();
         profiles();
-        forms();
         runs();
         motion();
-        notes();
         method();
         again();
         return page_;
     }
 
 private:
-    std::size_t determined() const
-    {
-        return static_cast<std::size_t>(std::count_if(best_.parameters.begin(), best_.parameters.end(),
-                                                      [](const FittedParameter& p) { return p.determined; }));
-    }
-
     void result()
     {
         page_.section("Result");
-        const std::size_t known = determined(), all = best_.parameters.size();
-        const PairedGain& gain = best_.held_out;
-        const bool helps = gain.groups > 0 && gain.low > 0, hurts = gain.groups > 0 && gain.high < 0;
-        const char* tone = hurts ? "bad" : helps && known == all ? "good" : "warn";
-        const std::string heading =
-            known == all ? fmt::format("These data determine {}.",
-                                       all == 1 ? "the fitted parameter" : fmt::format("all {} fitted parameters", all))
-            : known == 0 ? std::string("These data determine none of the fitted parameters.")
-                         : fmt::format("These data determine {} of {} fitted parameters.", known, all);
-        page_.box(tone, heading,
-                  gain.groups == 0 ? Html("The calibrated study was not tested on held-out motions.")
-                                   : fmt::format("On held-out motions, {}.", held_out_words(gain)));
-        std::vector<std::pair<std::string, Html>> facts;
-        for (const FittedParameter& p : best_.parameters)
-            if (p.determined)
-                facts.emplace_back(p.key, fmt::format("{} (95 %: {})", parameter_text(p.value), interval(p)));
-        std::vector<std::string> effective, open;
-        for (const FittedParameter& p : best_.parameters)
-            if (!p.determined)
-                (p.effective ? effective : open).push_back(p.key);
-        if (!effective.empty())
-            facts.emplace_back("Effective", list_words(effective));
-        if (!open.empty())
-            facts.emplace_back("Not determined", list_words(open));
-        facts.emplace_back("Contact form", best_.name);
-        facts.emplace_back("Gain on held-out motions", gain_text(gain) + (gain.groups > 0 ? " nats" : ""));
-        page_.facts(facts);
+        add_calibration(c_, page_);
         page_.note("Scores are log likelihoods of the data, in nats: 1 nat more means 2.7 times as likely. The gain on "
                    "held-out motions is the score of each motion with the parameters fitted to the other motions, "
                    "minus its score with the start study.");
-        add_left_out(page_, 2);
-    }
-
-    void parameters()
-    {
-        page_.section("Parameters");
-        HtmlTable table{"lrrrrl", {"parameter", "start", "calibrated", "95 % interval", "searched", ""}, {}, ""};
-        for (const FittedParameter& p : best_.parameters)
-            table.rows.push_back({code(p.key), parameter_text(p.start), parameter_text(p.value), interval(p),
-                                  fmt::format("{:.4g} to {:.4g}", p.from, p.to),
-                                  p.determined  ? tag("good", "determined")
-                                  : p.effective ? tag("warn", "effective")
-                                                : tag("warn", "not determined")});
-        page_.table(table);
-        std::vector<std::string> pairs;
-        const std::size_t n = best_.parameters.size();
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = i + 1; j < n; ++j)
-                if (const double r = best_.correlation[i * n + j]; std::abs(r) > strong_correlation)
-                    pairs.push_back(
-                        fmt::format("{} and {} ({:+.2f})", best_.parameters[i].key, best_.parameters[j].key, r));
-        if (!pairs.empty())
-            page_.note("Strongly correlated and therefore partly interchangeable: " + list_words(pairs) + ".");
-    }
-
-    void undetermined()
-    {
-        page_.section("Parameters that these data do not determine");
-        if (determined() == best_.parameters.size()) {
-            page_.paragraph("All fitted parameters are determined.");
-            return;
-        }
-        HtmlTable table{"lll", {"parameter", "interval", "why"}, {}, ""};
-        for (const FittedParameter& p : best_.parameters)
-            if (!p.determined)
-                table.rows.push_back({code(p.key), interval(p), p.note.empty() ? "–" : p.note});
-        page_.table(table);
         page_.note(
-            "The value of such a parameter is not a measurement. An effective parameter belongs to this model with its "
-            "contact form: its interval is that of the model's value, and an interval that reaches an end of the "
-            "searched range may extend beyond it. A parameter without an interval keeps the value of the study.");
+            "The value of a parameter that is not determined is not a measurement. An effective parameter belongs to "
+            "this model with its contact form: its interval is that of the model's value, and an interval that reaches "
+            "an end of the searched range may extend beyond it. A parameter without an interval keeps the value of the "
+            "study.");
+        page_.note(c_.forms.size() > 1 ? "The best form is the one with the best prediction of held-out motions. If "
+                                         "the intervals overlap widely, these data do not distinguish the forms."
+                                       : "Only this form was fitted; --form all compares them.");
+        add_left_out(page_, 2);
     }
 
     void profiles()
@@ -328,27 +285,11 @@ private:
         }
     }
 
-    void forms()
-    {
-        page_.section("Contact forms");
-        HtmlTable table{
-            "lrrl",
-            {"form", "score minus that of the start study, all runs [nat]", "on held-out motions [nat] (95 %)", ""},
-            {},
-            ""};
-        for (const StoredForm& form : c_.forms)
-            table.rows.push_back({form.name, signed_number(form.score - form.nominal_score), gain_text(form.held_out),
-                                  &form == &best_ && c_.forms.size() > 1 ? tag("good", "best") : Html()});
-        page_.table(table);
-        page_.note(c_.forms.size() > 1 ? "The best form is the one with the best prediction of held-out motions. If "
-                                         "the intervals overlap widely, these data do not distinguish the forms."
-                                       : "Only this form was fitted; --form all compares them.");
-    }
-
     void runs()
     {
         page_.section("Runs");
-        HtmlTable table{"lrrrrr", {"run", "motion", unit_, "start [nat]", "calibrated [nat]", "gain [nat]"}, {}, ""};
+        HtmlTable table{
+            "lrrrrr", {"run", "motion", unit_of_evidence(c_), "start [nat]", "calibrated [nat]", "gain [nat]"}, {}, ""};
         for (std::size_t i = 0; i < std::min(best_.runs.size(), most_runs); ++i) {
             const RunScore& run = best_.runs[i];
             table.rows.push_back({run.run, fmt::format("{}", run.motion_id), fmt::format("{}", run.units),
@@ -372,15 +313,6 @@ private:
             add_motion(page_, *c_.motion);
         else
             page_.note(no_motion_words(file_, c_.code_version));
-    }
-
-    void notes()
-    {
-        page_.section("Data that could not be used");
-        if (c_.notes.empty())
-            page_.paragraph("All data could be used.");
-        else
-            page_.list({c_.notes.begin(), c_.notes.end()});
     }
 
     void method()
@@ -415,7 +347,7 @@ private:
 
     const StoredCalibration& c_;
     const StoredForm& best_;
-    const std::string unit_, file_;
+    const std::string file_;
     Document page_;
 };
 
@@ -425,6 +357,13 @@ Document calibration_page(const StoredCalibration& calibration, const std::strin
                           const std::optional<std::string>& title)
 {
     return CalibrationPage(calibration, std::filesystem::path(file).filename().string(), title).page();
+}
+
+std::string calibration_text(const Calibration& calibration)
+{
+    Document page;
+    add_calibration(stored(calibration), page);
+    return console_text(page) + left_out_text(2) + "\n"; // the model of every calibration is planar
 }
 
 } // namespace stylobate

@@ -11,8 +11,8 @@
 
 namespace stylobate {
 
-/// The parameters of each contact form with their intervals, what is gained on held-out motions, the best form, and the
-/// notes: lines.
+/// The result of the page as a console shows it: what is determined, the parameters of each contact form with their
+/// intervals, what is gained on held-out motions, and the notes.
 std::string calibration_text(const Calibration& calibration);
 
 /// What it took: "350 parameter sets, 2800 runs and 38150 windows simulated in 33 s".
@@ -29,7 +29,7 @@ Json calibration_json(const Calibration& calibration);
 /// the values with their intervals. @param measured the file, for its name
 std::string calibrated_text(const Calibration& calibration, const std::string& measured);
 
-/// The parameters with their intervals, what is not determined and why, the contact forms, what it gains.
+/// The same, and profiles, runs, windows in motion, cost, and how to make it again.
 /// @param file for names
 /// @param title of the page; nullopt: by what was measured
 Document calibration_page(const StoredCalibration& calibration, const std::string& file,

@@ -195,8 +195,8 @@ Eigen::VectorXd JointDensity::whitened_shift(const Eigen::VectorXd& shift) const
 
 Eigen::VectorXd JointDensity::log_ratios(const Eigen::VectorXd& white) const
 {
-    const double power = (student_freedom + static_cast<double>(white.size())) / 2;
-    const double healthy = std::log1p(white.squaredNorm() / student_freedom);
+    const double power = (estimate_freedom + static_cast<double>(white.size())) / 2;
+    const double healthy = std::log1p(white.squaredNorm() / estimate_freedom);
     Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(seen_.size()));
     for (std::size_t i = 0; i < seen_.size(); ++i) {
         const Seen& seen = seen_[i];
@@ -205,7 +205,7 @@ Eigen::VectorXd JointDensity::log_ratios(const Eigen::VectorXd& white) const
         const Eigen::VectorXd off = white - seen.shift;
         const double distance = std::max(0.0, off.squaredNorm() - (seen.narrowed * off).squaredNorm());
         out(static_cast<Eigen::Index>(i)) =
-            power * (healthy - std::log1p(distance / student_freedom)) - seen.half_log_determinant;
+            power * (healthy - std::log1p(distance / estimate_freedom)) - seen.half_log_determinant;
     }
     return out;
 }
@@ -231,7 +231,7 @@ Eigen::VectorXd JointDensity::continued(std::optional<std::size_t> hypothesis, c
         noise += open * inner.matrixU().solve(Eigen::VectorXd(normals.segment(rest, known.cols())));
         distance = off.squaredNorm() - along.dot(solved);
     }
-    const double radius = (student_freedom + distance) / chi_squared(u, student_freedom + static_cast<double>(d));
+    const double radius = (estimate_freedom + distance) / chi_squared(u, estimate_freedom + static_cast<double>(d));
     out.tail(rest) = mean + std::sqrt(radius) * noise;
     return out;
 }

@@ -16,7 +16,7 @@
 
 namespace stylobate {
 
-constexpr double student_freedom = 8;
+constexpr double estimate_freedom = 8;
 
 /// A mechanism at a place, whatever its size.
 struct CausePlace {

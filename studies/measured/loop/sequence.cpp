@@ -17,7 +17,8 @@ namespace {
 
 constexpr double shown_deviations = 2; // by the strongest size of a cause that counts as tested
 constexpr double limit_level = 0.95;
-constexpr int limit_steps = 200; // of the sizes up to the strongest
+constexpr int limit_steps = 200;  // of the sizes up to the strongest
+constexpr double most_size = 1.5; // over the strongest that was simulated
 
 /// Shares that sum to 1, none below the least. Those that would be are put there, the others shrink in proportion.
 std::vector<double> with_floor(std::vector<double> shares, double least)
@@ -126,7 +127,7 @@ struct HealthyEstimates {
 /// The least size above which all are excluded up to the strongest.
 std::optional<double> limit_along(const HealthyEstimates& healthy, const ShiftOfSize& of)
 {
-    const double last = of.sizes.back(), quantile = student_quantile(limit_level, student_freedom);
+    const double last = of.sizes.back(), quantile = student_quantile(limit_level, estimate_freedom);
     const auto excluded = [&](double size) { return healthy.deviation(of, size) < -quantile; };
     if (!excluded(last))
         return std::nullopt;
@@ -265,21 +266,6 @@ Belief belief_of(const SequenceModel& model, std::span<const SeenEstimate> seen)
     return belief_from(model, density.log_ratios(density.whitened(used.values)));
 }
 
-const char* to_string(SequenceVerdict verdict)
-{
-    switch (verdict) {
-    case SequenceVerdict::open:
-        return "open";
-    case SequenceVerdict::named:
-        return "named";
-    case SequenceVerdict::unexplained:
-        return "unexplained";
-    case SequenceVerdict::none:
-        return "none";
-    }
-    return "";
-}
-
 SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenEstimate> seen)
 {
     SequenceJudgement out;
@@ -328,6 +314,54 @@ SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenE
     } else if (!strong && out.deviations < least_doubtful && belief.unlisted < belief.nothing)
         out.verdict = SequenceVerdict::none;
     out.doubtful = out.verdict == SequenceVerdict::open && out.deviations < most_doubtful;
+    return out;
+}
+
+std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                                    const CausePlace& cause, double level)
+{
+    const UsedEstimates used = used_estimates(model.signatures, seen);
+    std::vector<std::pair<double, double>> sizes; // size, logarithm of its density
+    for (const ShiftOfSize& of : shifts_of(model.signatures, cause)) {
+        if (of.at.back()->shift(used.columns).squaredNorm() == 0)
+            continue;
+        const double last = most_size * of.sizes.back();
+        for (int i = 0; i < limit_steps; ++i) {
+            const double size = last * (i + 0.5) / limit_steps;
+            Eigen::MatrixXd covariance = model.signatures.covariance_of(used.columns);
+            const Eigen::VectorXd more = of.variance(size);
+            for (std::size_t a = 0; a < used.columns.size(); ++a) // repeats on one specimen share it
+                for (std::size_t b = 0; b < used.columns.size(); ++b)
+                    if (used.columns[a] == used.columns[b])
+                        covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) += more(used.columns[a]);
+            const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+            const Eigen::VectorXd white =
+                root.matrixL().solve(used.values - (model.signatures.mean + of.shift(size))(used.columns));
+            const double log_density = -root.matrixLLT().diagonal().array().log().sum() -
+                                       (estimate_freedom + static_cast<double>(white.size())) / 2 *
+                                           std::log1p(white.squaredNorm() / estimate_freedom);
+            sizes.emplace_back(size, log_density + std::log(std::fabs(last) / limit_steps));
+        }
+    }
+    if (sizes.empty())
+        return std::nullopt;
+    std::sort(sizes.begin(), sizes.end());
+    double most = -HUGE_VAL, all = 0;
+    for (const auto& [size, weight] : sizes)
+        most = std::max(most, weight);
+    for (auto& [size, weight] : sizes)
+        all += weight = std::exp(weight - most);
+    SizeInterval out{0, sizes.front().first, sizes.back().first};
+    double below = 0;
+    for (const auto& [size, weight] : sizes) {
+        out.mean += size * weight / all;
+        const double after = below + weight / all;
+        if (below < (1 - level) / 2 && after >= (1 - level) / 2)
+            out.low = size;
+        if (below < (1 + level) / 2 && after >= (1 + level) / 2)
+            out.high = size;
+        below = after;
+    }
     return out;
 }
 

@@ -12,6 +12,7 @@
 /// de collectif" (1939); Grünwald, de Heide and Koolen, "Safe testing", Journal of the Royal Statistical Society B 86
 /// (2024)). A cause or the word *unexplained* needs E >= 40 and 0.9 of the belief.
 
+#include "studies/measured/diagnosis/findings/test_story.hpp"
 #include "studies/measured/loop/joint_density.hpp"
 
 #include <optional>
@@ -75,14 +76,6 @@ Belief belief_from(const SequenceModel& model, const Eigen::VectorXd& log_ratios
 /// @param seen in the order of the tests; what is in an unused column does not count
 Belief belief_of(const SequenceModel& model, std::span<const SeenEstimate> seen);
 
-enum class SequenceVerdict {
-    open,        ///< something is suspected and nothing decided
-    named,       ///< a cause acts
-    unexplained, ///< an estimator is beyond healthy specimens, and no listed cause gives it
-    none         ///< nothing acts that the tests would have shown
-};
-const char* to_string(SequenceVerdict verdict);
-
 struct SequenceJudgement {
     SequenceVerdict verdict = SequenceVerdict::open;
     double log_evidence = 0;
@@ -99,6 +92,15 @@ constexpr double belief_to_name = 0.9;
 constexpr double least_doubtful = 2.5, most_doubtful = 6; ///< standard deviations
 
 SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenEstimate> seen);
+
+/// Sizes of a cause, given that it acts: posterior mean and equal-tailed interval, all sizes of either sign up to 1.5
+/// times the strongest simulated one alike beforehand.
+struct SizeInterval {
+    double mean = 0, low = 0, high = 0;
+};
+/// @return nothing where no estimate shows the cause
+std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                                    const CausePlace& cause, double level = 0.9);
 
 /// The largest size of a cause that the tests leave possible, for one sign of the size.
 struct SizeLimit {

@@ -61,7 +61,7 @@ Eigen::MatrixXd joint_contrasts(Eigen::Index p, const std::vector<std::vector<Ei
 }
 
 /// Mean squared distance of the estimates of specimens that were left out, for each estimate.
-double distance_left_out(const SimulatedTests& tests, const Signatures& s)
+double distance_left_out(const TestSamples& tests, const Signatures& s)
 {
     double sum = 0, count = 0;
     const Eigen::Index n = tests.healthy.rows();
@@ -93,7 +93,7 @@ struct ColumnShift {
     bool known = false;
 };
 
-ColumnShift column_shift(const SimulatedTests& tests, const CauseSamples& samples, Eigen::Index j)
+ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, Eigen::Index j)
 {
     ColumnShift out;
     Eigen::VectorXd values = samples.rows.col(j);
@@ -119,7 +119,7 @@ ColumnShift column_shift(const SimulatedTests& tests, const CauseSamples& sample
     return out;
 }
 
-CauseSignature cause_signature(const SimulatedTests& tests, const CauseSamples& samples, const Signatures& s,
+CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& samples, const Signatures& s,
                                const Eigen::VectorXd& sd)
 {
     const Eigen::Index p = s.mean.size();
@@ -200,7 +200,7 @@ Eigen::VectorXd Signatures::sd_given_others(const std::vector<Eigen::Index>& of)
     return covariance_of(of).inverse().diagonal().cwiseInverse().cwiseSqrt();
 }
 
-Signatures signatures_of(const SimulatedTests& tests)
+Signatures signatures_of(const TestSamples& tests)
 {
     Signatures s;
     s.columns = tests.columns;

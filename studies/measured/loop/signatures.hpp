@@ -46,12 +46,12 @@ struct TestedCause {
 struct CauseSamples {
     TestedCause cause;
     Eigen::MatrixXd rows;        ///< (m x p) NaN: the test gave no estimate
-    std::vector<int> pairs = {}; ///< (m) row of `SimulatedTests::healthy` with the same law and specimen, without the
+    std::vector<int> pairs = {}; ///< (m) row of `TestSamples::healthy` with the same law and specimen, without the
                                  ///< cause; empty: there are none
 };
 
 /// Simulated specimens, a row each, that have gone through all tests.
-struct SimulatedTests {
+struct TestSamples {
     std::vector<TestColumn> columns; ///< (p)
     Eigen::MatrixXd healthy;         ///< (n x p) over widely varied healthy laws; NaN: the test gave no estimate
     std::vector<CauseSamples> causes;
@@ -92,6 +92,6 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixX
 /// above 1.
 /// @pre at least 20 healthy specimens; as many columns in every table as in `columns`
 /// @throws InputError if no column can be used
-Signatures signatures_of(const SimulatedTests& tests);
+Signatures signatures_of(const TestSamples& tests);
 
 } // namespace stylobate

@@ -39,9 +39,12 @@ Face base_face(const Model& model, const BaseState& base, double turned)
 
 void geometric_centre(const Model& model, int body, const BodyState& state, double& x, double& y)
 {
-    const double off = model.effects.bodies[static_cast<std::size_t>(body)].eccentricity_m;
-    x = state.x - off * std::cos(state.theta);
-    y = state.y - off * std::sin(state.theta);
+    const auto b = static_cast<std::size_t>(body);
+    const double right = model.bodies[b].mass_x_m + model.effects.bodies[b].eccentricity_m;
+    const double up = model.bodies[b].mass_y_m;
+    const double c = std::cos(state.theta), s = std::sin(state.theta);
+    x = state.x - right * c + up * s;
+    y = state.y - right * s - up * c;
 }
 
 BedEnds ends_of_bed(const Model& model, int bed, const State& state, const BaseState& base)

@@ -12,6 +12,7 @@ namespace {
 struct Rate {
     std::array<Load, max_bodies> acceleration; ///< fx, fy, moment hold x'', y'', theta''
     double bristle[max_beds][2];
+    bool torn[max_beds][2];   ///< the tension that adhesion holds is reached
     double sliding[max_beds]; ///< where it slips, else 0
     double shear[max_beds];
     double position[max_beds];
@@ -24,24 +25,47 @@ double spring_force(const LawParameters& law, double exponent_change, double dep
     return exponent_change == 0 ? force : force * std::pow(depth / law.reference_m, exponent_change);
 }
 
+/// An end that is held by adhesion: as stiff as under its share of a block's weight, and damped as it is there.
+/// @param depth negative: it is open by so much
+double bond_force(const LawParameters& law, double depth, double closing)
+{
+    const double stiffness = law.stiffness_n_m * std::sqrt(law.reference_m);
+    return std::min(stiffness * depth * (1 - law.damping_s_m * closing), 0.0);
+}
+
 /// All forces at a state; sets the widths of the beds.
 void rate_of(const Model& model, State& state, const BaseState& base, double time, Rate& rate)
 {
+    carry(model, base, state);
     for (int i = 0; i < model.body_count; ++i) {
         const auto b = static_cast<std::size_t>(i);
-        rate.acceleration[b] = load_on(model, i, state.bodies[b], base, time);
+        rate.acceleration[b] = mover(model, i) == i ? load_on(model, i, state.bodies[b], base, time) : Load{};
+    }
+    for (int r = 0; r < model.rod_count; ++r) {
+        const Rod& rod = model.rods[static_cast<std::size_t>(r)];
+        const Load load = rod_load(model, rod, state, base, time);
+        Load& on = rate.acceleration[static_cast<std::size_t>(mover(model, rod.body))];
+        on.fx += load.fx;
+        on.fy += load.fy;
+        on.moment += load.moment;
     }
     for (int j = 0; j < model.bed_count; ++j) {
         const auto b = static_cast<std::size_t>(j);
         BedState& bed = state.beds[b];
         const BedEffect& effect = model.effects.beds[b];
-        const auto upper = static_cast<std::size_t>(model.beds[b].upper);
-        const int lower = model.beds[b].lower;
+        rate.position[j] = rate.sliding[j] = rate.shear[j] = 0;
+        for (int e = 0; e < 2; ++e) {
+            rate.bristle[j][e] = 0;
+            rate.torn[j][e] = false;
+        }
+        if (!can_move(model, model.beds[b]))
+            continue;
+        const auto upper = static_cast<std::size_t>(mover(model, model.beds[b].upper));
+        const int lower = mover(model, model.beds[b].lower);
         const BodyState& up = state.bodies[upper];
         const BedEnds ends = ends_of_bed(model, j, state, base);
         bed.width_m = ends.width;
         rate.position[j] = ends.position;
-        rate.sliding[j] = rate.shear[j] = 0;
         Load& above = rate.acceleration[upper];
         Load fixed;
         Load& below = lower >= 0 ? rate.acceleration[static_cast<std::size_t>(lower)] : fixed;
@@ -57,7 +81,8 @@ void rate_of(const Model& model, State& state, const BaseState& base, double tim
         for (int e = 0; e < 2; ++e) {
             const BedEnd& end = ends.end[e];
             const double depth = -end.gap;
-            if (depth <= 0 || ends.width <= 0) {
+            const double tension = tension_of(model, j, bed, e, ends.width);
+            if ((depth <= 0 && tension == 0) || ends.width <= 0) {
                 rate.bristle[j][e] = -bed.bristle[e] / (10 * model.step_s); // they spring back
                 continue;
             }
@@ -70,13 +95,19 @@ void rate_of(const Model& model, State& state, const BaseState& base, double tim
             const double closing = -((ux - lx) * end.nx + (uy - ly) * end.ny);
             const double v = (ux - lx) * end.ny - (uy - ly) * end.nx;
             const LawParameters& law = model.parameters;
-            const double spring = spring_force(law, effect.exponent_change, depth);
-            const double normal = std::max(spring * (1 + law.damping_s_m * effect.rate_factor * closing) +
-                                               effect.end_dashpot_n_s_m * closing,
-                                           0.0);
+            double normal = 0;
+            if (depth > 0) {
+                const double spring = spring_force(law, effect.exponent_change, depth);
+                normal = std::max(spring * (1 + law.damping_s_m * effect.rate_factor * closing) +
+                                      effect.end_dashpot_n_s_m * closing,
+                                  0.0);
+            } else {
+                normal = std::max(bond_force(law, depth, closing), -tension);
+                rate.torn[j][e] = normal <= -tension;
+            }
             const double mu = friction_of(model, j, bed, ends.position, v);
-            const double adhesion = adhesion_of(model, j, bed, ends.width);
-            const double limit = mu * normal + adhesion;
+            const double adhesion = adhesion_of(model, j, bed, e, ends.width);
+            const double limit = mu * std::max(normal, 0.0) + adhesion;
             const double bent = bed.bristle[e] / law.bristle_m;
             const double quarter = bent * bent;
             const bool further = v * bent > 0;
@@ -97,6 +128,8 @@ void rate_of(const Model& model, State& state, const BaseState& base, double tim
     }
     for (int i = 0; i < model.body_count; ++i) {
         const auto b = static_cast<std::size_t>(i);
+        if (mover(model, i) != i)
+            continue;
         Load& a = rate.acceleration[b];
         a.fx /= model.bodies[b].mass_kg;
         a.fy /= model.bodies[b].mass_kg;
@@ -159,6 +192,8 @@ void step_compliant(const Model& model, const Table& table, State& state)
     const double part = h / 6;
     for (int i = 0; i < model.body_count; ++i) {
         const auto b = static_cast<std::size_t>(i);
+        if (mover(model, i) != i)
+            continue;
         BodyState& body = state.bodies[b];
         const double vx = body.vx;
         body.x += part * (body.vx + 2 * s2.bodies[b].vx + 2 * s3.bodies[b].vx + s4.bodies[b].vx);
@@ -170,14 +205,18 @@ void step_compliant(const Model& model, const Table& table, State& state)
         body.omega += part * (a.moment + 2 * c.moment + 2 * d.moment + f.moment);
         slosh(model, i, body, (body.vx - vx) / h);
     }
+    carry(model, base[2], state);
     for (int j = 0; j < model.bed_count; ++j) {
         const auto b = static_cast<std::size_t>(j);
+        if (!can_move(model, model.beds[b]))
+            continue;
         BedState& bed = state.beds[b];
         const double most = model.parameters.bristle_m;
         for (int e = 0; e < 2; ++e) {
             bed.bristle[e] +=
                 part * (k1.bristle[j][e] + 2 * k2.bristle[j][e] + 2 * k3.bristle[j][e] + k4.bristle[j][e]);
             bed.bristle[e] = std::clamp(bed.bristle[e], -most, most);
+            bed.opened[e] = bed.opened[e] || k4.torn[j][e];
         }
         const Bed& which = model.beds[b];
         const double turning =

@@ -16,6 +16,17 @@ const BedEffect& effect_of(const Model& model, int bed)
 /// Friction never falls below this part of the nominal one, however worn or hot.
 constexpr double least_friction = 0.2;
 
+/// The point of a rod's body that it acts on.
+void rod_point(const Model& model, const Rod& rod, const State& state, double& x, double& y)
+{
+    const auto b = static_cast<std::size_t>(rod.body);
+    const BodyState& body = state.bodies[b];
+    geometric_centre(model, rod.body, body, x, y);
+    const double up = rod.height_m - model.bodies[b].half_height_m;
+    x -= up * std::sin(body.theta);
+    y += up * std::cos(body.theta);
+}
+
 } // namespace
 
 double friction_of(const Model& model, int bed, const BedState& state, double position, double sliding)
@@ -35,9 +46,14 @@ double friction_of(const Model& model, int bed, const BedState& state, double po
     return mu;
 }
 
-double adhesion_of(const Model& model, int bed, const BedState& state, double width)
+double adhesion_of(const Model& model, int bed, const BedState& state, int end, double width)
 {
-    return state.slipped ? 0 : 0.5 * effect_of(model, bed).adhesion_n_m * std::max(width, 0.0);
+    return state.slipped || state.opened[end] ? 0 : 0.5 * effect_of(model, bed).adhesion_n_m * std::max(width, 0.0);
+}
+
+double tension_of(const Model& model, int bed, const BedState& state, int end, double width)
+{
+    return state.slipped || state.opened[end] ? 0 : 0.5 * effect_of(model, bed).tension_n_m * std::max(width, 0.0);
 }
 
 double dowel_force(const Model& model, int bed, const BedState& state, double position)
@@ -79,6 +95,69 @@ Load load_on(const Model& model, int body, const BodyState& state, const BaseSta
     }
     load.moment -= effect.spin_n_m_s * state.omega;
     return load;
+}
+
+void rod_tip(const Rod& rod, const Model& model, const State& state, const BaseState& base, double& at,
+             double& velocity)
+{
+    double px = 0, py = 0, vy = 0;
+    rod_point(model, rod, state, px, py);
+    velocity_at(state.bodies[static_cast<std::size_t>(rod.body)], px, py, velocity, vy);
+    at = px;
+    if (rod.to_table) {
+        double bx = 0, by = 0;
+        velocity_at(base, px, py, bx, by);
+        const double c = std::cos(base.theta), s = std::sin(base.theta);
+        at = (px - base.x) * c + (py - base.y) * s;
+        velocity = (velocity - bx) * c + (vy - by) * s;
+    }
+}
+
+double rod_force(const Model& model, const Rod& rod, const State& state, const BaseState& base, double time)
+{
+    double at = 0, speed = 0;
+    rod_tip(rod, model, state, base, at, speed);
+    const double moved = std::clamp(time, rod.from_s, rod.to_s) - rod.from_s;
+    const double end_speed = time >= rod.from_s && time < rod.to_s ? rod.speed_m_s : 0;
+    const double bent = rod.end_m + rod.speed_m_s * moved - at;
+    const double force = rod.stiffness_n_m * bent + rod.damping_n_s_m * (end_speed - speed);
+    return rod.side != 0 && (rod.side * bent <= 0 || rod.side * force <= 0) ? 0 : force;
+}
+
+Load rod_load(const Model& model, const Rod& rod, const State& state, const BaseState& base, double time)
+{
+    double px = 0, py = 0;
+    rod_point(model, rod, state, px, py);
+    const double force = rod_force(model, rod, state, base, time);
+    const double turned = rod.to_table ? base.theta : 0;
+    const BodyState& on = state.bodies[static_cast<std::size_t>(mover(model, rod.body))];
+    Load load;
+    load.fx = force * std::cos(turned);
+    load.fy = force * std::sin(turned);
+    load.moment = (px - on.x) * load.fy - (py - on.y) * load.fx;
+    return load;
+}
+
+void carry(const Model& model, const BaseState& base, State& state)
+{
+    for (std::size_t i = 0; i < static_cast<std::size_t>(model.body_count); ++i) {
+        const Body& body = model.bodies[i];
+        if (body.carrier < on_table)
+            continue;
+        const auto put = [&](const auto& on) {
+            BodyState& carried = state.bodies[i];
+            const double c = std::cos(on.theta), s = std::sin(on.theta);
+            carried.x = on.x + c * body.held_x_m - s * body.held_y_m;
+            carried.y = on.y + s * body.held_x_m + c * body.held_y_m;
+            carried.theta = on.theta + body.held_rad;
+            velocity_at(on, carried.x, carried.y, carried.vx, carried.vy);
+            carried.omega = on.omega;
+        };
+        if (body.carrier == on_table)
+            put(base);
+        else
+            put(state.bodies[static_cast<std::size_t>(body.carrier)]);
+    }
 }
 
 void remember(const Model& model, int bed, BedState& state, double position, double sliding, double shear,

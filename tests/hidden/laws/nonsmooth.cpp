@@ -15,7 +15,7 @@ struct Corner {
     double lx, ly, ux, uy; ///< arms from the centres of mass
     double mass_n, mass_t; ///< effective masses
     double wanted;         ///< normal velocity after the step
-    double mu, adhesion_n_s;
+    double mu, adhesion_n_s, tension_n_s;
     double base_vx, base_vy; ///< velocity of the corner as a point of the table, where that is the lower body
 };
 
@@ -64,6 +64,12 @@ double effective_mass(const Corner& corner, const Model& model, double dx, doubl
                 (corner.lower >= 0 ? part(corner.lower, corner.lx, corner.ly) : 0));
 }
 
+/// Greatest shear impulse at a corner that is pressed by a normal one.
+double shear_limit(const Corner& corner, double normal)
+{
+    return corner.mu * std::max(normal, 0.0) + corner.adhesion_n_s;
+}
+
 constexpr int most_sweeps = 60;
 /// A sweep that changes no impulse by more than this part of a body's weight in a step is the last.
 constexpr double settled = 1e-4;
@@ -81,6 +87,8 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
     Speed speeds[max_bodies], before[max_bodies];
     for (int i = 0; i < model.body_count; ++i) {
         const auto b = static_cast<std::size_t>(i);
+        if (mover(model, i) != i)
+            continue;
         BodyState& body = middle.bodies[b];
         body.x += 0.5 * h * body.vx;
         body.y += 0.5 * h * body.vy;
@@ -91,6 +99,15 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
         speeds[i].y += h * load.fy / model.bodies[b].mass_kg;
         speeds[i].turn += h * load.moment / model.bodies[b].inertia_kg_m2;
     }
+    for (int r = 0; r < model.rod_count; ++r) {
+        const Rod& rod = model.rods[static_cast<std::size_t>(r)];
+        const int on = mover(model, rod.body);
+        const Load load = rod_load(model, rod, state, base_before, time);
+        speeds[on].x += h * load.fx / model.bodies[static_cast<std::size_t>(on)].mass_kg;
+        speeds[on].y += h * load.fy / model.bodies[static_cast<std::size_t>(on)].mass_kg;
+        speeds[on].turn += h * load.moment / model.bodies[static_cast<std::size_t>(on)].inertia_kg_m2;
+    }
+    carry(model, base, middle);
 
     Corner corners[2 * max_beds];
     int count = 0;
@@ -98,7 +115,9 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
     for (int j = 0; j < model.bed_count; ++j) {
         const auto b = static_cast<std::size_t>(j);
         BedState& bed = state.beds[b];
-        const int lower = model.beds[b].lower, upper = model.beds[b].upper;
+        if (!can_move(model, model.beds[b]))
+            continue;
+        const int lower = mover(model, model.beds[b].lower), upper = mover(model, model.beds[b].upper);
         ends[j] = ends_of_bed(model, j, middle, base);
         bed.width_m = ends[j].width;
         const BodyState& up = middle.bodies[static_cast<std::size_t>(upper)];
@@ -119,7 +138,8 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
         }
         for (int e = 0; e < 2; ++e) {
             const BedEnd& end = ends[j].end[e];
-            if (end.gap > 0 || ends[j].width <= 0) {
+            const double tension = h * tension_of(model, j, bed, e, ends[j].width);
+            if ((end.gap > 0 && tension == 0) || ends[j].width <= 0) {
                 bed.normal_n_s[e] = bed.shear_n_s[e] = 0;
                 continue;
             }
@@ -149,10 +169,11 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
             const double sunk = std::max(-end.gap - 1e-7, 0.0);
             corner.wanted = std::max(model.parameters.restitution * closing, std::min(0.05 * sunk / h, 2e-3));
             corner.mu = friction_of(model, j, bed, ends[j].position, vt);
-            corner.adhesion_n_s = h * adhesion_of(model, j, bed, ends[j].width);
+            corner.adhesion_n_s = h * adhesion_of(model, j, bed, e, ends[j].width);
+            corner.tension_n_s = tension;
             if (lower < 0)
                 velocity_at(base_after, end.x, end.y, corner.base_vx, corner.base_vy);
-            const double limit = corner.mu * bed.normal_n_s[e] + corner.adhesion_n_s;
+            const double limit = shear_limit(corner, bed.normal_n_s[e]);
             bed.shear_n_s[e] = std::clamp(bed.shear_n_s[e], -limit, limit);
             push(corner, model, bed.normal_n_s[e], bed.shear_n_s[e], speeds);
             corners[count++] = corner;
@@ -166,11 +187,11 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
         double& shear = bed.shear_n_s[corner.end];
         double vn = 0, vt = 0;
         relative(corner, speeds, vn, vt);
-        const double more = std::max(normal - corner.mass_n * (vn - corner.wanted), 0.0) - normal;
+        const double more = std::max(normal - corner.mass_n * (vn - corner.wanted), -corner.tension_n_s) - normal;
         normal += more;
         push(corner, model, more, 0, speeds);
         relative(corner, speeds, vn, vt);
-        const double limit = corner.mu * normal + corner.adhesion_n_s;
+        const double limit = shear_limit(corner, normal);
         const double along = std::clamp(shear - corner.mass_t * vt, -limit, limit) - shear;
         shear += along;
         push(corner, model, 0, along, speeds);
@@ -189,11 +210,13 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
     double sliding[max_beds] = {}, shear[max_beds] = {};
     for (int c = 0; c < count; ++c) {
         const Corner& corner = corners[c];
-        const BedState& bed = state.beds[static_cast<std::size_t>(corner.bed)];
+        BedState& bed = state.beds[static_cast<std::size_t>(corner.bed)];
         double vn = 0, vt = 0;
         relative(corner, speeds, vn, vt);
         shear[corner.bed] += bed.shear_n_s[corner.end] / h;
-        const double limit = corner.mu * bed.normal_n_s[corner.end] + corner.adhesion_n_s;
+        if (corner.tension_n_s > 0 && bed.normal_n_s[corner.end] <= -corner.tension_n_s)
+            bed.opened[corner.end] = true;
+        const double limit = shear_limit(corner, bed.normal_n_s[corner.end]);
         // a tenth of the velocity that friction changes in a step is slip; less is what the sweeps have left
         if (std::abs(bed.shear_n_s[corner.end]) >= 0.999 * limit &&
             std::abs(vt) > 0.1 * corner.mu * h * model.gravity_m_s2)
@@ -201,6 +224,8 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
     }
     for (int i = 0; i < model.body_count; ++i) {
         const auto b = static_cast<std::size_t>(i);
+        if (mover(model, i) != i)
+            continue;
         BodyState& body = state.bodies[b];
         body.vx = speeds[i].x;
         body.vy = speeds[i].y;
@@ -210,9 +235,14 @@ void step_nonsmooth(const Model& model, const Table& table, State& state)
         body.theta = middle.bodies[b].theta + 0.5 * h * body.omega;
         slosh(model, i, body, (body.vx - before[i].x) / h);
     }
+    carry(model, base_after, state);
     for (int j = 0; j < model.bed_count; ++j) {
         const Bed& bed = model.beds[static_cast<std::size_t>(j)];
-        const double turning = speeds[bed.upper].turn - (bed.lower < 0 ? base_after.omega : speeds[bed.lower].turn);
+        if (!can_move(model, bed))
+            continue;
+        const double turning =
+            state.bodies[static_cast<std::size_t>(bed.upper)].omega -
+            (bed.lower < 0 ? base_after.omega : state.bodies[static_cast<std::size_t>(bed.lower)].omega);
         remember(model, j, state.beds[static_cast<std::size_t>(j)], ends[j].position, sliding[j], shear[j], turning);
     }
     ++state.step;

@@ -106,6 +106,58 @@ inline Campaign sample_campaign(int drums = 3)
     return campaign;
 }
 
+/// A test of every kind on the joint below block 1, of the shapes that files have; no physics. @pre two blocks or more
+inline std::vector<MeasuredRun> sample_tests(const Specimen& specimen, int samples = 40)
+{
+    const auto n = static_cast<std::size_t>(specimen.blocks());
+    std::vector<MeasuredRun> tests;
+    for (const RunKind kind :
+         {RunKind::board, RunKind::drop, RunKind::pull, RunKind::push, RunKind::rest, RunKind::slide, RunKind::tilt}) {
+        MeasuredRun& run = tests.emplace_back();
+        run.name = to_string(kind);
+        run.test = kind;
+        if (kind == RunKind::rest)
+            continue;
+        run.joint = 1;
+        run.present = {0, 1};
+        run.clamped = {0};
+        run.rate_hz = 100;
+        run.motion_id = static_cast<int>(tests.size());
+        for (int i = 0; i < samples; ++i) {
+            run.time_s.push_back(0.01 * i);
+            for (std::size_t b = 0; b < n; ++b) {
+                run.blocks.x_m.values.push_back(b < 2 ? specimen.rest_x_m[b] + 1e-5 * i : nan_value);
+                run.blocks.y_m.values.push_back(b < 2 ? specimen.rest_y_m[b] : nan_value);
+                run.blocks.theta_rad.values.push_back(b < 2 ? 1e-4 * i : nan_value);
+            }
+            if (kind == RunKind::board || kind == RunKind::tilt)
+                run.base_tilt_rad.values.push_back(0.7 * i / samples);
+            if (kind == RunKind::pull || kind == RunKind::slide)
+                run.base_displacement_m.values.push_back(1e-4 * i);
+        }
+        if (kind == RunKind::tilt || kind == RunKind::push)
+            run.dummies = {{1, 0.1355, 0.024, 0.0145, 0, 0.029}, {1, 0.1355, 0.024, 0.0145, 1e-4, 0.058}};
+        if (kind == RunKind::drop)
+            run.released_s = 0.2;
+        if (kind == RunKind::board)
+            run.base_tilt_rad.noise_sd = 5e-4;
+        if (kind != RunKind::pull && kind != RunKind::push)
+            continue;
+        ForceGauge& gauge = run.forces.emplace_back();
+        gauge.name = "Rod_A";
+        gauge.block = 1;
+        gauge.height_m = kind == RunKind::pull ? 0.00725 : 0.0783;
+        gauge.to_laboratory = kind == RunKind::pull;
+        gauge.speed_m_s = kind == RunKind::pull ? 0 : -0.02;
+        gauge.stiffness_n_m = 2e4;
+        gauge.gain_sd = 0.005;
+        gauge.value_n.noise_sd = 0.02;
+        for (int i = 0; i < samples; ++i)
+            gauge.value_n.values.push_back(i == 3 ? nan_value : 0.013 * i);
+    }
+    return tests;
+}
+
 /// A folder of its own for each test.
 class MeasuredFolder {
 public:

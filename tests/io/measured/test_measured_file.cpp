@@ -1,9 +1,10 @@
 /// Measured campaigns in files: what is written is read again bit by bit, what other programs write is read, and what
 /// is damaged is refused.
 
+#include "io/measured/campaign_writer.hpp"
 #include "io/measured/measured_file.hpp"
-#include "tests/io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
+#include "tests/io/measured/same_campaign.hpp"
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -12,69 +13,6 @@ namespace stylobate {
 namespace {
 
 namespace fs = std::filesystem;
-
-void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b, const std::string& what)
-{
-    ASSERT_EQ(a.size(), b.size()) << what;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (std::isnan(a[i]) && std::isnan(b[i]))
-            continue;
-        ASSERT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << what << ' ' << i;
-    }
-}
-
-void expect_same(const Series& a, const Series& b, const std::string& what)
-{
-    expect_same_bits(a.values, b.values, what);
-    EXPECT_EQ(a.noise_sd, b.noise_sd) << what;
-}
-
-void expect_same(const SeenMotion& a, const SeenMotion& b, const std::string& what)
-{
-    expect_same(a.x_m, b.x_m, what + " x");
-    expect_same(a.y_m, b.y_m, what + " y");
-    expect_same(a.theta_rad, b.theta_rad, what + " theta");
-}
-
-/// Everything but the source and the findings.
-void expect_same(const Campaign& a, const Campaign& b)
-{
-    const Specimen &s = a.specimen, &t = b.specimen;
-    EXPECT_EQ(s.name, t.name);
-    EXPECT_EQ(s.gravity_m_s2, t.gravity_m_s2);
-    EXPECT_EQ(s.friction_nominal, t.friction_nominal);
-    EXPECT_EQ(s.mass_tolerance, t.mass_tolerance);
-    EXPECT_EQ(s.width_tolerance, t.width_tolerance);
-    EXPECT_EQ(s.placement_tolerance_m, t.placement_tolerance_m);
-    EXPECT_EQ(s.base_block_half_width_m, t.base_block_half_width_m);
-    EXPECT_EQ(s.base_block_top_m, t.base_block_top_m);
-    expect_same_bits(s.half_width_m, t.half_width_m, "half_width_m");
-    expect_same_bits(s.half_height_m, t.half_height_m, "half_height_m");
-    expect_same_bits(s.depth_m, t.depth_m, "depth_m");
-    expect_same_bits(s.mass_kg, t.mass_kg, "mass_kg");
-    expect_same_bits(s.rest_x_m, t.rest_x_m, "rest_x_m");
-    expect_same_bits(s.rest_y_m, t.rest_y_m, "rest_y_m");
-    EXPECT_EQ(s.joints, t.joints);
-    ASSERT_EQ(a.runs.size(), b.runs.size());
-    for (std::size_t i = 0; i < a.runs.size(); ++i) {
-        const MeasuredRun &r = a.runs[i], &q = b.runs[i];
-        EXPECT_EQ(r.name, q.name);
-        EXPECT_EQ(r.motion_id, q.motion_id);
-        EXPECT_EQ(r.repeat, q.repeat);
-        EXPECT_EQ(r.kind, q.kind);
-        EXPECT_EQ(r.rate_hz, q.rate_hz);
-        EXPECT_EQ(r.run_order, q.run_order);
-        EXPECT_EQ(r.collapsed, q.collapsed);
-        EXPECT_EQ(r.collapse_time_s, q.collapse_time_s);
-        EXPECT_EQ(r.base_source, q.base_source);
-        EXPECT_EQ(r.base_clock, q.base_clock);
-        expect_same_bits(r.time_s, q.time_s, r.name + " time");
-        expect_same(r.base_acceleration_m_s2, q.base_acceleration_m_s2, r.name + " base acceleration");
-        expect_same(r.base_displacement_m, q.base_displacement_m, r.name + " base displacement");
-        expect_same(r.table, q.table, r.name + " table");
-        expect_same(r.blocks, q.blocks, r.name + " blocks");
-    }
-}
 
 /// Every field in use, every optional one absent somewhere.
 Campaign full_campaign()
@@ -358,7 +296,8 @@ TEST(MeasuredFile, ColumnsOfCsvSayTheirUnits)
     refused(std::string("\xff\xfet\0i\0", 6), "UTF-16");
     refused("time_s,x0_m\n0,0\n1\n", "x.csv:3: has 1 fields where there are 2 columns");
     refused("time_s,x0_m\n0,O\n", "x.csv:2: x0_m = \"O\" is not a number");
-    refused("time_s,x0_m,x0_mm\n", "occurs twice");
+    refused("time_s,x0_m,x0_m\n", "\"x0_m\" occurs twice");
+    refused("time_s,x0_m,x0_mm\n", "\"x0_m\" and \"x0_mm\" are the same series");
     refused("", "no line of column names");
 }
 

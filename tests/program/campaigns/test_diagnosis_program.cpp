@@ -1,6 +1,6 @@
 /// `stylobate diagnose` as its user runs it, on short campaigns of the virtual laboratory.
 
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/program/program.hpp"
 

@@ -41,8 +41,9 @@ TEST(CapacityRows, AreOfEachFrequencyOverItsIntensities)
     EXPECT_NEAR(rows[1].ratio.value, std::sqrt(2), 1e-12);
     EXPECT_TRUE(rows[1].ratio.at_least);
     const std::string text = comparison_text(c);
-    EXPECT_NE(text.find("capacity (PGA at collapse) over that of the base: 1 Hz 2.00 ("), std::string::npos) << text;
-    EXPECT_NE(text.find("; 2 Hz at least 1.41 ("), std::string::npos) << text;
+    EXPECT_NE(text.find("  Capacity (PGA at collapse) over that of the base\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n  1 Hz              2.00 ("), std::string::npos) << text;
+    EXPECT_NE(text.find("\n  2 Hz     at least 1.41 ("), std::string::npos) << text;
     EXPECT_NE(comparison_json(c).text().find("\"at_least\": true"), std::string::npos);
 }
 

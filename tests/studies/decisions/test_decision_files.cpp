@@ -41,6 +41,16 @@ std::string refusal_of(const std::function<void()>& act)
     return "";
 }
 
+/// Every line of a text but its title is in the page too.
+void expect_in_page(const std::string& text, const Document& page)
+{
+    const std::string shown = console_text(page);
+    for (std::size_t at = text.find('\n') + 1; at < text.size(); at = text.find('\n', at) + 1) {
+        const std::string line = text.substr(at, text.find('\n', at) + 1 - at);
+        EXPECT_NE(shown.find(line), std::string::npos) << line << "is not in\n" << shown;
+    }
+}
+
 class DecisionFiles : public testing::Test {
 protected:
     TemporaryFolder folder;
@@ -74,7 +84,18 @@ TEST_F(DecisionFiles, ARiskEstimateReadsBackEqual)
         const Risk risk = sample_risk(sequences);
         write_risk(risk, file);
         const Risk read = read_risk(file);
-        EXPECT_EQ(risk_text(read), risk_text(risk));
+        const std::string text = risk_text(risk);
+        EXPECT_EQ(risk_text(read), text);
+        expect_in_page(text, risk_page(risk, "risk.h5", std::nullopt));
+        EXPECT_NE(text.find("The answer\n  " + risk_answer(risk) + "\n  " + risk_grounds(risk) + "\n"),
+                  std::string::npos)
+            << text;
+        EXPECT_NE(text.find("it, and in no interval: 1e-06 a year.\n"), std::string::npos) << text;
+        EXPECT_NE(text.find("Any curve that rises through the shares of the stripes gives at least 0.0001 a year.\n"),
+                  std::string::npos)
+            << text;
+        EXPECT_NE(text.find("  - collapse: why\n  - 1 invalid realization is left out.\n"), std::string::npos) << text;
+        EXPECT_EQ(text.find("1 fall that had stood, 0 stand that had fallen") != std::string::npos, sequences) << text;
         EXPECT_EQ(risk_json(read).text(), risk_json(risk).text());
         EXPECT_EQ(risk_csv(read), risk_csv(risk));
         EXPECT_EQ(read.study_text, risk.study_text);
@@ -117,11 +138,19 @@ TEST_F(DecisionFiles, ARiskOfAComparisonReadsBackEqual)
     expect_damage_is_found([](const fs::path& path) { read_risk_change(path); });
 
     const std::string text = risk_text(change);
-    EXPECT_NE(text.find("collapse (what it is): lower\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("change -2 (-6 to -1) percentage points"), std::string::npos) << text;
-    EXPECT_NE(text.find("ratio not determined"), std::string::npos) << text;
-    EXPECT_NE(text.find("peak_0.35 (what it is): not determined\n    why\n"), std::string::npos) << text;
+    expect_in_page(text, risk_page(change, "risk.h5", std::nullopt));
     const std::string answer = risk_change_answer(change, change.variants[0]);
+    EXPECT_NE(text.find("The answer\n  " + answer + "\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  -0.0003 (-0.0006 to -0.0001)       not determined  lower           what it is\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(
+        text.find("in 100 years  9.52 % (3.28 to 33)        6.76 % (2.31 to 24.4)        -2 (-6 to -1) percentage "
+                  "points\n"),
+        std::string::npos)
+        << text;
+    EXPECT_NE(text.find("not determined  what it is\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  - tendon, peak_0.35: why\n  - A note.\n"), std::string::npos) << text;
     // 1 - exp(-0.1) and 1 - exp(-0.07)
     EXPECT_NE(answer.find("a probability of 9.52 % (3.28 to 33) in column and of 6.76 % (2.31 to 24.4) with dowels: a "
                           "change of -2 (-6 to -1) percentage points (90 % interval). The risk is lower."),

@@ -58,6 +58,11 @@ TEST(RiskAnswer, IsOneSentenceWithItsInterval)
     EXPECT_EQ(risk_answer(open), "How often the limit state 'a block falls' is reached is not determined: 0.0001 to "
                                  "0.02 times a year. Too much comes from above.");
     EXPECT_EQ(risk_grounds(open), "");
+    const std::string text = risk_text(open);
+    EXPECT_NE(text.find("  - collapse: 0.0001 to 0.02 a year by any curve that rises. Too much comes from above.\n"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("Contributing intensities"), std::string::npos) << text;
     open.states.front().estimate.bounds.upper = std::numeric_limits<double>::infinity();
     EXPECT_NE(risk_answer(open).find("is not determined: at least 0.0001 times a year."), std::string::npos)
         << risk_answer(open);

@@ -76,13 +76,14 @@ TEST(SensitivityText, ColumnsDoNotCollide)
     const std::vector<std::string> lines = lines_of(sensitivity_text(table_of(-0.00021645, 0.0000123456)));
     const std::size_t head = 2;
     ASSERT_NE(lines[head].find("first index"), std::string::npos) << lines[head];
-    for (const char* name : {"first index", "total index", "first, of single", "total, of single"}) {
-        const std::size_t at = lines[head].find(name);
-        ASSERT_NE(at, std::string::npos);
-        for (std::size_t line = head + 1; line < head + 3; ++line) {
-            ASSERT_LT(at, lines[line].size()) << lines[line];
-            EXPECT_EQ(lines[line].substr(at - 2, 2), "  ") << lines[line];
-            EXPECT_NE(lines[line][at], ' ') << "a column begins under its heading: " << lines[line];
+    for (const std::string name :
+         {"first index", "total index", "first, of single outcomes", "total, of single outcomes"}) {
+        const std::size_t at = lines[head].find(name), end = at + name.size();
+        ASSERT_NE(at, std::string::npos) << lines[head];
+        for (std::size_t line = head; line < head + 3; ++line) {
+            ASSERT_LE(end, lines[line].size()) << lines[line];
+            EXPECT_NE(lines[line][end - 1], ' ') << "a column ends under its heading: " << lines[line];
+            EXPECT_TRUE(end == lines[line].size() || lines[line].substr(end, 2) == "  ") << lines[line];
         }
     }
 }

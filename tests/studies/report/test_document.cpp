@@ -66,16 +66,16 @@ TEST(Documents, AreTextOfAConsole)
                                              "  - one\n"
                                              "  - two\n"
                                              "  few motions\n"
-                                             "  More\n"
-                                             "  key = 1\n"
-                                             "  <b>\n");
+                                             "  More\n"); // and what it opens is for a page
 }
 
 TEST(Documents, CountCharactersNotBytesInColumns)
 {
     Document document;
     document.table({"ll", {"a", "b"}, {{"m/s²", "1"}, {"–", "2"}, {"long name"}}, ""});
-    EXPECT_EQ(console_text(document), "  a          b\n  m/s²       1\n  –          2\n  long name\n");
+    document.block("key = 1\n<b>\n");
+    EXPECT_EQ(console_text(document),
+              "  a          b\n  m/s²       1\n  –          2\n  long name\n  key = 1\n  <b>\n");
 }
 
 TEST(Documents, AreJson)

@@ -73,9 +73,10 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             e.stribeck_velocity_m_s = cause.fixed;
         } else if (m == "friction_wear")
             e.wear_per_m = size;
-        else if (m == "adhesion")
+        else if (m == "adhesion") {
             e.adhesion_n_m = size;
-        else if (m == "dowel" && yields(cause)) {
+            e.adhesion_tension_n_m = cause.fixed * size;
+        } else if (m == "dowel" && yields(cause)) {
             e.dowel_stiffness_n_m = size / cause.fixed;
             e.dowel_gap_m = 0;
             e.dowel_yield_n = size;
@@ -159,6 +160,10 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
         set(spec, "stiffness", yields(cause) ? size / cause.fixed : size);
         set(spec, "yield", yields(cause) ? size : 1e9);
         set(spec, "gap", yields(cause) ? 0 : cause.fixed);
+        break;
+    case Mechanism::adhesion:
+        set(spec, "force", size);
+        set(spec, "tension", cause.fixed * size);
         break;
     case Mechanism::tie:
         for (std::size_t p = 0; p < rule_of(*mechanism).parameters.size(); ++p)

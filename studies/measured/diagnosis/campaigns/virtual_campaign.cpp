@@ -81,9 +81,9 @@ double rate_of(DampingKind kind, double u)
     return 0;
 }
 
-/// Of a softening bed (q < 1) `step_bound` looks at small loads alone; the form `points` is stiffest at large ones, and
-/// so is damping by rate. These are the linear bed's, or less.
-double safe_step(const Realization& realization)
+} // namespace
+
+double safe_step_s(const Realization& realization)
 {
     Realization linear = realization;
     bool softens = false;
@@ -94,8 +94,6 @@ double safe_step(const Realization& realization)
     const double step = step_bound(realization).dt_s;
     return softens ? std::min(step, step_bound(linear).dt_s) : step;
 }
-
-} // namespace
 
 const char* to_string(DampingKind kind)
 {
@@ -192,7 +190,7 @@ void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenSt
             joint.mechanisms.reference_overlap_m2 = weights[j] / joint.normal_stiffness_n_m2;
         }
     }
-    r.step_s = step_fraction * safe_step(r);
+    r.step_s = step_fraction * safe_step_s(r);
 }
 
 namespace {
@@ -224,8 +222,8 @@ private:
     std::uint64_t next_ = 0;
 };
 
-/// One campaign's specimen, as specimens vary: all but where its blocks are put.
-/// @param law null: the contacts of the study
+} // namespace
+
 Realization draw_specimen(const Specimen& specimen, const Study& about, const SpecimenStructure& built,
                           std::uint64_t seed, std::uint64_t number, const HealthyLaw* law,
                           const std::vector<SizedCause>& causes)
@@ -259,6 +257,8 @@ Realization draw_specimen(const Specimen& specimen, const Study& about, const Sp
         apply_law(*law, specimen, built, study.run.step_fraction, r);
     return r;
 }
+
+namespace {
 
 /// Displacement of the base at the cameras' samples.
 std::vector<double> displacement_at_samples(const MeasuredRun& run, const Motion& base)

@@ -86,6 +86,17 @@ void apply_law(const HealthyLaw& law, Study& study);
 void apply_law(const HealthyLaw& law, const Specimen& specimen, const SpecimenStructure& built, double step_fraction,
                Realization& realization);
 
+/// The longest step that is safe for a drawn law. Of a softening bed (q < 1) `step_bound` looks at small loads alone;
+/// the form `points` is stiffest at large ones, and so is damping by rate. These are the linear bed's, or less.
+double safe_step_s(const Realization& realization);
+
+/// One specimen, as specimens vary: friction of all joints and of each, widths and masses; all but where its blocks
+/// are put. A pure function of (seed, number).
+/// @param about contacts; its structure is the specimen's   @param law null: the contacts of the study
+Realization draw_specimen(const Specimen& specimen, const Study& about, const SpecimenStructure& built,
+                          std::uint64_t seed, std::uint64_t number, const HealthyLaw* law,
+                          const std::vector<SizedCause>& causes);
+
 /// What of a virtual campaign is drawn beside friction, widths and masses.
 struct HealthyScatter {
     /// Put the blocks where the measured ones were seen before the base moved, as well as that is known. False, and

@@ -382,40 +382,30 @@ void correct_bases(const Campaign& campaign, const CampaignScales& scales, Direc
     out.base_m = out.corrected_m;
 }
 
-/// How far block `block` was found beside its place on the table, on the mean over the runs.
-double found_beside(const Campaign& campaign, const DirectResult& shown, int block)
-{
-    for (const CauseFit& fit : shown.found)
-        if (fit.cause.mechanism == "drum_offset" && fit.cause.block == block && sees_table(campaign))
-            return fit.size;
-    return 0;
-}
-
-/// Sensors and cameras have their own zeros: the base is put where the lowest block says that it is at first, up to how
-/// exactly that was put down. An offset that it was found to have is its own: a base that had it, too, would seem to
-/// have lost at one corner what the block protrudes there.
+/// Sensors and cameras have their own zeros: the base is put where the cameras see the table at first. Where they do
+/// not see it, the lowest block stands for it, up to how exactly that was put down.
 void align_bases(const Campaign& campaign, DirectResult& out)
 {
     const Specimen& s = campaign.specimen;
     const auto block = static_cast<std::size_t>(lowest_blocks(s).front());
-    const double beside = found_beside(campaign, out, static_cast<int>(block));
     for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
         const MeasuredRun& run = campaign.runs[r];
-        if (out.base_m[r].empty() || run.blocks.x_m.empty())
+        const bool table = !run.table.x_m.empty();
+        if (out.base_m[r].empty() || (!table && run.blocks.x_m.empty()))
             continue;
         double sum = 0;
         int count = 0;
         for (std::size_t i = 0; i < std::min(first_samples, out.base_m[r].size()); ++i) {
-            const double apart =
-                run.blocks.x_m.values[i * s.half_width_m.size() + block] - s.rest_x_m[block] - out.base_m[r][i];
-            if (std::isfinite(apart)) {
+            const double seen = table ? run.table.x_m.values[i]
+                                      : run.blocks.x_m.values[i * s.half_width_m.size() + block] - s.rest_x_m[block];
+            if (const double apart = seen - out.base_m[r][i]; std::isfinite(apart)) {
                 sum += apart;
                 ++count;
             }
         }
         if (count > 0)
             for (double& x : out.base_m[r])
-                x += sum / count - beside;
+                x += sum / count;
     }
 }
 

@@ -30,7 +30,8 @@ struct Cause {
     int block = -1;   ///< -1: all
     double fixed = 0; ///< second parameter, from a list: velocity of Stribeck's law, gap of a dowel (of one
                       ///< that yields the slip at which it does),
-                      ///< path after which friction wears no more (0: never)
+                      ///< path after which friction wears no more (0: never), of adhesion its tension over its
+                      ///< force against sliding (0: it holds against sliding alone)
     std::optional<std::string> side = {}; ///< of a corner: "left" or "right"; nullopt: both, or no corner
     bool persists = false;                ///< of wear: it goes on from run to run
     friend bool operator==(const Cause&, const Cause&) = default;

@@ -138,9 +138,9 @@ std::string nothing_seen(const Campaign& campaign)
     need("blocks/theta_rad", &SeenMotion::theta_rad);
     return fmt::format("has no run in which x, y and rotation of the blocks were measured{}.\n  The forces in the "
                        "joints cannot be computed without them.",
-                       campaign.runs.empty() ? ": it has no runs"
-                       : absent.empty()      ? ""
-                                             : "; no run has " + absent);
+                       !campaign.runs.empty()   ? absent.empty() ? "" : "; no run has " + absent
+                       : campaign.tests.empty() ? ": it has no runs"
+                                                : ": it has tests of joints, but no shake runs");
 }
 
 } // namespace

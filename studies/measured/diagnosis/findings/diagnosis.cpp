@@ -51,8 +51,8 @@ const Candidate* best_candidate(const Diagnosis& diagnosis)
 
 namespace {
 
-/// 3: windows in motion; 2: spans in figures
-constexpr SealedFormat format{"stylobate-diagnosis", "diagnosis", 3, 2, "run the diagnosis again"};
+/// 4: tests of single joints; 3: windows in motion; 2: spans in figures
+constexpr SealedFormat format{"stylobate-diagnosis", "diagnosis", 4, 2, "run the diagnosis again"};
 
 } // namespace
 

@@ -5,6 +5,7 @@
 /// UTF-8 sentences without markup. Blocks and joints are counted from 0, as in the measured file; block -1 is the base.
 
 #include "io/plots/figure.hpp"
+#include "studies/measured/diagnosis/findings/test_story.hpp"
 #include "studies/measured/windows/window_motion.hpp"
 
 #include <cstdint>
@@ -232,6 +233,7 @@ struct Diagnosis {
     std::vector<Missing> missing;
     std::vector<std::string> method; ///< in short: one paragraph each
     DiagnosisCost cost;
+    std::optional<TestStory> tests; ///< of single joints, and the test to do next; nothing: no joint can be tested
     std::vector<DiagnosisFigure> figures;
     std::optional<WindowMotions> motion; ///< nothing: no window could be simulated, or a file of format version 2
 };

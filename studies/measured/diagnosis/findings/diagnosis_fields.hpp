@@ -236,6 +236,7 @@ void visit_fields(std::type_identity<Diagnosis>, F&& f)
     f("method", &Diagnosis::method);
     f("cost", &Diagnosis::cost);
     f("figures", &Diagnosis::figures);
+    f("tests", &Diagnosis::tests, {.since = 4});
     f("motion", &Diagnosis::motion, {.since = 3});
 }
 

@@ -1,6 +1,7 @@
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 
 #include "io/files/suggest.hpp"
+#include "studies/measured/diagnosis/findings/story_document.hpp"
 #include "studies/measured/windows/motion_page.hpp"
 #include "studies/report/html_figure.hpp"
 #include "studies/report/left_out.hpp"
@@ -57,6 +58,7 @@ public:
         candidates();
         unexplained();
         gain();
+        tests();
         next_test();
         data();
         baseline();
@@ -281,6 +283,15 @@ private:
             }
             page_.block(*d_.extended_study);
         }
+    }
+
+    void tests()
+    {
+        if (!d_.tests)
+            return;
+        page_.section("Tests of single joints");
+        add_story(*d_.tests, page_);
+        add_story_figures(*d_.tests, page_);
     }
 
     void next_test()

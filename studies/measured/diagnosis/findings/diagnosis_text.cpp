@@ -2,6 +2,7 @@
 
 #include "io/files/suggest.hpp"
 #include "io/files/utf8.hpp"
+#include "studies/measured/diagnosis/findings/story_document.hpp"
 #include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
@@ -179,6 +180,15 @@ std::string gain_part(const Diagnosis& d)
     return out;
 }
 
+std::string tests_part(const Diagnosis& d)
+{
+    if (!d.tests)
+        return "";
+    Document document;
+    add_story(*d.tests, document);
+    return heading("Tests of single joints") + console_text(document);
+}
+
 std::string next_test_part(const Diagnosis& d)
 {
     if (!d.next_test)
@@ -221,7 +231,7 @@ std::string diagnosis_text(const Diagnosis& d)
     out += unexplained_part(d) + gain_part(d);
     if (d.extended_study_file)
         out += wrapped("The extended study: " + *d.extended_study_file, 2);
-    out += next_test_part(d) + data_part(d) + baseline_part(d);
+    out += tests_part(d) + next_test_part(d) + data_part(d) + baseline_part(d);
     if (!d.missing.empty()) {
         out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)

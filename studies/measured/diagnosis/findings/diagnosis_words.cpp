@@ -228,7 +228,7 @@ Json diagnosis_json(const Diagnosis& d)
 {
     Json json = json_of(d, {"verdict"});
     json.member("causes", json_list(named_causes(d), cause));
-    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test"});
+    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test", "tests"});
     if (d.extended_study_file)
         json.member("extended_study", *d.extended_study_file);
     else

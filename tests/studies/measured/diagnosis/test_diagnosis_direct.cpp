@@ -377,6 +377,22 @@ TEST_P(DirectTests, TheBaseDoesNotGoAlongWithABlockThatWasPutBesideItsPlace)
     }
 }
 
+/// Nor with one that is put down anew for each run, too little beside its place to be found.
+TEST(DirectTestsOfATable, TheBaseIsWhereTheCamerasSeeTheTable)
+{
+    const Campaign campaign = campaign_with({.lowest_off_m = 3e-4}, 7, true);
+    const DirectResult result = tested(campaign);
+    EXPECT_TRUE(result.found.empty()) << found_in(result);
+    for (std::size_t r = 0; r < campaign.runs.size(); ++r) {
+        double table = 0, base = 0; // noise of 5e-5 m over 20 samples
+        for (std::size_t i = 0; i < first_samples; ++i) {
+            table += campaign.runs[r].table.x_m.values[i] / first_samples;
+            base += result.base_m[r][i] / first_samples;
+        }
+        EXPECT_NEAR(base, table, 1e-12);
+    }
+}
+
 /// Runs in which nothing but the placing of the blocks happens, 24 of them.
 Campaign resting_campaign(unsigned seed, bool table, double off_m)
 {

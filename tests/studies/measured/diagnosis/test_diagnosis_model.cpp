@@ -1,6 +1,6 @@
 /// What a diagnosis names is what the extended study runs: both ways of putting a cause into the model agree.
 
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 
 #include "ensemble/run/executor.hpp"

@@ -265,7 +265,7 @@ TEST(SequenceStatistics, FalseAlarmsKeepVillesBoundWithLearntSignatures)
     const Eigen::VectorXd mean = Eigen::VectorXd::Constant(15, 10);
     for (unsigned seed = 0; seed < laboratories; ++seed) {
         gaussian::Specimens specimens(gaussian::covariance(), 500 + seed);
-        SimulatedTests tests{gaussian::columns(), Eigen::MatrixXd(48, 15), {}};
+        TestSamples tests{gaussian::columns(), Eigen::MatrixXd(48, 15), {}};
         for (Eigen::Index i = 0; i < 48; ++i)
             tests.healthy.row(i) = (specimens.draw() + mean).transpose();
         for (const CauseSignature& known : gaussian::causes()) {

@@ -15,10 +15,10 @@ namespace stylobate {
 namespace {
 
 /// Healthy specimens of the Gaussian laboratory, and of a lost corner at joint 1, all around 10.
-SimulatedTests gaussian_tables(Eigen::Index healthy, Eigen::Index with, bool paired, unsigned seed)
+TestSamples gaussian_tables(Eigen::Index healthy, Eigen::Index with, bool paired, unsigned seed)
 {
     gaussian::Specimens specimens(gaussian::covariance(), seed);
-    SimulatedTests out{gaussian::columns(), Eigen::MatrixXd(healthy, 15), {}};
+    TestSamples out{gaussian::columns(), Eigen::MatrixXd(healthy, 15), {}};
     for (Eigen::Index i = 0; i < healthy; ++i)
         out.healthy.row(i) = specimens.draw().transpose().array() + 10;
     CauseSamples samples{{"corner_loss", "joint 1", 1, "m"}, Eigen::MatrixXd(with, 15), {}};
@@ -62,7 +62,7 @@ TEST(Signatures, HaveShiftsOfTwoDeviationsAndMore)
         EXPECT_GE(s.causes[0].variance(7), 0);
     }
     // with the same specimens a small shift is exact, and still too small to count
-    SimulatedTests small = gaussian_tables(96, 24, true, 7);
+    TestSamples small = gaussian_tables(96, 24, true, 7);
     small.causes[0].rows.col(7).array() -= 5;
     const Signatures s = signatures_of(small);
     EXPECT_EQ(s.causes[0].shift(7), 0) << "1 of 0.7";
@@ -71,7 +71,7 @@ TEST(Signatures, HaveShiftsOfTwoDeviationsAndMore)
 
 TEST(Signatures, ScatterOfACauseIsBesideThatOfHealthySpecimens)
 {
-    SimulatedTests tests = gaussian_tables(96, 24, true, 9);
+    TestSamples tests = gaussian_tables(96, 24, true, 9);
     double sum = 0, squares = 0;
     for (Eigen::Index i = 0; i < 24; ++i) {
         const double more = std::sin(37.0 * static_cast<double>(i));
@@ -88,7 +88,7 @@ TEST(Signatures, ScatterOfACauseIsBesideThatOfHealthySpecimens)
 
 TEST(Signatures, LeaveOutWhatFallsAndWhatHasNoScatter)
 {
-    SimulatedTests tests = gaussian_tables(96, 12, true, 11);
+    TestSamples tests = gaussian_tables(96, 12, true, 11);
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (Eigen::Index i = 0; i < 96; ++i)
         if (i % 3 != 0)

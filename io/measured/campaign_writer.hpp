@@ -1,5 +1,5 @@
 #pragma once
-/// Measured campaigns written as files: what laboratories have programs of their own for.
+/// Measured campaigns written as files, in version 2 of the format: planned runs, and those of virtual laboratories.
 
 #include "ensemble/model/campaign.hpp"
 

@@ -1,4 +1,4 @@
-#include "tests/io/measured/campaign_writer.hpp"
+#include "io/measured/campaign_writer.hpp"
 
 #include "ensemble/model/input_error.hpp"
 #include "io/files/atomic_file.hpp"
@@ -8,8 +8,11 @@
 #include "io/measured/measured_layout.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <system_error>
 #include <unistd.h>
@@ -19,21 +22,75 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* format_name = "stylobate-measured";
-
 std::string list_text(const std::vector<double>& values)
 {
     std::string text;
     for (const double value : values)
-        text += (text.empty() ? "" : ", ") + toml_number(value);
+        text += (text.empty() ? "" : ", ") + (std::isnan(value) ? "nan" : toml_number(value));
     return "[" + text + "]";
+}
+
+std::string whole_list_text(const std::vector<int>& values)
+{
+    return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+using AddKey = std::function<void(std::string_view key, const std::string& value)>;
+
+void add_laboratory(const Laboratory& laboratory, const AddKey& add)
+{
+    for (const LaboratoryNumber& number : laboratory_numbers())
+        if (const auto& value = laboratory.*number.member)
+            add(number.name, toml_number(*value));
+    add("may_dismantle", laboratory.may_dismantle ? "true" : "false");
+    for (const auto& [kind, cost] : laboratory.cost)
+        add(cost_key(kind), toml_number(cost));
+}
+
+/// What belongs to tests alone; the tables of dummies and gauges follow.
+void add_test(const MeasuredRun& run, const AddKey& add)
+{
+    if (run.joint)
+        add("joint", fmt::format("{}", *run.joint));
+    if (!run.present.empty())
+        add("present", whole_list_text(run.present));
+    if (!run.clamped.empty())
+        add("clamped", whole_list_text(run.clamped));
+    std::vector<std::string> groups;
+    for (const std::vector<int>& group : run.taped)
+        groups.push_back(whole_list_text(group));
+    if (!groups.empty())
+        add("taped", fmt::format("[{}]", fmt::join(groups, ", ")));
+    if (run.released_s)
+        add("released_s", toml_number(*run.released_s));
+}
+
+void add_bodies(const MeasuredRun& run, std::string& text, const AddKey& add)
+{
+    for (const Dummy& dummy : run.dummies) {
+        text += "\n[[run.dummy]]\n";
+        add("block", fmt::format("{}", dummy.block));
+        for (const DummyNumber& number : dummy_numbers())
+            add(number.name, toml_number(dummy.*number.member));
+    }
+    for (const ForceGauge& gauge : run.forces) {
+        text += "\n[[run.force]]\n";
+        add("name", toml_quoted(gauge.name));
+        add("block", fmt::format("{}", gauge.block));
+        for (const GaugeNumber& number : gauge_numbers())
+            add(number.name, toml_number(gauge.*number.member));
+        add("to", toml_quoted(end_word(gauge)));
+        if (gauge.value_n.noise_sd)
+            add("noise_n", toml_number(*gauge.value_n.noise_sd));
+    }
 }
 
 std::string toml_text(const Campaign& campaign)
 {
     const Specimen& specimen = campaign.specimen;
-    std::string text = fmt::format("[campaign]\nformat = \"{}\"\nformat_version = 1\n", format_name);
-    const auto add = [&](std::string_view key, const std::string& value) {
+    std::string text =
+        fmt::format("[campaign]\nformat = \"{}\"\nformat_version = {}\n", measured_format, measured_version);
+    const AddKey add = [&](std::string_view key, const std::string& value) {
         text += fmt::format("{} = {}\n", key, value);
     };
     if (!specimen.name.empty())
@@ -54,13 +111,17 @@ std::string toml_text(const Campaign& campaign)
         joints += fmt::format("{}[{}, {}]", joints.empty() ? "" : ", ", lower, upper);
     if (!joints.empty())
         add("joints", "[" + joints + "]");
-    for (const MeasuredRun& run : campaign.runs) {
+    text += "\n[laboratory]\n";
+    add_laboratory(campaign.laboratory, add);
+    for (const MeasuredRun* each : every_run(campaign)) {
+        const MeasuredRun& run = *each;
         text += "\n[[run]]\n";
         add("name", toml_quoted(run.name));
+        add("kind", toml_quoted(to_string(run.test)));
         add("motion_id", fmt::format("{}", run.motion_id));
         add("repeat", fmt::format("{}", run.repeat));
         if (run.kind)
-            add("kind", toml_quoted(*run.kind));
+            add("motion", toml_quoted(*run.kind));
         if (run.rate_hz != 0)
             add("rate_hz", toml_number(run.rate_hz));
         if (run.run_order)
@@ -74,6 +135,8 @@ std::string toml_text(const Campaign& campaign)
         for (const SeriesName& series : series_names())
             if (const auto noise = series.in(run).noise_sd)
                 add(series.noise_key(), toml_number(*noise));
+        add_test(run, add);
+        add_bodies(run, text, add);
     }
     return text;
 }
@@ -95,6 +158,11 @@ std::string csv_text(const MeasuredRun& run, std::size_t blocks)
             columns.emplace_back(series.values.data() + block, blocks);
         }
     }
+    for (const ForceGauge& gauge : run.forces)
+        if (!gauge.value_n.empty()) {
+            text += fmt::format(",force_{}_n", gauge.name);
+            columns.emplace_back(gauge.value_n.values.data(), 1);
+        }
     text += '\n';
     for (std::size_t i = 0; i < run.time_s.size(); ++i)
         for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -132,8 +200,8 @@ void write_measured_csv(const Campaign& campaign, const fs::path& folder)
     fail(error);
     try {
         fs::create_directory(making / "runs");
-        for (const MeasuredRun& run : campaign.runs)
-            write_file(making / "runs" / (run.name + ".csv"), csv_text(run, block_count(campaign)));
+        for (const MeasuredRun* run : every_run(campaign))
+            write_file(making / "runs" / (run->name + ".csv"), csv_text(*run, block_count(campaign)));
         write_file(making / "campaign.toml", toml_text(campaign));
         fs::rename(making, target, error);
         fail(error);
@@ -153,13 +221,80 @@ void write_whole(hid_t object, const std::string& name, int value)
         throw hdf5::Error("cannot write the attribute '" + name + "'");
 }
 
+void write_whole_list(hid_t group, const std::string& name, const std::vector<int>& values, const hdf5::Dims& dims)
+{
+    if (!values.empty())
+        hdf5::write_array(group, name, std::vector<std::int32_t>(values.begin(), values.end()), dims, "");
+}
+
+/// @pre the group has a group `blocks`
+void write_test(hid_t group, const MeasuredRun& run)
+{
+    if (run.joint)
+        write_whole(group, "joint", *run.joint);
+    if (run.released_s)
+        hdf5::write_real(group, "released_s", *run.released_s);
+    write_whole_list(group, "blocks/present", run.present, {run.present.size()});
+    write_whole_list(group, "clamped", run.clamped, {run.clamped.size()});
+    std::size_t widest = 0;
+    for (const std::vector<int>& taped : run.taped)
+        widest = std::max(widest, taped.size());
+    std::vector<int> rows;
+    for (std::vector<int> taped : run.taped) {
+        taped.resize(widest, -1);
+        rows.insert(rows.end(), taped.begin(), taped.end());
+    }
+    write_whole_list(group, "taped", rows, {run.taped.size(), widest});
+    if (!run.dummies.empty()) {
+        const hdf5::Handle dummies = hdf5::create_group(group, "dummies");
+        std::vector<int> blocks;
+        for (const Dummy& dummy : run.dummies)
+            blocks.push_back(dummy.block);
+        write_whole_list(dummies.id(), "block", blocks, {blocks.size()});
+        for (const DummyNumber& number : dummy_numbers()) {
+            std::vector<double> values;
+            for (const Dummy& dummy : run.dummies)
+                values.push_back(dummy.*number.member);
+            hdf5::write_array(dummies.id(), number.name, values, {values.size()},
+                              number.dimension() == Dimension::mass ? "kg" : "m");
+        }
+    }
+    if (run.forces.empty())
+        return;
+    const hdf5::Handle forces = hdf5::create_group(group, "force");
+    for (const ForceGauge& gauge : run.forces) {
+        const hdf5::Handle made = hdf5::create_group(forces.id(), gauge.name);
+        write_whole(made.id(), "block", gauge.block);
+        for (const GaugeNumber& number : gauge_numbers())
+            hdf5::write_real(made.id(), number.name, gauge.*number.member);
+        hdf5::write_text(made.id(), "to", end_word(gauge));
+        if (gauge.value_n.empty())
+            continue;
+        hdf5::write_array(made.id(), "value_n", gauge.value_n.values, {gauge.value_n.values.size()}, "N");
+        if (gauge.value_n.noise_sd)
+            hdf5::write_real(hdf5::open_object(made.id(), "value_n").id(), "noise_sd", *gauge.value_n.noise_sd);
+    }
+}
+
+void write_laboratory(hid_t file, const Laboratory& laboratory)
+{
+    const hdf5::Handle group = hdf5::create_group(file, "laboratory");
+    for (const LaboratoryNumber& number : laboratory_numbers())
+        if (const auto& value = laboratory.*number.member)
+            hdf5::write_real(group.id(), number.name, *value);
+    write_whole(group.id(), "may_dismantle", laboratory.may_dismantle ? 1 : 0);
+    for (const auto& [kind, cost] : laboratory.cost)
+        hdf5::write_real(group.id(), cost_key(kind), cost);
+}
+
 void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
 {
     const hdf5::Handle group = hdf5::create_group(runs, run.name);
+    hdf5::write_text(group.id(), "kind", to_string(run.test));
     write_whole(group.id(), "motion_id", run.motion_id);
     write_whole(group.id(), "repeat", run.repeat);
     if (run.kind)
-        hdf5::write_text(group.id(), "kind", *run.kind);
+        hdf5::write_text(group.id(), "motion", *run.kind);
     if (run.rate_hz != 0)
         hdf5::write_real(group.id(), "rate_hz", run.rate_hz);
     if (run.run_order)
@@ -167,11 +302,12 @@ void write_run(hid_t runs, const MeasuredRun& run, std::size_t blocks)
     if (run.collapsed)
         write_whole(group.id(), "collapsed", *run.collapsed ? 1 : 0);
     hdf5::write_real(group.id(), "collapse_time_s", run.collapse_time_s);
+    hdf5::create_group(group.id(), "base");
+    hdf5::create_group(group.id(), "blocks");
+    write_test(group.id(), run);
     if (run.time_s.empty())
         return;
     hdf5::write_array(group.id(), "time_s", run.time_s, {run.time_s.size()}, "s");
-    hdf5::create_group(group.id(), "base");
-    hdf5::create_group(group.id(), "blocks");
     for (const SeriesName& name : series_names()) {
         const Series& series = name.in(run);
         if (series.empty())
@@ -214,17 +350,18 @@ void write_measured_hdf5(const Campaign& campaign, const fs::path& path)
     const fs::path making = path.parent_path() / fmt::format(".{}.{}.creating", path.filename().string(), ::getpid());
     try {
         hdf5::Handle file = hdf5::create_file(making, 0);
-        hdf5::write_text(file.id(), "format", format_name);
-        write_whole(file.id(), "format_version", 1);
+        hdf5::write_text(file.id(), "format", measured_format);
+        write_whole(file.id(), "format_version", measured_version);
         if (!campaign.specimen.name.empty())
             hdf5::write_text(file.id(), "specimen", campaign.specimen.name);
         hdf5::write_real(file.id(), "gravity_m_s2", campaign.specimen.gravity_m_s2);
         write_specimen(file.id(), campaign.specimen);
+        write_laboratory(file.id(), campaign.laboratory);
         {
             const hdf5::Handle runs = hdf5::create_group(file.id(), "runs");
             const std::size_t blocks = block_count(campaign);
-            for (const MeasuredRun& run : campaign.runs)
-                write_run(runs.id(), run, blocks);
+            for (const MeasuredRun* run : every_run(campaign))
+                write_run(runs.id(), *run, blocks);
         }
         file.close();
         rename_over(making, path);

@@ -1,0 +1,109 @@
+#include "studies/measured/joint_tests/estimates.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
+#include "studies/measured/joint_tests/single_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+const TestEstimators* estimators_of(RunKind kind)
+{
+    switch (kind) {
+    case RunKind::pull:
+        return &pull_estimators();
+    case RunKind::board:
+        return &board_estimators();
+    case RunKind::tilt:
+        return &tilt_estimators();
+    case RunKind::push:
+        return &push_estimators();
+    case RunKind::drop:
+        return &drop_estimators();
+    case RunKind::slide:
+        return &slide_estimators();
+    case RunKind::rest:
+        return &rest_estimators();
+    case RunKind::shake:
+        break;
+    }
+    return nullptr;
+}
+
+double floor_of(const Estimate& estimate, const LaboratoryFloor& floor)
+{
+    const LaboratoryFloor& per = estimate.per_floor;
+    return std::hypot(std::hypot(per.friction * floor.friction, per.geometry_m * floor.geometry_m),
+                      std::hypot(per.force * floor.force, per.time * floor.time));
+}
+
+} // namespace
+
+std::vector<Estimate> estimates(const Specimen& specimen, std::span<const MeasuredRun> runs,
+                                const LaboratoryFloor& floor)
+{
+    if (runs.empty())
+        return {};
+    for (const MeasuredRun& run : runs)
+        if (run.test != runs.front().test || run.joint != runs.front().joint)
+            throw InputError("run " + run.name + " is another test, or on another joint, than run " +
+                             runs.front().name + ".\n  Give the runs of one test on one joint together.");
+    const TestEstimators* estimators = estimators_of(runs.front().test);
+    if (!estimators || !runs.front().joint)
+        return {};
+    const int joint = *runs.front().joint;
+    if (joint < 0 || joint >= static_cast<int>(specimen.joints.size()))
+        throw InputError("run " + runs.front().name + " is a test of joint " + std::to_string(joint) +
+                         ", the specimen has " + std::to_string(specimen.joints.size()) + ".\n  Correct the joint.");
+    std::vector<Estimate> found = estimators->of(specimen, runs);
+    std::erase_if(found, [](const Estimate& e) { return !std::isfinite(e.value) || !std::isfinite(e.sd); });
+    for (Estimate& estimate : found) {
+        estimate.joint = joint;
+        estimate.floor_sd = floor_of(estimate, floor);
+    }
+    return found;
+}
+
+const std::vector<EstimatorName>& estimator_names(RunKind kind)
+{
+    static const std::vector<EstimatorName> none;
+    const TestEstimators* estimators = estimators_of(kind);
+    return estimators ? estimators->names : none;
+}
+
+Estimate with_floor(Estimate estimate, const LaboratoryFloor& floor)
+{
+    estimate.sd = std::hypot(estimate.sd, floor_of(estimate, floor));
+    estimate.floor_sd = 0;
+    return estimate;
+}
+
+std::vector<Estimate> contrasts(const std::vector<Estimate>& of_joints)
+{
+    std::vector<Estimate> found;
+    for (const Estimate& one : of_joints) {
+        std::vector<double> others;
+        double variance = 0;
+        for (const Estimate& other : of_joints)
+            if (other.name == one.name && other.joint != one.joint) {
+                others.push_back(other.value);
+                variance += other.sd * other.sd;
+            }
+        if (others.empty())
+            continue;
+        std::ranges::sort(others);
+        const auto n = static_cast<double>(others.size());
+        const double of_median = (others.size() > 2 ? 1.25 : 1.0) * std::sqrt(variance / n / n);
+        Estimate contrast = one;
+        contrast.value -= sorted_median(others);
+        contrast.sd = std::hypot(one.sd, of_median);
+        found.push_back(contrast);
+    }
+    return found;
+}
+
+} // namespace stylobate

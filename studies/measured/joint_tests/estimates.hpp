@@ -1,0 +1,59 @@
+#pragma once
+/// Numbers that a test of one joint gives, each with the standard deviation of its measurement. They are made from
+/// forces, angles and times alone: no contact law is in them. Their equations stand at the top of the file of each
+/// test.
+///
+/// **Start here** to read a test; `procedures.hpp` to plan one.
+
+#include "ensemble/model/campaign.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// How well a laboratory repeats itself: 1 sigma between joints or days, beside the noise of the sensors.
+struct LaboratoryFloor {
+    double friction = 0.015;  ///< relative
+    double geometry_m = 1e-4; ///< of a bearing's end, or of a centre of mass
+    double force = 0.015;     ///< relative
+    double time = 0.05;       ///< relative, of the time until a body is at rest
+};
+
+struct Estimate {
+    std::string name; ///< "pull.friction", of `estimator_names`
+    int joint = 0;
+    double value = 0;
+    double sd = 0;                            ///< of the measurement alone: noise and number of samples
+    LaboratoryFloor per_floor = {0, 0, 0, 0}; ///< change of the value with each of the floor's numbers
+    double floor_sd = 0;                      ///< by the floor that `estimates` was given; not in `sd`
+};
+
+struct EstimatorName {
+    std::string name;
+    std::string unit; ///< empty: a ratio, or the natural logarithm of one
+    std::string what;
+    std::string blind_to; ///< causes that leave it as it is
+};
+
+/// The estimates of one test on one joint. What the runs do not give (nothing slid or turned, a collapse, gaps) is
+/// left out; so an empty answer means that the test has to be done again.
+/// @param runs all of one kind and joint, as `planned_runs` has them, in any order
+/// @throws InputError where the runs are of several kinds or joints, or the specimen has no such joint
+std::vector<Estimate> estimates(const Specimen& specimen, std::span<const MeasuredRun> runs,
+                                const LaboratoryFloor& floor = {});
+
+/// All estimates that a test can give; none for `shake`.
+const std::vector<EstimatorName>& estimator_names(RunKind kind);
+
+/// The same with the floor in its standard deviation, in quadrature: for a comparison of joints or days.
+Estimate with_floor(Estimate estimate, const LaboratoryFloor& floor);
+
+/// For every name the value of each joint less the median of the other joints: what all joints have in common, above
+/// all their contact law, cancels where the same body stood on every joint. The standard deviation is that of both; of
+/// a median of n > 2 values 1.25 / sqrt(n) times their root mean square one. Names that only one joint has are left
+/// out.
+std::vector<Estimate> contrasts(const std::vector<Estimate>& of_joints);
+
+} // namespace stylobate

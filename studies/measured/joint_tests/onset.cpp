@@ -1,0 +1,121 @@
+#include "studies/measured/joint_tests/onset.hpp"
+
+#include "studies/measured/joint_tests/joint_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double clear_mean = 6; // standard deviations of a mean
+
+/// Sums of squares for one start: the best zero and coefficient, and what is left.
+struct OnsetTry {
+    double left = 0, coefficient = 0, coefficient_sd = 0;
+    std::size_t count = 0;
+};
+
+OnsetTry try_start(const OnsetData& data, double start, std::size_t from, std::size_t to, bool has_column,
+                   const std::function<OnsetMotion(double, std::size_t)>& motion)
+{
+    double n = 0, y = 0, z = 0, yy = 0, yz = 0, zz = 0;
+    OnsetTry tried;
+    for (std::size_t i = from; i < to; ++i) {
+        if (!std::isfinite(data.values[i]))
+            continue;
+        const OnsetMotion m = static_cast<double>(i) > start ? motion(start, i) : OnsetMotion{};
+        const double value = data.values[i] - m.fixed;
+        n += 1;
+        y += value;
+        yy += value * value;
+        z += m.column;
+        zz += m.column * m.column;
+        yz += value * m.column;
+    }
+    tried.count = static_cast<std::size_t>(n);
+    const double variance = yy - y * y / n, across = yz - y * z / n, spread = zz - z * z / n;
+    tried.left = variance;
+    if (has_column && spread > 0) {
+        tried.coefficient = across / spread;
+        tried.coefficient_sd = data.sd / std::sqrt(spread);
+        tried.left -= across * across / spread;
+    }
+    return tried;
+}
+
+} // namespace
+
+std::optional<std::size_t> first_motion(const OnsetData& data)
+{
+    const std::size_t w = data.window, n = data.values.size();
+    const double limit = clear_mean * data.sd / std::sqrt(static_cast<double>(w));
+    const auto clear = [&](std::size_t i) {
+        const auto [mean, count] = finite_mean(data.values, i, i + w);
+        return 2 * static_cast<std::size_t>(count) > w && mean > limit;
+    };
+    for (std::size_t i = 0; i + 2 * w <= n; ++i)
+        if (clear(i) && clear(i + w)) {
+            const auto [mean, count] = finite_mean(data.values, 0, i);
+            return i > 0 && 2 * static_cast<std::size_t>(count) > i ? std::optional(i + w / 2) : std::nullopt;
+        }
+    return std::nullopt;
+}
+
+std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, double most, bool has_column,
+                                  const std::function<OnsetMotion(double, std::size_t)>& motion)
+{
+    constexpr std::size_t fewest = 15;
+    const std::size_t from = moved > 2 * data.before ? moved - 2 * data.before : 0;
+    std::size_t to = moved;
+    while (to < data.values.size() && !(data.values[to] > most))
+        ++to;
+    if (to < moved + fewest || moved < from + data.before / 2)
+        return std::nullopt;
+    const std::size_t earliest = moved > data.before ? moved - data.before : 0;
+    std::vector<double> left;
+    const std::size_t latest = std::min(moved + data.window / 2, to); // the mean of a window moves before its middle
+    for (std::size_t k = earliest; k <= latest; ++k)
+        left.push_back(try_start(data, static_cast<double>(k), from, to, has_column, motion).left);
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
+    if (best == 0 || best + 1 >= left.size())
+        return std::nullopt;
+    // a parabola wide enough that the sum of squares has grown by a few of the noise's
+    std::size_t wide = 1;
+    while (wide < best && best + wide + 1 < left.size() &&
+           left[best - wide] + left[best + wide] - 2 * left[best] < 8 * data.sd * data.sd)
+        ++wide;
+    const double w = static_cast<double>(wide);
+    const double bend =
+        (left[best - wide] - 2 * left[best] + left[best + wide]) / (2 * w * w); // of the squared distance
+    if (!(bend > 0))
+        return std::nullopt;
+    OnsetFit fit;
+    const double aside = (left[best - wide] - left[best + wide]) / (4 * bend * w);
+    fit.start = static_cast<double>(earliest + best) + std::clamp(aside, -w, w);
+    const OnsetTry at = try_start(data, fit.start, from, to, has_column, motion);
+    const double later = try_start(data, fit.start + 1, from, to, has_column, motion).coefficient;
+    fit.scatter = std::sqrt(at.left / static_cast<double>(at.count)) / data.sd;
+    fit.start_sd = std::max(1.0, fit.scatter) * data.sd / std::sqrt(bend);
+    fit.coefficient = at.coefficient;
+    fit.coefficient_sd = std::max(1.0, fit.scatter) * at.coefficient_sd;
+    fit.per_start = later - at.coefficient;
+    return fit;
+}
+
+std::optional<TiltAt> tilt_at(std::span<const double> tilt, double at, std::size_t reach, double noise)
+{
+    std::vector<double> x, y;
+    const auto middle = static_cast<std::size_t>(at);
+    for (std::size_t i = middle > reach ? middle - reach : 0; i < std::min(tilt.size(), middle + reach + 1); ++i) {
+        x.push_back(static_cast<double>(i) - at);
+        y.push_back(tilt[i]);
+    }
+    const LineFit line = line_fit(x, y);
+    if (line.count < 10)
+        return std::nullopt;
+    return TiltAt{line.at_zero, line.at_zero_sd * noise, line.slope};
+}
+
+} // namespace stylobate

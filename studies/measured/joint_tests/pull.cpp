@@ -1,0 +1,421 @@
+/// `pull`: a rod holds the block in the laboratory while the table cycles below it. The block stands nearly still, so
+/// its force is the joint's friction:
+///
+///   mu = F d / N      F: force of the gauge, N: weight of the block, d = +1 where the block slips to the right
+///
+/// Means of mu over windows of 0.5 mm (times s) are fitted with `friction_fit.hpp`. Windows begin when the block has
+/// slipped 2.5 mm since the table turned round (1.2 mm in the first stroke), past the play of a dowel.
+///
+///   friction    ln m                                      error: noise / (N sqrt(samples)), and the gauge's gain
+///   speed       b: friction in slow cycles less that in fast ones, over their mean
+///   wear        k, friction lost per path over the first friction [1/m]
+///   direction   c: slip to the left less slip to the right, over their mean
+///   time        e, growth per time [1/s]; from path by the fast cycles, which have much path in little time
+///   place       root mean square over places of the mean deviation from what all this gives, less that of the noise
+///   width       after each slow reversal, u: displacement of the table, f: force over that of the same stroke from 2.5
+///               to 5 mm, from -1 to 1;  w = mean of integral (1 - f) / 2 du up to 2.5 mm, less F / k of the rod.
+///               mu N / K for a joint of stiffness K; more for a dowel, whose force comes back beyond its play
+///   compliance  du / dF while |f| < 0.8 after these reversals, less 1 / k of the rod [m/N]
+///   first       ln(F_b / F_p) of the first slip, which is approached slowly: a line in the displacement up to F_b,
+///   then
+///               F_p on average; the place of the break by least squares. Its error is (6 sd^2 r)^(1/3) / F_p at r
+///               newton a sample: where line and plateau are less apart than the noise, the break may be anywhere
+///
+/// All but `friction` are ratios in which the gauge's gain cancels. The block does not move: blind to drag, and to what
+/// happens where faces open (corners, centres of mass, damping, bonds against opening).
+
+#include "studies/measured/joint_tests/friction_fit.hpp"
+#include "studies/measured/joint_tests/joint_run.hpp"
+#include "studies/measured/joint_tests/single_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace stylobate {
+
+namespace {
+
+constexpr double pull_window_m = 0.0005, after_turn_m = 0.0025, after_start_m = 0.0012; // times s
+constexpr double most_block_motion = 0.1; // of the reach: a block that moves more is not held by its rod
+constexpr double most_block_turn = 0.1;   // rad
+constexpr double steady_speed = 0.2;      // change of the table's speed within a window
+constexpr std::size_t fewest_in_window = 3;
+
+/// The gauge that holds the block.
+struct HeldBlock {
+    JointRun seen;
+    std::vector<double> force_n; ///< without its zero
+    double force_sd = 0;         ///< [N]
+    const ForceGauge* gauge = nullptr;
+    std::vector<std::size_t> turns; ///< of the table
+    std::size_t first = 0;          ///< sample at which the table begins to move
+    double reach_m = 0;
+
+    bool usable(std::size_t i) const
+    {
+        return i < seen.samples && std::isfinite(force_n[i]) && std::isfinite(seen.x_m[i]) &&
+               std::fabs(seen.x_m[i] - block_zero_m) < most_block_motion * reach_m &&
+               std::fabs(seen.turn(i)) < most_block_turn;
+    }
+    double block_zero_m = 0;
+};
+
+std::optional<HeldBlock> held_block(const Specimen& specimen, const MeasuredRun& run)
+{
+    std::optional<JointRun> seen = joint_run(specimen, run, false);
+    if (!seen)
+        return std::nullopt;
+    HeldBlock held;
+    held.seen = std::move(*seen);
+    for (const ForceGauge& gauge : run.forces)
+        if (gauge.block == held.seen.body.upper && gauge.to_laboratory &&
+            gauge.value_n.values.size() == run.time_s.size())
+            held.gauge = &gauge;
+    if (!held.gauge)
+        return std::nullopt;
+    held.force_n = held.gauge->value_n.values;
+    held.force_sd = held.gauge->value_n.noise_sd.value_or(noise_of(held.force_n));
+    const std::vector<double>& base = held.seen.base_m;
+    const auto [low, high] = std::ranges::minmax_element(base);
+    held.reach_m = (*high - *low) / 2;
+    if (!(held.reach_m > 4 * after_turn_m * held.seen.body.length_ratio / 2))
+        return std::nullopt;
+    held.turns = turning_points(base, 0.1 * held.reach_m);
+    const double moved = 1e-4 * held.reach_m + 5 * run.base_displacement_m.noise_sd.value_or(0);
+    while (held.first < base.size() && std::fabs(base[held.first] - base[0]) < moved)
+        ++held.first;
+    const auto [zero, count] = finite_mean(held.force_n, 0, held.first);
+    held.block_zero_m = finite_mean(held.seen.x_m, 0, held.first).first;
+    if (count < 10)
+        return std::nullopt;
+    for (double& force : held.force_n)
+        force -= zero;
+    return held;
+}
+
+/// The strokes of the table, from one turn to the next: [from, to).
+std::vector<std::pair<std::size_t, std::size_t>> strokes_of(const HeldBlock& held)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> strokes;
+    std::size_t from = held.first;
+    for (const std::size_t turn : held.turns) {
+        strokes.emplace_back(from, turn);
+        from = turn;
+    }
+    const std::vector<double>& base = held.seen.base_m;
+    std::size_t end = base.size();
+    while (end > from + 1 && std::fabs(base[end - 1] - base.back()) < 1e-3 * held.reach_m)
+        --end; // at rest again
+    strokes.emplace_back(from, end);
+    return strokes;
+}
+
+struct PullWindow {
+    FrictionWindow window;
+    double speed_m_s = 0;
+};
+
+std::vector<PullWindow> pull_windows(const HeldBlock& held)
+{
+    const JointRun& seen = held.seen;
+    const double s = seen.body.length_ratio, wide = pull_window_m * s;
+    const std::vector<double>& base = seen.base_m;
+    std::vector<PullWindow> windows;
+    double path = 0;
+    bool first = true;
+    for (const auto& [from, to] : strokes_of(held)) {
+        const double skip = (first ? after_start_m : after_turn_m) * s, start = base[from];
+        first = false;
+        const int direction = base[std::min(to, base.size() - 1)] > start ? -1 : 1; // of the block's slip
+        const auto place_of = [&](std::size_t k) { return static_cast<int>(std::floor((base[k] - base[0]) / wide)); };
+        for (std::size_t i = from; i < to;) {
+            std::size_t end = i + 1;
+            while (end < to && place_of(end) == place_of(i))
+                ++end;
+            const auto speed_at = [&](std::size_t k) { // between two samples
+                return std::fabs(base[std::min(k + 1, base.size() - 1)] - base[k]) / seen.step_s();
+            };
+            const double v0 = speed_at(i), v1 = speed_at(end - 1), sum_v = v0 + v1;
+            double force = 0;
+            std::size_t count = 0;
+            for (std::size_t k = i; k < end; ++k)
+                if (held.usable(k)) {
+                    force += held.force_n[k];
+                    ++count;
+                }
+            if (std::fabs(base[i] - start) >= skip && count >= fewest_in_window && 2 * count > end - i &&
+                std::fabs(v1 - v0) < steady_speed * sum_v / 2) {
+                PullWindow window;
+                const auto n = static_cast<double>(count);
+                window.window.mu = force / n * direction / seen.weight_n;
+                window.window.sd = held.force_sd / (seen.weight_n * std::sqrt(n));
+                window.window.path_m = path + std::fabs((base[i] + base[end - 1]) / 2 - start);
+                window.window.time_s = (seen.time(i) + seen.time(end - 1)) / 2;
+                window.window.direction = direction;
+                window.speed_m_s = sum_v / 2;
+                window.window.place = place_of(i);
+                windows.push_back(window);
+            }
+            i = end;
+        }
+        path += std::fabs(base[std::min(to, base.size() - 1)] - start);
+    }
+    return windows;
+}
+
+/// Fast windows are above the geometric mean of the speeds, where these are far apart.
+void mark_fast(std::vector<PullWindow>& windows)
+{
+    const auto [slow, fast] = std::ranges::minmax(windows, {}, &PullWindow::speed_m_s);
+    if (fast.speed_m_s > 2 * slow.speed_m_s)
+        for (PullWindow& window : windows)
+            window.window.fast = window.speed_m_s * window.speed_m_s > slow.speed_m_s * fast.speed_m_s;
+}
+
+Estimate pull_estimate(const char* name, double value, double sd, double per_friction)
+{
+    return {name, 0, value, sd, {.friction = per_friction, .geometry_m = 0, .force = 0, .time = 0}};
+}
+
+void add_place(const FrictionFit& fit, std::vector<Estimate>& all)
+{
+    struct Sum {
+        double weight = 0, value = 0;
+    };
+    std::map<int, Sum> of_place;
+    for (std::size_t i = 0; i < fit.windows.size(); ++i) {
+        const FrictionWindow& w = fit.windows[i];
+        const double sd = w.sd * std::fabs((1 + fit.residual[i]) / w.mu), weight = 1 / (sd * sd); // relative
+        Sum& sum = of_place[w.place];
+        sum.weight += weight;
+        sum.value += weight * fit.residual[i];
+    }
+    constexpr std::size_t fewest_places = 8;
+    if (of_place.size() < fewest_places)
+        return;
+    double squares = 0, noise = 0;
+    const auto n = static_cast<double>(of_place.size());
+    for (const auto& [place, sum] : of_place) {
+        squares += std::pow(sum.value / sum.weight, 2) / n;
+        noise += 1 / sum.weight / n;
+    }
+    const double value = std::sqrt(std::max(0.0, squares - noise)), error = noise * std::sqrt(2 / n);
+    all.push_back(pull_estimate("pull.place", value, std::sqrt(value * value + error) - value, 1));
+}
+
+/// What one slow stroke gives after its turn.
+struct Loop {
+    double width_m = 0, width_variance = 0; ///< with the rod
+    double plateau_n = 0;                   ///< in the direction of the stroke
+    double uu = 0, uf = 0, ff = 0;          ///< sums for the compliance: products of displacement and force
+    double points = 0;
+};
+
+std::optional<Loop> loop_of(const HeldBlock& held, std::size_t from, std::size_t to)
+{
+    const std::vector<double>& base = held.seen.base_m;
+    const double reach = after_turn_m * held.seen.body.length_ratio, noise = held.force_sd;
+    const double direction = base[to - 1] > base[from] ? -1 : 1;
+    const auto moved = [&](std::size_t i) { return std::fabs(base[i] - base[from]); };
+    Loop loop;
+    double count = 0;
+    for (std::size_t i = from; i < to; ++i)
+        if (moved(i) >= reach && moved(i) < 2 * reach && held.usable(i)) {
+            loop.plateau_n += held.force_n[i] * direction;
+            ++count;
+        }
+    constexpr double fewest = 20, clear_of_noise = 10;
+    if (count < fewest || loop.plateau_n / count < clear_of_noise * noise)
+        return std::nullopt;
+    loop.plateau_n /= count;
+    const auto share = [&](std::size_t i) { return held.force_n[i] * direction / loop.plateau_n; };
+    double squares = 0, mean_u = 0, mean_f = 0;
+    std::vector<std::size_t> rising;
+    bool full = false;
+    for (std::size_t i = from; i + 1 < to && moved(i) < reach; ++i) {
+        if (!held.usable(i) || !held.usable(i + 1))
+            return std::nullopt;
+        const double step = moved(i + 1) - moved(i);
+        loop.width_m += (2 - share(i) - share(i + 1)) / 4 * step;
+        squares += step * step;
+        full = full || share(i) >= 0.8;
+        if (!full && share(i) > -0.8)
+            rising.push_back(i);
+    }
+    const double relative = noise / loop.plateau_n;
+    loop.width_variance = relative * relative * (squares + reach * reach / count) / 4;
+    loop.points = static_cast<double>(rising.size());
+    for (const std::size_t i : rising) {
+        mean_u += moved(i) / loop.points;
+        mean_f += held.force_n[i] * direction / loop.points;
+    }
+    for (const std::size_t i : rising) {
+        const double u = moved(i) - mean_u, f = held.force_n[i] * direction - mean_f;
+        loop.uu += u * u;
+        loop.uf += u * f;
+        loop.ff += f * f;
+    }
+    return loop;
+}
+
+/// The strokes whose speed is the slow one's, without the first: it does not begin at a turn.
+std::vector<Loop> slow_loops(const HeldBlock& held, double slow_m_s)
+{
+    std::vector<Loop> loops;
+    const std::vector<double>& base = held.seen.base_m;
+    const double reach = after_turn_m * held.seen.body.length_ratio;
+    std::vector<std::pair<std::size_t, std::size_t>> strokes = strokes_of(held);
+    strokes.erase(strokes.begin());
+    for (const auto& [from, to] : strokes) {
+        std::size_t at = from, end = from;
+        while (at < to && std::fabs(base[at] - base[from]) < reach)
+            ++at;
+        while (end < to && std::fabs(base[end] - base[from]) < 2 * reach)
+            ++end;
+        if (end >= to || end - at < 2)
+            continue;
+        const double speed = reach / (held.seen.time(end) - held.seen.time(at));
+        if (speed < 1.5 * slow_m_s)
+            if (const auto loop = loop_of(held, from, to))
+                loops.push_back(*loop);
+    }
+    return loops;
+}
+
+void add_loops(const HeldBlock& held, double slow_m_s, std::vector<Estimate>& all)
+{
+    const std::vector<Loop> loops = slow_loops(held, slow_m_s);
+    if (loops.empty() || !(held.gauge->stiffness_n_m > 0))
+        return;
+    const double k = held.gauge->stiffness_n_m, reach = after_turn_m * held.seen.body.length_ratio;
+    const auto n = static_cast<double>(loops.size());
+    double width = 0, variance = 0, uf = 0, uu = 0, ff = 0, points = 0;
+    for (const Loop& loop : loops) {
+        width += (loop.width_m - loop.plateau_n / k) / n;
+        variance += loop.width_variance / (n * n);
+        uf += loop.uf;
+        uu += loop.uu;
+        ff += loop.ff;
+        points += std::max(0.0, loop.points - 1);
+    }
+    all.push_back(pull_estimate("pull.width", width, std::sqrt(variance), reach / 2));
+    const double noise = held.force_sd * held.force_sd,
+                 signal = ff - points * noise; // noise adds to the forces' squares
+    if (points < 8 || signal < 0.5 * ff)
+        return;
+    const double slope = uf / signal;
+    const double scatter = std::max(0.0, uu - uf * slope) / points; // of displacements about the line
+    const double sd = std::sqrt(std::max(scatter, slope * slope * noise) / signal);
+    all.push_back(pull_estimate("pull.compliance", slope - 1 / k, sd, slope));
+}
+
+/// The first slip: a line up to the break, then a plateau.
+void add_first(const HeldBlock& held, std::vector<Estimate>& all)
+{
+    const JointRun& seen = held.seen;
+    const double creep = 0.95 * pull_creep_m * seen.body.length_ratio;
+    std::vector<double> moved, force;
+    double to_side = 0;
+    for (std::size_t i = held.first; i < seen.samples && std::fabs(seen.base_m[i] - seen.base_m[0]) < creep; ++i) {
+        if (!held.usable(i))
+            return;
+        to_side = seen.base_m[i] - seen.base_m[0];
+        moved.push_back(std::fabs(to_side));
+        force.push_back(to_side > 0 ? -held.force_n[i] : held.force_n[i]);
+    }
+    constexpr std::size_t fewest = 50;
+    constexpr double clear_of_noise = 10;
+    if (force.size() < fewest)
+        return; // not approached slowly
+    const std::size_t tail = force.size() * 3 / 5;
+    const double plateau = finite_mean(force, tail, force.size()).first;
+    if (plateau < clear_of_noise * held.force_sd)
+        return;
+    std::size_t from = 0, to = 0; // of the line: from a fifth to seven tenths of the plateau
+    while (from < tail && force[from] < 0.2 * plateau)
+        ++from;
+    to = from;
+    while (to < tail && force[to] < 0.7 * plateau)
+        ++to;
+    const LineFit line = line_fit(std::span(moved).subspan(from, to - from), std::span(force).subspan(from, to - from));
+    if (line.count < 5 || !(line.slope > 0))
+        return;
+    const auto squared = [](double v) { return v * v; };
+    double sum = 0, least = 0, break_n = plateau;
+    for (std::size_t i = from; i < force.size(); ++i) { // the break after sample i
+        sum += squared(force[i] - line.at_zero - line.slope * moved[i]) - squared(force[i] - plateau);
+        if (sum < least && i + 1 < tail) {
+            least = sum;
+            break_n = line.at_zero + line.slope * (moved[i] + moved[i + 1]) / 2;
+        }
+    }
+    const double ramp = line.slope * (moved[to] - moved[from]) / static_cast<double>(to - from);
+    const double sd = std::cbrt(6 * squared(held.force_sd) * ramp) + ramp / 2;
+    all.push_back(pull_estimate("pull.first", std::log(break_n / plateau), sd / plateau, 1));
+}
+
+std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
+{
+    std::vector<Estimate> all;
+    const std::optional<HeldBlock> held = held_block(specimen, runs.front());
+    if (!held)
+        return all;
+    std::vector<PullWindow> found = pull_windows(*held);
+    if (found.empty())
+        return all;
+    mark_fast(found);
+    std::vector<FrictionWindow> windows;
+    double slow = found.front().speed_m_s, path = 0;
+    for (const PullWindow& window : found) {
+        windows.push_back(window.window);
+        slow = std::min(slow, window.speed_m_s);
+        path = std::max(path, window.window.path_m);
+    }
+    const double duration = windows.back().time_s - windows.front().time_s;
+    add_first(*held, all);
+    const auto fit = fit_friction(windows, {FrictionTerm::speed, FrictionTerm::direction, FrictionTerm::time});
+    if (!fit)
+        return all;
+    const double level = *(*fit)[FrictionTerm::level];
+    all.push_back(pull_estimate("pull.friction", std::log(level),
+                                std::hypot(fit->sd_of(FrictionTerm::level) / level, held->gauge->gain_sd), 1));
+    const auto add = [&](const char* name, FrictionTerm term, double per_friction) {
+        if (const auto value = (*fit)[term])
+            all.push_back(pull_estimate(name, *value, fit->sd_of(term), per_friction));
+    };
+    add("pull.speed", FrictionTerm::speed, 1);
+    add("pull.wear", FrictionTerm::wear, 1 / path);
+    add("pull.direction", FrictionTerm::direction, 1);
+    add("pull.time", FrictionTerm::time, 1 / duration);
+    add_place(*fit, all);
+    add_loops(*held, slow, all);
+    return all;
+}
+
+} // namespace
+
+const TestEstimators& pull_estimators()
+{
+    static const TestEstimators all = {
+        pull_of,
+        {{"pull.friction", "", "logarithm of the friction before wear", "damping, corners, centres, drag, bonds"},
+         {"pull.speed", "", "friction in slow less in fast cycles, over their mean",
+          "all but friction that depends on speed"},
+         {"pull.wear", "1/m", "friction lost per path slipped", "all but wear of friction"},
+         {"pull.direction", "", "friction to the left less to the right, over their mean",
+          "all but friction that depends on direction"},
+         {"pull.time", "1/s", "growth of friction with time", "all but friction that depends on time"},
+         {"pull.place", "", "root mean square deviation of friction over places",
+          "all but friction that depends on the place, and unsteady wear"},
+         {"pull.width", "m", "displacement after a reversal before the full force",
+          "all but dowels and stiffness of the joint"},
+         {"pull.compliance", "m/N", "displacement per force right after a reversal",
+          "all but stiffness of joint and dowel"},
+         {"pull.first", "", "logarithm of the first peak over the plateau after it",
+          "all but bonds against sliding, and wear within some tenths of a millimetre"}}};
+    return all;
+}
+
+} // namespace stylobate

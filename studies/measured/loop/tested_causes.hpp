@@ -1,0 +1,36 @@
+#pragma once
+/// Causes that tests of single joints shall tell apart, each at each place, weak and strong: with them specimens are
+/// simulated. Sizes are in proportion to the specimen, as those of `candidate_causes.hpp`.
+
+#include "ensemble/model/campaign.hpp"
+#include "studies/measured/diagnosis/campaigns/cause_model.hpp"
+#include "studies/measured/loop/signatures.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+struct LoopCause {
+    SizedCause cause;
+    TestedCause named; ///< as the tables have it: its size is 0 where it is neutral
+    /// Second parameter, drawn anew for each specimen, uniform in its logarithm: velocity of Stribeck's law, slip at
+    /// which a dowel yields. Both 0: it has none.
+    double least_fixed = 0, most_fixed = 0;
+
+    bool acts_at(const Specimen& specimen, int joint) const;
+    /// For one specimen. @param uniform in (0, 1)
+    SizedCause drawn(double uniform) const;
+};
+
+/// @param joints that can be tested   @param friction of the joints
+/// @param stiffness_n_m2 K_N of the joints: dashpots are in proportion to critical ones
+std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<int>& joints, double friction,
+                                   double stiffness_n_m2);
+
+/// A size of the tables as the value of the cause's parameter, and in words: "dynamic_ratio = 0.72".
+double parameter_of(const Cause& cause, double size);
+std::string size_words(const Cause& cause, double size);
+
+} // namespace stylobate

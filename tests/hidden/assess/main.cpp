@@ -1,0 +1,166 @@
+/// loop_assessment: the laboratory in the loop, assessed. For each seed a virtual campaign is made; the loop proposes a
+/// test, the virtual laboratory does it, and so on, until something is decided or the tests are used up. A line for
+/// each seed: what was hidden, and what was found.
+
+#include "ensemble/model/input_error.hpp"
+#include "io/study/study_file.hpp"
+#include "studies/measured/joint_tests/procedures.hpp"
+#include "studies/measured/loop/laboratory_loop.hpp"
+#include "tests/hidden/joint_test.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+using namespace stylobate;
+using namespace stylobate::hidden;
+
+namespace {
+
+struct Assessment {
+    std::uint64_t first = 1, last = 1;
+    std::vector<std::string> effects;
+    bool nothing = false;
+    std::string law, specimen;
+    std::string prior = "flat"; ///< "flat", "group" (the right one), or a folder of diagnoses
+    int tests = 3;
+    std::string cache = "loop_cache";
+    std::uint64_t healthy = 64, of_each = 12;
+    int threads = 2;
+};
+
+std::vector<int> joints_alone(const Specimen& specimen)
+{
+    std::vector<int> joints;
+    for (int joint = 0; joint < static_cast<int>(specimen.joints.size()); ++joint)
+        if (stands_alone(specimen, joint))
+            joints.push_back(joint);
+    return joints;
+}
+
+/// The planned runs of one more test, with names of their own.
+void add_test(const Campaign& campaign, const std::string& test, std::vector<MeasuredRun>& tests)
+{
+    const int round = static_cast<int>(tests.empty() ? 0 : *tests.back().run_order / 1000 + 1);
+    int order = 1000 * round;
+    for (int kind = static_cast<int>(RunKind::pull); kind <= static_cast<int>(RunKind::rest); ++kind)
+        if (test == test_kind_name(static_cast<RunKind>(kind)))
+            for (const int joint : joints_alone(campaign.specimen))
+                for (MeasuredRun run :
+                     planned_runs(campaign.specimen, campaign.laboratory, static_cast<RunKind>(kind), joint)) {
+                    run.name = fmt::format("{:02}_{}", round, run.name);
+                    run.run_order = order++;
+                    tests.push_back(std::move(run));
+                }
+}
+
+std::vector<PriorShare> prior_of(const Assessment& how, const VirtualCampaign& made)
+{
+    if (how.prior == "group" && !made.effects.empty() && made.effects.front().listed)
+        return {{cause_group(made.effects.front().name), std::nullopt, 0.7}};
+    const fs::path file = fs::path(how.prior) / fmt::format("{}.h5", made.seed);
+    return fs::exists(file) ? prior_shares(read_diagnosis(file)) : std::vector<PriorShare>();
+}
+
+void assess(const Assessment& how, std::uint64_t seed)
+{
+    Wish wish;
+    wish.most_motions = 0;
+    if (how.nothing || !how.effects.empty())
+        wish.effects = how.effects;
+    if (!how.law.empty())
+        wish.law = how.law == "nonsmooth" ? hidden::Law::nonsmooth : hidden::Law::compliant;
+    if (how.specimen == "column")
+        wish.specimen = SpecimenKind::small_column;
+    const VirtualCampaign made = make_campaign(seed, wish);
+    Campaign campaign;
+    campaign.source = made.campaign.source;
+    campaign.specimen = made.planned.specimen;
+    const Study study = parse_study(study_text_of(made.planned), "study", {});
+    LoopOptions options;
+    options.plan.healthy = how.healthy;
+    options.plan.of_each_cause = how.of_each;
+    options.run.isa = best_isa();
+    options.run.threads = how.threads;
+    fs::create_directories(how.cache);
+    options.cache = fs::path(how.cache) /
+                    fmt::format("{}_{:g}.txt", campaign.specimen.blocks(), campaign.specimen.half_width_m.front());
+    Observer observer;
+    std::vector<MeasuredRun> plans;
+    std::string done;
+    std::optional<TestStory> story;
+    const std::vector<PriorShare> prior = prior_of(how, made);
+    for (int i = 0;; ++i) {
+        story = laboratory_loop(campaign, study, prior, options, observer);
+        if (story->next.empty() || i == how.tests)
+            break;
+        done += (done.empty() ? "" : " ") + story->next.front();
+        add_test(campaign, story->next.front(), plans);
+        Campaign plan;
+        plan.specimen = made.planned.specimen;
+        plan.tests = plans;
+        campaign = tested(made, plan);
+    }
+    std::string hidden = "nothing\t\t";
+    if (!made.effects.empty()) {
+        const HiddenEffect& e = made.effects.front();
+        hidden = fmt::format("{}\t{}\t{:.4g}", e.listed ? e.name : "outside:" + e.name, e.place, e.size);
+    }
+    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\n", seed,
+               made.model.law == hidden::Law::nonsmooth ? "A" : "B", made.planned.specimen.name, hidden,
+               to_string(story->verdict), story->mechanism, story->place,
+               story->size ? fmt::format("{:.4g}", *story->size) : "",
+               story->low ? fmt::format("{:.4g}..{:.4g}", *story->low, *story->high) : "", story->share,
+               story->log_evidence, done);
+    for (const StoryStep& step : story->steps) {
+        std::vector<const StoryEstimate*> order;
+        for (const StoryEstimate& e : step.seen)
+            order.push_back(&e);
+        std::ranges::sort(order, [](auto* a, auto* b) { return std::fabs(a->deviations) > std::fabs(b->deviations); });
+        std::string told;
+        for (std::size_t k = 0; k < std::min<std::size_t>(4, order.size()); ++k)
+            told += fmt::format(" {}[{}]={:+.1f}{}", order[k]->name, order[k]->joint, order[k]->deviations,
+                                order[k]->from_the_others ? "o" : "");
+        fmt::print("#   {} lnE {:.1f} {}:{}\n", step.test, step.log_evidence, to_string(step.verdict), told);
+    }
+    std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("The laboratory in the loop, on virtual specimens.");
+    Assessment how;
+    app.add_option("--first", how.first, "first seed")->required();
+    app.add_option("--last", how.last, "last seed")->required();
+    app.add_option("--effect", how.effects, "hidden effects, instead of those of the seeds");
+    app.add_flag("--nothing", how.nothing, "no hidden effect");
+    app.add_option("--law", how.law)->check(CLI::IsMember({"nonsmooth", "compliant"}));
+    app.add_option("--specimen", how.specimen)->check(CLI::IsMember({"column"}));
+    app.add_option("--prior", how.prior, "flat, group (the right one), or a folder of diagnoses SEED.h5");
+    app.add_option("--tests", how.tests, "at most");
+    app.add_option("--cache", how.cache, "folder");
+    app.add_option("--healthy", how.healthy);
+    app.add_option("--of-each", how.of_each);
+    app.add_option("--threads", how.threads);
+    try {
+        app.parse(argc, argv);
+        for (std::uint64_t seed = how.first; seed <= how.last; ++seed)
+            assess(how, seed);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "loop_assessment: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}
