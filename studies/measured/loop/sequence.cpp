@@ -106,8 +106,12 @@ struct HealthyEstimates {
         root.compute(s.covariance_of(used.columns));
         white = root.matrixL().solve(used.values - s.mean(used.columns));
     }
-    /// The estimates along the shift of a size, from the middle of its specimens, in their standard deviations.
-    double deviation(const ShiftOfSize& of, double size) const
+    /// The estimates along the shift of a size.
+    struct Along {
+        double estimates = 0, shift = 0; ///< from healthy specimens
+        double sd = 1;                   ///< of specimens with that size
+    };
+    Along along(const ShiftOfSize& of, double size) const
     {
         const Eigen::VectorXd at = root.matrixL().solve(Eigen::VectorXd(of.shift(size)(used.columns)));
         const Eigen::VectorXd weight = root.matrixU().solve(at);
@@ -115,8 +119,8 @@ struct HealthyEstimates {
         Eigen::VectorXd of_column = Eigen::VectorXd::Zero(of.at.front()->shift.size());
         for (std::size_t k = 0; k < used.columns.size(); ++k)
             of_column(used.columns[k]) += weight(static_cast<Eigen::Index>(k));
-        const double more = of_column.cwiseAbs2().dot(of.variance(size));
-        return at.dot(white - at) / std::sqrt(at.squaredNorm() + more);
+        const double variance = at.squaredNorm() + of_column.cwiseAbs2().dot(of.variance(size));
+        return variance > 0 ? Along{at.dot(white), at.squaredNorm(), std::sqrt(variance)} : Along{};
     }
     double distance(const ShiftOfSize& of, double size) const
     {
@@ -124,27 +128,55 @@ struct HealthyEstimates {
     }
 };
 
-/// The least size above which all are excluded up to the strongest.
+/// The least size above which all are excluded up to the strongest. A size that half of the healthy specimens would not
+/// exclude is not excluded: estimates that lie by chance on the far side of healthy ones show nothing (Cowan, Cranmer,
+/// Gross and Vitells, "Power-constrained limits", arXiv:1105.3166 (2011)).
 std::optional<double> limit_along(const HealthyEstimates& healthy, const ShiftOfSize& of)
 {
-    const double last = of.sizes.back(), quantile = student_quantile(limit_level, estimate_freedom);
-    const auto excluded = [&](double size) { return healthy.deviation(of, size) < -quantile; };
+    const double quantile = student_quantile(limit_level, estimate_freedom);
+    const auto excluded = [&](double size) {
+        const HealthyEstimates::Along a = healthy.along(of, size);
+        return a.shift / a.sd >= quantile && (a.estimates - a.shift) / a.sd < -quantile;
+    };
+    const double last = of.sizes.back();
     if (!excluded(last))
         return std::nullopt;
     double out = last;
     for (int i = limit_steps - 1; i > 0; --i) {
         const double size = last * i / limit_steps;
-        if (healthy.distance(of, size) <= 0 || !excluded(size)) {
+        if (!excluded(size)) {
             double low = size, high = out; // the limit is between them
-            for (int k = 0; k < 30; ++k) {
-                const double middle = (low + high) / 2;
-                (healthy.distance(of, middle) > 0 && excluded(middle) ? high : low) = middle;
-            }
+            for (int k = 0; k < 30; ++k)
+                (excluded((low + high) / 2) ? high : low) = (low + high) / 2;
             return high;
         }
         out = size;
     }
     return out;
+}
+
+/// From what the other estimates of its kind let expect, but one of them. Nothing: there are no others.
+std::optional<SeenDeviation> deviation_from_others(const Signatures& s, const UsedEstimates& used, std::size_t i,
+                                                   const std::vector<std::size_t>& joints,
+                                                   const std::optional<std::size_t>& but)
+{
+    const Eigen::Index column = used.columns[i];
+    std::vector<Eigen::Index> places{column};
+    std::vector<double> off;
+    for (const std::size_t k : joints)
+        if (used.columns[k] != column && k != but) {
+            places.push_back(used.columns[k]);
+            off.push_back(used.values(static_cast<Eigen::Index>(k)) - s.mean(used.columns[k]));
+        }
+    if (off.empty())
+        return std::nullopt;
+    const auto n = static_cast<Eigen::Index>(off.size());
+    const Eigen::MatrixXd c = s.covariance_of(places);
+    const Eigen::VectorXd weight = c.bottomRightCorner(n, n).llt().solve(c.col(0).tail(n));
+    const double value = used.values(static_cast<Eigen::Index>(i));
+    const double expected = s.mean(column) + weight.dot(Eigen::Map<const Eigen::VectorXd>(off.data(), n));
+    return SeenDeviation{column, value, expected,
+                         (value - expected) / std::sqrt(c(0, 0) - weight.dot(c.col(0).tail(n))), true};
 }
 
 double entropy_of_share(double share)
@@ -389,32 +421,30 @@ std::vector<SizeLimit> limits_of(const SequenceModel& model, std::span<const See
 std::vector<SeenDeviation> deviations_of(const Signatures& s, std::span<const SeenEstimate> seen)
 {
     const UsedEstimates used = used_estimates(s, seen);
-    std::vector<SeenDeviation> out;
-    for (std::size_t i = 0; i < used.columns.size(); ++i) {
-        const Eigen::Index column = used.columns[i];
-        const double value = used.values(static_cast<Eigen::Index>(i));
-        SeenDeviation d{column, value, s.mean(column), 0};
-        d.deviations = (value - d.expected) / std::sqrt(s.covariance_of({column})(0, 0));
-        const auto group = std::find_if(s.alike.begin(), s.alike.end(), [&](const auto& columns) {
-            return std::find(columns.begin(), columns.end(), column) != columns.end();
-        });
-        std::vector<Eigen::Index> places{column};
-        std::vector<double> off;
-        for (std::size_t k = 0; k < used.columns.size(); ++k)
-            if (used.columns[k] != column && std::find(group->begin(), group->end(), used.columns[k]) != group->end()) {
-                places.push_back(used.columns[k]);
-                off.push_back(used.values(static_cast<Eigen::Index>(k)) - s.mean(used.columns[k]));
+    std::vector<SeenDeviation> out(used.columns.size());
+    for (const std::vector<Eigen::Index>& group : s.alike) {
+        std::vector<std::size_t> joints;
+        for (std::size_t i = 0; i < used.columns.size(); ++i)
+            if (std::find(group.begin(), group.end(), used.columns[i]) != group.end())
+                joints.push_back(i);
+        // the joint that is farthest off expects nothing of the others, where there are enough of them
+        std::optional<std::size_t> farthest;
+        double most = 0;
+        for (const std::size_t i : joints)
+            if (const auto d = deviation_from_others(s, used, i, joints, {});
+                d && joints.size() > 2 && std::fabs(d->deviations) > most) {
+                most = std::fabs(d->deviations);
+                farthest = i;
             }
-        if (!off.empty()) {
-            const auto n = static_cast<Eigen::Index>(off.size());
-            const Eigen::MatrixXd c = s.covariance_of(places);
-            const Eigen::VectorXd weight = c.bottomRightCorner(n, n).llt().solve(c.col(0).tail(n));
-            const double expected = s.mean(column) + weight.dot(Eigen::Map<const Eigen::VectorXd>(off.data(), n));
-            const double deviations = (value - expected) / std::sqrt(c(0, 0) - weight.dot(c.col(0).tail(n)));
-            if (std::fabs(deviations) > std::fabs(d.deviations))
-                d = {column, value, expected, deviations, true};
+        for (const std::size_t i : joints) {
+            const Eigen::Index column = used.columns[i];
+            const double value = used.values(static_cast<Eigen::Index>(i)),
+                         sd = std::sqrt(s.covariance_of({column})(0, 0));
+            out[i] = {column, value, s.mean(column), (value - s.mean(column)) / sd, false};
+            const auto others = deviation_from_others(s, used, i, joints, i == farthest ? std::nullopt : farthest);
+            if (others && std::fabs(others->deviations) > std::fabs(out[i].deviations))
+                out[i] = *others;
         }
-        out.push_back(d);
     }
     return out;
 }

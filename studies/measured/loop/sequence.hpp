@@ -112,8 +112,9 @@ struct SizeLimit {
 };
 
 /// The limits of all causes that the tests would show, by inverting a test along the shift of each size: a size is
-/// excluded where the estimates lie farther on the healthy side of it than 95 % of its specimens. Causes whose
-/// strongest size shifts the estimates by less than 2 standard deviations were not tested, and have no limit.
+/// excluded where the estimates lie farther on the healthy side of it than 95 % of its specimens, and where at least
+/// half of the healthy specimens would exclude it. Causes whose strongest size shifts the estimates by less than 2
+/// standard deviations were not tested, and have no limit.
 std::vector<SizeLimit> limits_of(const SequenceModel& model, std::span<const SeenEstimate> seen);
 
 /// An estimate, and what was expected.
@@ -126,7 +127,7 @@ struct SeenDeviation {
 };
 
 /// How far each estimate is from healthy specimens, or from what the other measured joints let expect, whichever is
-/// farther.
+/// farther. Of three and more joints the one that is farthest off expects nothing of the others.
 std::vector<SeenDeviation> deviations_of(const Signatures& signatures, std::span<const SeenEstimate> seen);
 
 } // namespace stylobate

@@ -163,6 +163,11 @@ TEST(Sequence, DeviationsAreFromTheOtherJointsWhereTheyExpectOtherwise)
     EXPECT_NEAR(all[1].expected, expected, 1e-9);
     EXPECT_NEAR(all[1].deviations, (19 - expected) / sd, 1e-9);
     EXPECT_TRUE(all[1].from_the_others);
+    // joint 1 is farthest off: the others expect nothing of it
+    for (const std::size_t quiet : {std::size_t(0), std::size_t(2)}) {
+        EXPECT_NEAR(all[quiet].deviations, 5 / std::sqrt(25.34), 1e-9);
+        EXPECT_FALSE(all[quiet].from_the_others);
+    }
     const std::vector<SeenDeviation> one = deviations_of(s, test_of(s, values, RunKind::push, 1));
     ASSERT_EQ(one.size(), 1U);
     EXPECT_FALSE(one[0].from_the_others);
@@ -290,10 +295,10 @@ TEST(SequenceStatistics, UpperLimitsCover)
                                               {gaussian::cause("corner_loss", "joint 0", 1, 2, {{0, 3}}),
                                                gaussian::cause("corner_loss", "joint 0", 2, 2, {{0, 9}})});
     const SequenceModel model(s, {});
-    for (const double size : {0.4, 1.5}) {
+    for (const double size : {0.3, 0.7, 1.5}) {
         const double shift = size < 1 ? 3 * size : 3 + 6 * (size - 1);
         gaussian::Specimens specimens((Eigen::MatrixXd(2, 2) << 25.34, 25, 25, 25.34).finished(), 41, true);
-        int below = 0;
+        int below = 0, named = 0, within = 0;
         const int count = 2000;
         for (int i = 0; i < count; ++i) {
             const Eigen::VectorXd values = specimens.draw();
@@ -301,8 +306,23 @@ TEST(SequenceStatistics, UpperLimitsCover)
             const std::vector<SizeLimit> limits = limits_of(model, seen);
             ASSERT_EQ(limits.size(), 1U);
             below += limits[0].size && *limits[0].size < size;
+            const SequenceJudgement judgement = judgement_of(model, seen);
+            if (judgement.verdict == SequenceVerdict::named) {
+                ++named;
+                const std::optional<SizeInterval> sizes = size_of(model, seen, *judgement.cause);
+                ASSERT_TRUE(sizes);
+                within += sizes->low <= size && sizes->high >= size;
+            }
         }
-        EXPECT_NEAR(below, 0.05 * count, 3.5 * std::sqrt(0.05 * 0.95 * count)) << size;
+        if (size < 0.5) { // a shift of 0.9 where the contrast scatters by 0.82: half of healthy specimens have a limit
+            EXPECT_EQ(below, 0); // of 1.86 x 0.82 / 3 = 0.51, and none has a lower one
+        } else {
+            EXPECT_NEAR(below, 0.05 * count, 3.5 * std::sqrt(0.05 * 0.95 * count)) << size;
+        }
+        if (size > 1) {
+            EXPECT_GT(named, 0.2 * count);
+            EXPECT_GT(within, 0.8 * named) << "those that are named are the larger ones";
+        }
     }
 }
 
