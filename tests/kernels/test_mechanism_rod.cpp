@@ -281,8 +281,9 @@ TEST(InitialLift, ABlockFallsOntoItsBedAndComesToRest)
     while (!set.outcome(0)) {
         set.advance();
         const double t = static_cast<double>(set.steps(0)) * r.step_s;
-        if (t < 0.99 * std::sqrt(2 * 0.003 / gravity)) // until then it is free
+        if (t < 0.99 * std::sqrt(2 * 0.003 / gravity)) { // until then it is free
             EXPECT_NEAR(start - set.snapshot(0).y_m[1], 0.5 * gravity * t * t, 1e-6) << t;
+        }
     }
     EXPECT_NEAR(set.snapshot(0).y_m[1], rest, 1e-6);
     EXPECT_LT(std::fabs(set.outcome(0)->energy_residual), 0.01);
@@ -301,8 +302,9 @@ TEST(Adhesion, WithATensionHoldsThePushedBlockUntilItsEdgeTears)
         const std::vector<double> forces = pushed(r, 1e-3, 2);
         const double most = *std::max_element(forces.begin(), forces.end());
         const double want = (tension + weight / B) * B * B / 6 / height;
-        if (form == ContactForm::area) // the others press with springs of their own
+        if (form == ContactForm::area) { // the others press with springs of their own
             EXPECT_NEAR(most, want, 0.03 * want);
+        }
         EXPECT_GT(most, 1.5 * dry);
         r.joints[0].mechanisms.adhesion_tension_n_m = 0;
         const std::vector<double> sheared = pushed(r, 1e-3, 2);

@@ -44,6 +44,24 @@ std::string dependence_of(const std::string& estimator)
     return "";
 }
 
+/// The first joint on which the same body stands: what a cause does there it does at all of them.
+int first_alike(const Specimen& specimen, const std::vector<PlannedTest>& tests, int joint)
+{
+    const auto body = [&](int j) {
+        return static_cast<std::size_t>(specimen.joints[static_cast<std::size_t>(j)].second);
+    };
+    const auto alike = [&](int j) {
+        return specimen.half_width_m[body(j)] == specimen.half_width_m[body(joint)] &&
+               specimen.half_height_m[body(j)] == specimen.half_height_m[body(joint)] &&
+               specimen.mass_kg[body(j)] == specimen.mass_kg[body(joint)];
+    };
+    int first = joint;
+    for (const PlannedTest& test : tests)
+        if (test.joint < first && alike(test.joint))
+            first = test.joint;
+    return first;
+}
+
 /// A specimen that is simulated: a healthy one, or one of a cause.
 struct SampleSubject {
     int cause = -1;           ///< -1: healthy
@@ -65,13 +83,16 @@ public:
         first_.push_back(columns.size());
         for (std::uint64_t i = 0; i < plan.healthy; ++i)
             subjects.push_back({-1, i});
-        for (std::size_t c = 0; c < causes.size(); ++c)
+        for (std::size_t c = 0; c < causes.size(); ++c) {
+            twin_.push_back(twin_of(specimen, tests, causes, c));
             for (std::uint64_t i = 0; i < plan.of_each_cause; ++i)
                 subjects.push_back({static_cast<int>(c), i});
+        }
         for (std::size_t t = 0; t < tests.size(); ++t)
             for (std::size_t s = 0; s < subjects.size(); ++s)
                 if (subjects[s].cause < 0 ||
-                    causes[static_cast<std::size_t>(subjects[s].cause)].acts_at(specimen, tests[t].joint))
+                    (twin_[static_cast<std::size_t>(subjects[s].cause)].cause == subjects[s].cause &&
+                     causes[static_cast<std::size_t>(subjects[s].cause)].acts_at(specimen, tests[t].joint)))
                     wanted.push_back({t, s});
         values.assign(subjects.size() * columns.size(), missing_estimate);
         floors_.resize(columns.size());
@@ -100,7 +121,9 @@ public:
     }
     std::size_t width(std::size_t test) const { return first_[test + 1] - first_[test]; }
 
-    /// Of a specimen with a cause the tests at joints where it does not act are those of its healthy twin.
+    /// Of a specimen with a cause the tests at joints where it does not act are those of the healthy specimen of the
+    /// same law. A cause of a joint is simulated at the first joint of those that bear the same body: what it changes
+    /// there it changes at each of them.
     TestSamples samples(const Specimen& specimen, const std::vector<LoopCause>& causes, const SamplePlan& plan) const
     {
         TestSamples out;
@@ -115,19 +138,25 @@ public:
         out.healthy.resize(n, p);
         for (Eigen::Index i = 0; i < n; ++i)
             out.healthy.row(i) = row(static_cast<std::size_t>(i));
-        std::size_t subject = static_cast<std::size_t>(plan.healthy);
-        for (const LoopCause& cause : causes) {
+        for (std::size_t c = 0; c < causes.size(); ++c) {
             CauseSamples& of = out.causes.emplace_back();
-            of.cause = cause.named;
-            of.rows.resize(static_cast<Eigen::Index>(plan.of_each_cause), p);
-            for (std::uint64_t i = 0; i < plan.of_each_cause; ++i, ++subject) {
-                const auto at = static_cast<Eigen::Index>(i);
-                of.rows.row(at) = row(subject);
-                for (Eigen::Index k = 0; k < p; ++k)
-                    if (!cause.acts_at(specimen, columns[static_cast<std::size_t>(k)].joint))
-                        of.rows(at, k) = out.healthy(at, k);
-                of.pairs.push_back(static_cast<int>(i));
+            of.cause = causes[c].named;
+            of.rows = out.healthy.topRows(static_cast<Eigen::Index>(plan.of_each_cause));
+            for (Eigen::Index k = 0; k < p; ++k) {
+                const TestColumn& column = columns[static_cast<std::size_t>(k)];
+                if (!causes[c].acts_at(specimen, column.joint))
+                    continue;
+                const Eigen::Index from = twin_[c].joint < 0 ? k : column_at(column, twin_[c].joint);
+                for (Eigen::Index i = 0; i < of.rows.rows(); ++i) {
+                    const auto subject =
+                        static_cast<std::size_t>(plan.healthy) +
+                        static_cast<std::size_t>(twin_[c].cause) * static_cast<std::size_t>(plan.of_each_cause) +
+                        static_cast<std::size_t>(i);
+                    of.rows(i, k) += row(subject)(from) - out.healthy(i, from);
+                }
             }
+            for (std::uint64_t i = 0; i < plan.of_each_cause; ++i)
+                of.pairs.push_back(static_cast<int>(i));
         }
         return out;
     }
@@ -138,6 +167,41 @@ public:
     std::vector<double> values;                              ///< (subjects x columns)
 
 private:
+    /// The cause that is simulated in the place of another one, and its joint; -1: of all joints.
+    struct Twin {
+        int cause = 0, joint = -1;
+    };
+    static Twin twin_of(const Specimen& specimen, const std::vector<PlannedTest>& tests,
+                        const std::vector<LoopCause>& causes, std::size_t c)
+    {
+        const auto joint_of = [&](const LoopCause& cause) {
+            for (const PlannedTest& test : tests)
+                if (cause.cause.cause.joint < 0 && cause.cause.cause.block < 0)
+                    return -1;
+                else if (cause.acts_at(specimen, test.joint))
+                    return test.joint;
+            return -1;
+        };
+        const int joint = joint_of(causes[c]);
+        if (joint < 0)
+            return {static_cast<int>(c), -1};
+        const int first = first_alike(specimen, tests, joint);
+        for (std::size_t other = 0; other < c; ++other)
+            if (causes[other].cause.cause.mechanism == causes[c].cause.cause.mechanism &&
+                causes[other].cause.cause.side == causes[c].cause.cause.side &&
+                causes[other].named.size == causes[c].named.size && joint_of(causes[other]) == first)
+                return {static_cast<int>(other), first};
+        return {static_cast<int>(c), joint};
+    }
+    Eigen::Index column_at(const TestColumn& like, int joint) const
+    {
+        const auto at = std::find_if(columns.begin(), columns.end(), [&](const TestColumn& column) {
+            return column.name == like.name && column.joint == joint;
+        });
+        return at - columns.begin();
+    }
+
+    std::vector<Twin> twin_;                  ///< (causes)
     std::vector<std::vector<double>> floors_; ///< (columns) of healthy specimens
     std::vector<std::size_t> first_;          ///< (tests + 1) columns
 };

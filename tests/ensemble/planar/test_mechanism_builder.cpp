@@ -271,7 +271,7 @@ TEST(MechanismBuilder, StrengtheningReachesTheirMembers)
     EXPECT_EQ(r.joints[1].strengthening.bearing_n_m, 0);
     EXPECT_EQ(r.joints[2].strengthening.bond_tension_n_m, 2e5 * 0.048);
     EXPECT_EQ(r.joints[2].strengthening.bond_cohesion_n_m, 3e5 * 0.048);
-    EXPECT_FALSE(r.joints[1].strengthening.bonded());
+    EXPECT_FALSE(r.joints[1].bonded());
     EXPECT_EQ(r.joints[3].strengthening.hold_n, 50);
     EXPECT_EQ(r.joints[3].strengthening.hold_stiffness_n_m, 1e6);
     EXPECT_EQ(r.joints[3].strengthening.hold_length_m, 0.01);
