@@ -2,12 +2,13 @@
 /// joint's damping leaves of the fall's energy.
 ///
 ///   T = t_r - t_0      t_r: the last time at which height or rotation (times the half width) is farther from where the
-///                      body comes to rest than 0.25 mm (times s), or than 6 standard deviations of the noise;
-///                      t_0 = release + sqrt(2 H / g), H: fall
+///                      body comes to rest than 0.1 mm (times s), or than 5.5 standard deviations of a mean of three
+///                      samples; t_0 = release + sqrt(2 H / g), H: fall
 ///
-///   time      mean of ln(T) over the repeats; error: their scatter over sqrt(n), but at least that of one interval of
-///             the cameras' clock, 1 / (rate sqrt(12)) over T
-///   scatter   standard deviation of ln(T); error 1 / sqrt(2 (n - 1)) of it
+///   time      mean of ln(T + 10 ms sqrt(s)) over the repeats: less than some frames of a camera is nothing. Error:
+///             their scatter over sqrt(n), but at least that of one interval of the cameras' clock, which is
+///             1 / (rate sqrt(12)) over T
+///   scatter   standard deviation of these logarithms; error 1 / sqrt(2 (n - 1)) of it
 ///
 /// For bounces of restitution e, v_0 = sqrt(2 g H): T is near 2 v_0 / g e / (1 - e). The common damping of all joints
 /// is in it; only its contrast between joints tells. No estimate from fewer than two repeats, nor from a body that does
@@ -27,9 +28,11 @@ namespace stylobate {
 
 namespace {
 
-constexpr double rest_threshold_m = 0.00025; // times s
-constexpr double rest_window_s = 0.2;        // times sqrt(s), at the end of the run
-constexpr double most_off_place_m = 0.0015;  // times s: in height, half of the fall
+constexpr double rest_threshold_m = 0.0001; // times s
+constexpr double clear_motion = 5.5;        // standard deviations: one late sample that is noise would spoil the time
+constexpr double some_frames_s = 0.01;      // times sqrt(s)
+constexpr double rest_window_s = 0.2;       // times sqrt(s), at the end of the run
+constexpr double most_off_place_m = 0.0015; // times s: in height, half of the fall
 
 std::optional<double> time_to_rest(const Specimen& specimen, const MeasuredRun& run)
 {
@@ -61,7 +64,7 @@ std::optional<double> time_to_rest(const Specimen& specimen, const MeasuredRun& 
         return std::max(std::fabs(y), seen->half_width_m * std::fabs(turn));
     };
     const double noise = std::max(seen->y_sd, seen->half_width_m * seen->theta_sd) / std::sqrt(3.0);
-    const double threshold = std::max(rest_threshold_m * s, 6 * noise);
+    const double threshold = std::max(rest_threshold_m * s, clear_motion * noise);
     std::size_t last = n - 2;
     int gaps = 0;
     while (last > released && !(away(last) > threshold)) {
@@ -76,7 +79,7 @@ std::optional<double> time_to_rest(const Specimen& specimen, const MeasuredRun& 
         return std::nullopt;
     const double t = run.time_s[last] + (above - threshold) / (above - below) * seen->step_s();
     const double met = *run.released_s + std::sqrt(2 * fall / specimen.gravity_m_s2);
-    return std::max(t - met, seen->step_s());
+    return std::max(t - met, 0.0) + some_frames_s * seen->body.time_ratio;
 }
 
 std::vector<Estimate> drop_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
@@ -111,7 +114,7 @@ const TestEstimators& drop_estimators()
 {
     static const TestEstimators all = {
         drop_of,
-        {{"drop.time", "", "mean logarithm of the time [s] from the first impact until rest",
+        {{"drop.time", "", "mean logarithm of the time [s] from the first impact until rest, with 10 ms more",
           "friction, dowels, drag, damping that is the common one at this speed"},
          {"drop.scatter", "", "standard deviation of these logarithms", "all that repeats itself"}}};
     return all;

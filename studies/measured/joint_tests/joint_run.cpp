@@ -119,6 +119,9 @@ std::optional<JointRun> joint_run(const Specimen& specimen, const MeasuredRun& r
         of.base_m = run.table.x_m.values.size() == n ? run.table.x_m.values : std::vector<double>(n, 0.0);
     if (run.base_displacement_m.noise_sd.value_or(0) > 0) // measured: its speed is needed too
         of.base_m = smoothed(of.base_m, 7);
+    const double zero = finite_mean(of.base_m, 0, static_cast<std::size_t>(std::max(start_s * run.rate_hz, 4.0))).first;
+    for (double& x : of.base_m)
+        x -= zero; // a sensor's is not known
     of.samples = n;
     if (const auto fell = run.fell_at_s())
         of.samples = static_cast<std::size_t>(std::ranges::lower_bound(run.time_s, *fell) - run.time_s.begin());

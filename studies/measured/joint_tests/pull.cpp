@@ -14,7 +14,8 @@
 ///   place       root mean square over places of the mean deviation from what all this gives, less that of the noise
 ///   width       after each slow reversal, u: displacement of the table, f: force over that of the same stroke from 2.5
 ///               to 5 mm, from -1 to 1;  w = mean of integral (1 - f) / 2 du up to 2.5 mm, less F / k of the rod.
-///               mu N / K for a joint of stiffness K; more for a dowel, whose force comes back beyond its play
+///               mu N / K for a joint of stiffness K; more for a dowel, whose force comes back beyond its play;
+///               less by m v^2 / (2 F) for the inertia of the block, on every joint
 ///   compliance  du / dF while |f| < 0.8 after these reversals, less 1 / k of the rod [m/N]
 ///   first       ln(F_b / F_p) of the first slip, which is approached slowly: a line in the displacement up to F_b,
 ///   then
@@ -84,9 +85,14 @@ std::optional<HeldBlock> held_block(const Specimen& specimen, const MeasuredRun&
     if (!(held.reach_m > 4 * after_turn_m * held.seen.body.length_ratio / 2))
         return std::nullopt;
     held.turns = turning_points(base, 0.1 * held.reach_m);
-    const double moved = 1e-4 * held.reach_m + 5 * run.base_displacement_m.noise_sd.value_or(0);
-    while (held.first < base.size() && std::fabs(base[held.first] - base[0]) < moved)
+    // the table moves where the mean of some samples does; before that, with a margin, the gauge shows its zero
+    constexpr std::size_t of_mean = 25;
+    const double still = 1e-4 * held.reach_m +
+                         6 * run.base_displacement_m.noise_sd.value_or(0) / std::sqrt(static_cast<double>(of_mean));
+    while (held.first + of_mean < base.size() &&
+           std::fabs(finite_mean(base, held.first, held.first + of_mean).first) < still)
         ++held.first;
+    held.first = held.first * 4 / 5;
     const auto [zero, count] = finite_mean(held.force_n, 0, held.first);
     held.block_zero_m = finite_mean(held.seen.x_m, 0, held.first).first;
     if (count < 10)
@@ -131,15 +137,18 @@ std::vector<PullWindow> pull_windows(const HeldBlock& held)
         const double skip = (first ? after_start_m : after_turn_m) * s, start = base[from];
         first = false;
         const int direction = base[std::min(to, base.size() - 1)] > start ? -1 : 1; // of the block's slip
-        const auto place_of = [&](std::size_t k) { return static_cast<int>(std::floor((base[k] - base[0]) / wide)); };
+        const auto place_of = [&](std::size_t k) { return static_cast<int>(std::floor(base[k] / wide)); };
         for (std::size_t i = from; i < to;) {
             std::size_t end = i + 1;
             while (end < to && place_of(end) == place_of(i))
                 ++end;
-            const auto speed_at = [&](std::size_t k) { // between two samples
-                return std::fabs(base[std::min(k + 1, base.size() - 1)] - base[k]) / seen.step_s();
+            const std::size_t middle = (i + end) / 2;
+            const auto speed_over = [&](std::size_t a, std::size_t b) {
+                return std::fabs(base[b] - base[a]) /
+                       (static_cast<double>(std::max<std::size_t>(b - a, 1)) * seen.step_s());
             };
-            const double v0 = speed_at(i), v1 = speed_at(end - 1), sum_v = v0 + v1;
+            const double v0 = speed_over(i, middle), v1 = speed_over(middle, std::min(end, base.size() - 1));
+            const double sum_v = v0 + v1;
             double force = 0;
             std::size_t count = 0;
             for (std::size_t k = i; k < end; ++k)
@@ -147,7 +156,8 @@ std::vector<PullWindow> pull_windows(const HeldBlock& held)
                     force += held.force_n[k];
                     ++count;
                 }
-            if (std::fabs(base[i] - start) >= skip && count >= fewest_in_window && 2 * count > end - i &&
+            const bool whole = std::fabs(base[end - 1] - base[i]) > 0.5 * wide; // not where noise goes to and fro
+            if (whole && std::fabs(base[i] - start) >= skip && count >= fewest_in_window && 2 * count > end - i &&
                 std::fabs(v1 - v0) < steady_speed * sum_v / 2) {
                 PullWindow window;
                 const auto n = static_cast<double>(count);
@@ -167,13 +177,23 @@ std::vector<PullWindow> pull_windows(const HeldBlock& held)
     return windows;
 }
 
+/// Speeds below and above which a twentieth of the windows are.
+std::pair<double, double> slow_and_fast(const std::vector<PullWindow>& windows)
+{
+    std::vector<double> speeds;
+    for (const PullWindow& window : windows)
+        speeds.push_back(window.speed_m_s);
+    std::ranges::sort(speeds);
+    return {speeds[speeds.size() / 20], speeds[speeds.size() * 19 / 20]};
+}
+
 /// Fast windows are above the geometric mean of the speeds, where these are far apart.
 void mark_fast(std::vector<PullWindow>& windows)
 {
-    const auto [slow, fast] = std::ranges::minmax(windows, {}, &PullWindow::speed_m_s);
-    if (fast.speed_m_s > 2 * slow.speed_m_s)
+    const auto [slow, fast] = slow_and_fast(windows);
+    if (fast > 2 * slow)
         for (PullWindow& window : windows)
-            window.window.fast = window.speed_m_s * window.speed_m_s > slow.speed_m_s * fast.speed_m_s;
+            window.window.fast = window.speed_m_s * window.speed_m_s > slow * fast;
 }
 
 Estimate pull_estimate(const char* name, double value, double sd, double per_friction)
@@ -318,13 +338,13 @@ void add_first(const HeldBlock& held, std::vector<Estimate>& all)
 {
     const JointRun& seen = held.seen;
     const double creep = 0.95 * pull_creep_m * seen.body.length_ratio;
-    std::vector<double> moved, force;
+    std::vector<double> since, force; // the table creeps evenly: a clock has less noise than its sensor
     double to_side = 0;
-    for (std::size_t i = held.first; i < seen.samples && std::fabs(seen.base_m[i] - seen.base_m[0]) < creep; ++i) {
+    for (std::size_t i = held.first; i < seen.samples && std::fabs(seen.base_m[i]) < creep; ++i) {
         if (!held.usable(i))
             return;
-        to_side = seen.base_m[i] - seen.base_m[0];
-        moved.push_back(std::fabs(to_side));
+        to_side = seen.base_m[i];
+        since.push_back(seen.time(i) - seen.time(held.first));
         force.push_back(to_side > 0 ? -held.force_n[i] : held.force_n[i]);
     }
     constexpr std::size_t fewest = 50;
@@ -341,19 +361,19 @@ void add_first(const HeldBlock& held, std::vector<Estimate>& all)
     to = from;
     while (to < tail && force[to] < 0.7 * plateau)
         ++to;
-    const LineFit line = line_fit(std::span(moved).subspan(from, to - from), std::span(force).subspan(from, to - from));
+    const LineFit line = line_fit(std::span(since).subspan(from, to - from), std::span(force).subspan(from, to - from));
     if (line.count < 5 || !(line.slope > 0))
         return;
     const auto squared = [](double v) { return v * v; };
     double sum = 0, least = 0, break_n = plateau;
     for (std::size_t i = from; i < force.size(); ++i) { // the break after sample i
-        sum += squared(force[i] - line.at_zero - line.slope * moved[i]) - squared(force[i] - plateau);
+        sum += squared(force[i] - line.at_zero - line.slope * since[i]) - squared(force[i] - plateau);
         if (sum < least && i + 1 < tail) {
             least = sum;
-            break_n = line.at_zero + line.slope * (moved[i] + moved[i + 1]) / 2;
+            break_n = line.at_zero + line.slope * (since[i] + since[i + 1]) / 2;
         }
     }
-    const double ramp = line.slope * (moved[to] - moved[from]) / static_cast<double>(to - from);
+    const double ramp = line.slope * seen.step_s();
     const double sd = std::cbrt(6 * squared(held.force_sd) * ramp) + ramp / 2;
     all.push_back(pull_estimate("pull.first", std::log(break_n / plateau), sd / plateau, 1));
 }
@@ -369,10 +389,9 @@ std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const Measured
         return all;
     mark_fast(found);
     std::vector<FrictionWindow> windows;
-    double slow = found.front().speed_m_s, path = 0;
+    double path = 0;
     for (const PullWindow& window : found) {
         windows.push_back(window.window);
-        slow = std::min(slow, window.speed_m_s);
         path = std::max(path, window.window.path_m);
     }
     const double duration = windows.back().time_s - windows.front().time_s;
@@ -392,7 +411,7 @@ std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const Measured
     add("pull.direction", FrictionTerm::direction, 1, 2 * held->zero_sd / (level * held->seen.weight_n));
     add("pull.time", FrictionTerm::time, 1 / duration);
     add_place(*fit, all);
-    add_loops(*held, slow, all);
+    add_loops(*held, slow_and_fast(found).first, all);
     return all;
 }
 

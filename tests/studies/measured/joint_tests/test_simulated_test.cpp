@@ -1,5 +1,6 @@
 /// Tests of single joints, simulated: each gives what its closed form says of the specimen that it was done on.
 
+#include "ensemble/model/input_error.hpp"
 #include "studies/measured/joint_tests/joint_bench.hpp"
 #include "studies/measured/joint_tests/simulated_test.hpp"
 
