@@ -303,6 +303,10 @@ std::optional<RigidObstacle> rigid_obstacle(const KeyReader& top, const Structur
                 mechanisms, rule.name, "is not available with " + form,
                 "The rigid form supports drum_offset, sensor_gain, time_offset and harmonic_distortion. Remove "
                 "it, or give contact.form = \"two_corner\" with a high stiffness."};
+    const KeyReader start = top.table(initial_keys::table);
+    if (start.has(initial_keys::lift))
+        return RigidObstacle{start, initial_keys::lift.name, "is not available with " + form,
+                             "Remove it, or give contact.form = \"two_corner\" with a high stiffness."};
     for (const KeyReader& bed : tables_of_beds(top.table(structure_keys::table)))
         for (const TomlKey* key : std::initializer_list<const TomlKey*>{
                  &structure_keys::bed_normal_stiffness, &structure_keys::bed_tangential_stiffness,

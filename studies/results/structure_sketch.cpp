@@ -27,7 +27,7 @@ const char* fill_of(const PlacedBlock& block)
 }
 
 /// How a mark is drawn.
-enum class MarkLook { pin, pair, band, seam, cable, link, outline };
+enum class MarkLook { pin, pair, band, seam, cable, link, rod, outline };
 
 MarkLook look_of(const MechanismRule& rule)
 {
@@ -42,6 +42,8 @@ MarkLook look_of(const MechanismRule& rule)
         return MarkLook::cable;
     case Mechanism::clamp:
         return MarkLook::link;
+    case Mechanism::rod:
+        return MarkLook::rod;
     default:
         return rule.place == MechanismPlace::joint ? MarkLook::seam : MarkLook::outline;
     }
@@ -52,6 +54,7 @@ struct Mark {
     std::string words; ///< "dowel: all 9 joints"
     MarkLook look = MarkLook::seam;
     std::vector<std::size_t> places; ///< beds or blocks of the layout
+    double height_m = 0;             ///< of the end of a rod above the block's lower face
 };
 
 /// "all 9 joints", "3 of 9 joints", "joint 0"
@@ -80,13 +83,15 @@ std::vector<Mark> mechanism_marks(const Study& study, const Layout& layout, cons
         std::size_t all = joints ? layout.beds.size() : layout.blocks.size();
         if (!joints)
             all -= static_cast<std::size_t>(std::ranges::count_if(layout.blocks, &PlacedBlock::fixed));
-        Mark mark{{}, look_of(rule), {}};
+        Mark mark{{}, look_of(rule), {}, 0};
         for (const MechanismSpec& spec : study.mechanisms) {
             const bool old = base && std::ranges::find(base->mechanisms, spec) != base->mechanisms.end();
             if (spec.mechanism != rule.mechanism || old || !acts(spec, study.contact.friction))
                 continue;
             for (const int place : spec.places.empty() ? usual_places(rule, layout) : spec.places)
                 mark.places.push_back(static_cast<std::size_t>(place));
+            if (rule.mechanism == Mechanism::rod)
+                mark.height_m = spec.values[2];
         }
         std::ranges::sort(mark.places);
         mark.places.erase(std::unique(mark.places.begin(), mark.places.end()), mark.places.end());
@@ -120,7 +125,7 @@ std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study
 {
     std::vector<Mark> marks = mechanism_marks(study, layout, base);
     const Layout old = base ? lay_out(base->structure) : Layout{};
-    Mark beds{"bed of its own values", MarkLook::seam, {}}, stones{"other size or mass", MarkLook::outline, {}};
+    Mark beds{"bed of its own values", MarkLook::seam, {}, 0}, stones{"other size or mass", MarkLook::outline, {}, 0};
     for (std::size_t i = 0; i < layout.beds.size(); ++i) {
         const BedSpec& bed = layout.beds[i].bed;
         if (base && i < old.beds.size() ? !(bed == old.beds[i].bed) : !(bed == BedSpec{}))
@@ -131,7 +136,7 @@ std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study
             if (!same_stone(layout.blocks[i], old.blocks[i]))
                 stones.places.push_back(i);
     if (base && !same_contact(study.contact, base->contact)) {
-        beds = {"other contact", MarkLook::seam, {}};
+        beds = {"other contact", MarkLook::seam, {}, 0};
         for (std::size_t i = 0; i < layout.beds.size(); ++i)
             beds.places.push_back(i);
     }
@@ -197,18 +202,21 @@ private:
 
 void draw_mark(Elevation& view, const Layout& layout, const Mark& mark, const std::string& colour)
 {
+    const bool on_blocks = mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::rod ||
+                           mark.look == MarkLook::outline;
     for (const std::size_t place : mark.places) {
-        if (place >= (mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::outline
-                          ? layout.blocks.size()
-                          : layout.beds.size()))
+        if (place >= (on_blocks ? layout.blocks.size() : layout.beds.size()))
             continue;
-        if (mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::outline) {
+        if (on_blocks) {
             const PlacedBlock& block = layout.blocks[place];
             if (mark.look == MarkLook::cable)
                 view.stroke(view.x(block.x_m()), view.y(block.top()), view.x(block.x_m()), view.y(0) + slab, 3, colour);
             else if (mark.look == MarkLook::link)
                 view.stroke(view.x(block.right()) - 12, view.y(block.y_m), view.x(block.right()) + 12,
                             view.y(block.y_m), 4, colour);
+            else if (mark.look == MarkLook::rod) // from the edge of the sheet to the middle of the block
+                view.stroke(0, view.y(block.bottom() + mark.height_m), view.x(block.x_m()),
+                            view.y(block.bottom() + mark.height_m), 3, colour);
             else
                 view.outline(block.left(), block.right(), block.bottom(), block.top(), colour);
             continue;

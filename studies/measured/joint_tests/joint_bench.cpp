@@ -1,6 +1,7 @@
 #include "studies/measured/joint_tests/joint_bench.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "studies/measured/joint_tests/procedures.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,8 @@ namespace stylobate {
 
 namespace {
 
-constexpr double usual_rod_n_m = 2e4;        // where the gauge does not state its stiffness
-constexpr double usual_half_width_m = 0.024; // of the blocks for which the procedures give their lengths
-constexpr double least_lift_m = 1e-5;        // what is held lower stands on its bed
+constexpr double usual_rod_n_m = 2e4; // where the gauge does not state its stiffness
+constexpr double least_lift_m = 1e-5; // what is held lower stands on its bed
 
 /// A rigid part of the tested body.
 struct BodyPart {
@@ -113,8 +113,9 @@ void hold_by_rod(const Specimen& specimen, const SpecimenStructure& built, const
         e.rod_left_n_m = pulls || gauge.speed_m_s < 0 ? k : 0;
         e.rod_height_m = gauge.height_m + (at.y_m - at.half_height_m) - (body.y_m - body.half_height_m);
         e.rod_speed_m_s = gauge.speed_m_s;
-        e.rod_start_s = std::max(rod_start_s - bench.released_s, 0.0);
-        e.rod_travel_m = gauge.speed_m_s != 0 ? rod_travel_m(specimen, bench.blocks.front()) : 0;
+        e.rod_start_s = std::max(test_start_s - bench.released_s, 0.0);
+        e.rod_travel_m =
+            gauge.speed_m_s != 0 ? push_reach_m * tested_body(specimen, *planned.joint, {}).length_ratio : 0;
         e.rod_laboratory = gauge.to_laboratory ? 1 : 0;
     }
 }
@@ -147,11 +148,6 @@ void put_held(const SpecimenStructure& built, const MeasuredRun& planned, JointB
 }
 
 } // namespace
-
-double rod_travel_m(const Specimen& specimen, int block)
-{
-    return 0.01 * specimen.half_width_m[static_cast<std::size_t>(block)] / usual_half_width_m;
-}
 
 JointBench joint_bench(const Specimen& specimen, const SpecimenStructure& built, const Realization& whole,
                        const MeasuredRun& planned, double offset_m)

@@ -16,11 +16,6 @@
 
 namespace stylobate {
 
-/// When the end of a rod begins to move, in the time of its run [s].
-inline constexpr double rod_start_s = 0.2;
-/// Path after which the end of a rod that pushes stops: 10 mm for a block that is 48 mm wide, and in proportion.
-double rod_travel_m(const Specimen& specimen, int block);
-
 struct JointBench {
     Realization realization;
     std::size_t body = 0;    ///< place of the body among the realization's blocks

@@ -234,6 +234,9 @@ const std::vector<std::string> mechanisms{"mechanisms.stribeck={ dynamic_frictio
                                           "mechanisms.corner_wear={ loss_m_rad = 0.001 }",
                                           "mechanisms.dowel={ stiffness_n_m = 1e5, yield_n = 2, gap_m = 0.0002 }",
                                           "mechanisms.adhesion={ force_n_m = 5 }",
+                                          "mechanisms.rod={ block = 4, to_right_n_m = 500, to_left_n_m = 200, height_m "
+                                          "= 0.01, speed_m_s = 0.01, start_s = 0.1, travel_m = 0.005 }",
+                                          "mechanisms.table_tilt={ angle_rad = 0.01, rate_rad_s = 0.02 }",
                                           "mechanisms.table_pitch={ rotation_rad_s2_m = 0.002 }",
                                           "mechanisms.vertical_motion={ ratio = 0.3 }"};
 

@@ -250,6 +250,54 @@ TEST(MechanismBuilder, StreamsStayAndAreDistinct)
     EXPECT_LE(most_parameters, 8u);
 }
 
+TEST(MechanismBuilder, WhatALaboratoryDoesReachesItsMembers)
+{
+    Study study = specimen();
+    add(study, Mechanism::rod, {2e4, 1e4, 0.02, -0.03, 0.2, 0.01, 1}, {3});
+    add(study, Mechanism::table_tilt, {-0.5, 0.04, 0.3});
+    study.initial.lift_m = 0.002;
+    const Realization r = made(study);
+    EXPECT_TRUE(r.with_mechanisms);
+    EXPECT_FALSE(r.strengthened);
+    const BlockMechanisms& e = r.blocks[3].mechanisms;
+    EXPECT_EQ(e.rod_right_n_m, 2e4);
+    EXPECT_EQ(e.rod_left_n_m, 1e4);
+    EXPECT_EQ(e.rod_height_m, 0.02);
+    EXPECT_EQ(e.rod_speed_m_s, -0.03);
+    EXPECT_EQ(e.rod_start_s, 0.2);
+    EXPECT_EQ(e.rod_travel_m, 0.01);
+    EXPECT_EQ(e.rod_laboratory, 1);
+    EXPECT_EQ(r.blocks[2].mechanisms, BlockMechanisms{});
+    EXPECT_EQ(r.initial_lift_m, 0.002);
+    // from 0 to the angle in |angle| / rate and a sample more, at that rate in between
+    ASSERT_TRUE(r.tilt);
+    EXPECT_EQ(r.base.tilt_start_s, 0.3);
+    const Motion& tilt = *r.tilt;
+    EXPECT_NEAR(tilt.displacement_m.back(), -0.5, 1e-12);
+    EXPECT_NEAR(tilt.velocity_m_s.back(), 0, 1e-12);
+    EXPECT_NEAR(tilt.velocity_m_s[tilt.velocity_m_s.size() / 2], -0.04, 1e-12);
+    EXPECT_NEAR(tilt.duration_s(), 0.5 / 0.04 + 3 * tilt.dt_s, 1e-9);
+    EXPECT_LT(tilt.dt_s, 0.11);
+}
+
+TEST(MechanismBuilder, AdhesionAgainstOpeningNeedsTheRowsOfABond)
+{
+    Study study = specimen();
+    add(study, Mechanism::adhesion, {30, 0, 0}, {1});
+    EXPECT_FALSE(made(study).strengthened);
+    EXPECT_FALSE(made(study).joints[1].bonded());
+    EXPECT_EQ(made(study).joints[1].adhesion_n_m(), 30);
+    Study bonded = specimen();
+    add(bonded, Mechanism::adhesion, {30, 0, 50}, {1});
+    const Realization r = made(bonded);
+    EXPECT_TRUE(r.strengthened);
+    EXPECT_TRUE(r.joints[1].bonded());
+    EXPECT_EQ(r.joints[1].adhesion_n_m(), 0) << "the bond has it";
+    EXPECT_EQ(r.joints[1].bond_cohesion_n_m(), 30);
+    EXPECT_EQ(r.joints[1].bond_tension_n_m(), 50);
+    EXPECT_FALSE(r.joints[2].bonded());
+}
+
 TEST(MechanismBuilder, StrengtheningReachesTheirMembers)
 {
     Study study = specimen();

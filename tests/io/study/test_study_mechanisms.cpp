@@ -66,7 +66,7 @@ harmonic_distortion = { second = 0.02, third_quadrature = -0.01 }
 time_offset = { offset_s = -0.0127 }
 sensor_gain = { gain = 0.88 }
 dowel = { joint = 0, stiffness_n_m = 1e5, yield_n = 20, gap_m = 1e-3 }
-adhesion = { force_n_m = 3 }
+adhesion = { force_n_m = 3, tension_n_m = 2 }
 eccentricity = { blocks = [1, 3], offset_m = -0.001 }
 wedge = { joint = 0, angle_rad = 0.0041 }
 drum_offset = { block = 2, offset_m = 0.0005 }
@@ -75,6 +75,8 @@ tendon = { block = 6, stiffness_n_m = 1e6, prestress_n = 500, yield_n = 2000 }
 bearing = { joint = 0, stiffness_n_m = 2e4, dashpot_n_s_m = 30, curvature_per_m = 0.5 }
 mortar = { joints = [2, 3], tensile_strength_pa = 2e5, cohesion_pa = 3e5 }
 pull_out = { joint = 1, hold_n = 50, stiffness_n_m = 1e6, length_m = 0.01, spread_m = 0.012 }
+rod = { block = 2, to_right_n_m = 2e4, height_m = 0.02, speed_m_s = 0.02, start_s = 0.2, travel_m = 0.01, laboratory = 1 }
+table_tilt = { angle_rad = -0.6, rate_rad_s = 0.035, start_s = 0.5 }
 )";
 
 const MechanismSpec& only(const Study& study, Mechanism mechanism)
@@ -97,7 +99,7 @@ TEST(StudyMechanisms, ReadsEveryMechanism)
     const Study s = read(all_mechanisms);
     for (const MechanismRule& rule : mechanism_rules())
         ASSERT_TRUE(s.names(rule.mechanism) || rule.mechanism == Mechanism::clamp) << rule.name;
-    ASSERT_EQ(s.mechanisms.size(), 25u); // joint_friction has two; there is nothing to clamp
+    ASSERT_EQ(s.mechanisms.size(), 27u); // joint_friction has two; there is nothing to clamp
     for (std::size_t i = 1; i < s.mechanisms.size(); ++i)
         EXPECT_LE(s.mechanisms[i - 1].mechanism, s.mechanisms[i].mechanism);
 
@@ -121,7 +123,20 @@ TEST(StudyMechanisms, ReadsEveryMechanism)
     EXPECT_TRUE(only(s, Mechanism::bearing).places.empty()); // the lowest joint
     EXPECT_EQ(only(s, Mechanism::mortar).values, values({2e5, 3e5}));
     EXPECT_EQ(only(s, Mechanism::pull_out).values, values({50, 1e6, 0.01, 0.012}));
+    EXPECT_EQ(only(s, Mechanism::adhesion).values, values({3, 0, 2}));
+    EXPECT_EQ(only(s, Mechanism::rod).values, values({2e4, 0, 0.02, 0.02, 0.2, 0.01, 1}));
+    EXPECT_EQ(only(s, Mechanism::rod).places, std::vector{2});
+    EXPECT_EQ(only(s, Mechanism::table_tilt).values, values({-0.6, 0.035, 0.5}));
     EXPECT_FALSE(s.vertical);
+}
+
+TEST(StudyMechanisms, OfALaboratoryRefusesWhatDoesNothing)
+{
+    expect_refused("rod = { block = 2, to_left_n_m = 1e4, speed_m_s = 0.1 }", {"speed_m_s", "travel_m"});
+    expect_refused("rod = { block = 2, to_left_n_m = 1e4, height_m = 1 }", {"height_m", "above block 2"});
+    expect_refused("rod = { block = 2, height_m = 0.01 }", {"to_right_n_m", "to_left_n_m"});
+    expect_refused("adhesion = { force_n_m = 0, tension_n_m = 2 }", {"tension_n_m", "force_n_m"});
+    expect_refused("table_tilt = { angle_rad = 0.1 }", {"rate_rad_s"});
 }
 
 TEST(StudyMechanisms, WritesWhatItReads)

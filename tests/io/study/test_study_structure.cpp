@@ -353,6 +353,10 @@ TEST(StudyStructure, TiltFromABlock)
     EXPECT_EQ(read(drums_of_seven, "[initial]\ntilt_from_block = 6\n").initial.tilt_from_block, 6);
     expect_refused(drums_of_seven, "temple.toml:18: initial.tilt_from_block = 7 is outside [0, 6]", {"of each column"},
                    "[initial]\ntilt_from_block = 7\n");
+    const Study raised = read(drums_of_seven, "[initial]\ntilt_from_block = 6\nlift_m = 0.003\n");
+    EXPECT_EQ(raised.initial.lift_m, 0.003);
+    EXPECT_EQ(parse_study(raised.text, "again.toml").initial.lift_m, 0.003);
+    EXPECT_EQ(read(drums_of_seven).text.find("lift_m"), std::string::npos) << "texts of before stay";
     expect_refused(drums_of_seven, "temple.toml:18: outcome.follow = \"fall\" is not allowed",
                    {"\"collapse\", \"rest\""}, "[outcome]\nfollow = \"fall\"\n");
 }

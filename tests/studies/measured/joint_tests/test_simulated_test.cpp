@@ -66,12 +66,12 @@ void tape_dummies(MeasuredRun& run)
         run.dummies.push_back({upper, mass, b, h, 0, 2 * k * h});
 }
 
-/// The table goes to and fro at 40 mm/s below a block that a rod holds.
+/// The table goes to and fro at 16 mm/s below a block that a rod holds.
 MeasuredRun pull()
 {
-    MeasuredRun run = planned(RunKind::pull, "pull", 3);
+    MeasuredRun run = planned(RunKind::pull, "pull", 6);
     for (const double t : run.time_s)
-        run.base_displacement_m.values.push_back(t < 0.5 ? 0 : 0.004 * (1 - std::cos(10 * (t - 0.5))));
+        run.base_displacement_m.values.push_back(t < 0.5 ? 0 : 0.008 * (1 - std::cos(2 * (t - 0.5))));
     ForceGauge gauge;
     gauge.name = "rod";
     gauge.block = upper;
@@ -172,6 +172,14 @@ std::vector<double> forces(const MeasuredRun& run, double from_s, double to_s)
     return all;
 }
 
+std::size_t last_seen(const MeasuredRun& run)
+{
+    std::size_t i = run.time_s.size();
+    while (i-- > 1 && std::isnan(x_of(run, i, upper)))
+        ;
+    return i;
+}
+
 /// Tilt at which the body has left its place: the last time before which it was seen there.
 double tilt_when(const MeasuredRun& run, double most_m, double most_rad)
 {
@@ -208,14 +216,17 @@ TEST(SimulatedTest, APullGivesTheFrictionOfItsJointUnderEveryHealthyLaw)
         const Realization r = specimen_of(on[s]);
         const double friction = r.joints[joint].friction * r.blocks[upper].mass_kg * g;
         const MeasuredRun& run = runs[s][0];
-        std::vector<double> over;
+        double sum = 0, count = 0; // while it slides it swings about the friction
         for (std::size_t i = 1; i + 1 < run.time_s.size(); ++i) {
             const std::vector<double>& base = run.base_displacement_m.values;
-            if (std::fabs(base[i + 1] - base[i - 1]) > 0.03 * 0.004)
-                over.push_back(run.forces[0].value_n.values[i] / (base[i + 1] > base[i - 1] ? -friction : friction));
+            if (std::fabs(base[i + 1] - base[i - 1]) > 0.004 * 0.01) {
+                sum += run.forces[0].value_n.values[i] / (base[i + 1] > base[i - 1] ? -friction : friction);
+                ++count;
+            }
         }
-        EXPECT_GT(over.size(), 300u);
-        EXPECT_NEAR(median(over), 1, 0.02) << s; // gain 0.5 %
+        EXPECT_GT(count, 1000);
+        // where next to nothing damps it the block sticks and slips on its rod, which takes 5 % off the mean
+        EXPECT_NEAR(sum / count, on[s].law->kind == DampingKind::light ? 0.97 : 1, 0.03) << s;
         EXPECT_NEAR(median(forces(run, 0, 0.4)), 0, 0.01) << "it just touches";
         // those below move with the table, those above are away
         EXPECT_NEAR(x_of(run, 700, 1), 0.1 + run.base_displacement_m.values[700], 3e-4);
@@ -225,23 +236,29 @@ TEST(SimulatedTest, APullGivesTheFrictionOfItsJointUnderEveryHealthyLaw)
 
 TEST(SimulatedTest, APushGivesTheWeightTimesItsLeversOnBothSides)
 {
+    // F H = W (b - h theta) while it turns; what an elastic bed takes from b depends on the law and not on the side
     for (const double e : {0.0, 0.003}) {
         const std::vector<TestSubject> on = subjects(12, {at_block("eccentricity", upper, e)});
         const auto runs = simulate({push(1), push(-1)}, on);
         for (std::size_t s = 0; s < on.size(); ++s) {
             const Realization r = specimen_of(on[s]);
-            const double weight = (r.blocks[upper].mass_kg + 2 * mass) * g;
-            const double shift = e * r.blocks[upper].mass_kg / (r.blocks[upper].mass_kg + 2 * mass);
-            const JointMechanisms& of = r.joints[joint].mechanisms;
-            const double levers[] = {r.blocks[upper].half_width_m - of.chip_right_m - shift,
-                                     r.blocks[upper].half_width_m - of.chip_left_m + shift};
-            for (std::size_t side = 0; side < 2; ++side) {
-                std::vector<double> all = forces(runs[s][side], 0.2, 0.5);
-                std::sort(all.begin(), all.end());
-                const double most = side == 0 ? all[all.size() - 6] : -all[5]; // the noise aside
-                const double want = weight * levers[side] / (0.9 * 6 * h);
-                EXPECT_NEAR(most, want, 0.06 * want) << s << ' ' << side << ' ' << e;
+            const Block& block = r.blocks[upper];
+            const double weight = (block.mass_kg + 2 * mass) * g;
+            const double shift = e * block.mass_kg / (block.mass_kg + 2 * mass);
+            const double bearing = block.half_width_m - r.joints[joint].mechanisms.chip_right_m;
+            double levers[2] = {};
+            for (const std::size_t side : {0u, 1u}) {
+                const MeasuredRun& run = runs[s][side];
+                double sum = 0, count = 0;
+                for (std::size_t i = 150; i < 300; ++i) { // the end moves since 0.1 s, and to 0.7 s
+                    sum += std::fabs(run.forces[0].value_n.values[i]) * 0.9 * 6 * h / weight +
+                           3 * h * std::fabs(theta_of(run, i));
+                    ++count;
+                }
+                levers[side] = sum / count;
             }
+            EXPECT_NEAR((levers[0] + levers[1]) / 2 / bearing, 0.95, 0.06) << s;
+            EXPECT_NEAR((levers[1] - levers[0]) / 2, shift, 5e-4) << s; // gains of 0.5 % of 24 mm
         }
     }
 }
@@ -254,10 +271,9 @@ TEST(SimulatedTest, ABoardGivesTheAngleOfFrictionAndATiltTheAngleOfTurning)
         const auto turns = simulate({board(RunKind::tilt, sign)}, on);
         for (std::size_t s = 0; s < on.size(); ++s) {
             const Realization r = specimen_of(on[s]);
-            EXPECT_NEAR(std::tan(sign * tilt_when(slides[s][0], 5e-4, 1)), r.joints[joint].friction,
-                        0.03 * r.joints[joint].friction)
-                << s;
-            EXPECT_LT(sign * (x_of(slides[s][0], 3500, upper) - 0.1), 0) << "counter-clockwise: to the left";
+            // it has gone 0.5 mm 0.15 s after it began to slide
+            EXPECT_NEAR(std::tan(sign * tilt_when(slides[s][0], 5e-4, 1)), r.joints[joint].friction + 0.02, 0.015) << s;
+            EXPECT_LT(sign * (x_of(slides[s][0], last_seen(slides[s][0]), upper) - 0.1), -0.01) << "to the left";
             const double bearing = r.blocks[upper].half_width_m - r.joints[joint].mechanisms.chip_left_m;
             EXPECT_NEAR(std::tan(sign * tilt_when(turns[s][0], 1, 0.01)), bearing / (3 * h), 0.05) << s;
         }
@@ -278,16 +294,17 @@ TEST(SimulatedTest, ADropBeginsWhereItIsHeldAndEndsAtRest)
         }
         const double t = run.time_s[107] - 0.2; // 14 ms: it falls freely
         EXPECT_NEAR(y(107), 5 * h + 0.003 - 0.5 * g * t * t, 3e-4);
-        EXPECT_NEAR(y(500), 5 * h, 5e-4);
+        EXPECT_NEAR(y(500), 5 * h, on[s].law->kind == DampingKind::light ? 2e-3 : 5e-4) << s; // 0.8 s later
         EXPECT_FALSE(*run.collapsed);
     }
 }
 
 TEST(SimulatedTest, ABondHoldsUntilItTears)
 {
-    const double held = 2 * mass * g * mu / (2 * b);
-    const auto bonded = simulate({push(1)}, subjects(12, {at_joint("adhesion", joint, held, 2)}));
-    const auto other = simulate({push(1)}, subjects(12, {at_joint("adhesion", joint - 1, held, 2)}));
+    // (f + W / B) B2 / 6 is above the W b of a dry joint where f B is above 2 W
+    const double weight = 3 * mass * g, held = weight * mu / (2 * b), tension = 5 * weight / (2 * b);
+    const auto bonded = simulate({push(1)}, subjects(12, {at_joint("adhesion", joint, held, tension / held)}));
+    const auto other = simulate({push(1)}, subjects(12, {at_joint("adhesion", joint - 1, held, tension / held)}));
     const auto dry = simulate({push(1)}, subjects(12));
     const auto most = [](const MeasuredRun& run) {
         std::vector<double> all = forces(run, 0.2, 0.7);
