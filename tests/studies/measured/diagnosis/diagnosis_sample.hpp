@@ -168,6 +168,35 @@ inline Diagnosis filled_diagnosis()
                        {"004", "005"},
                        CollapsePrediction{4, 0.31, 0.12, 2, 4, "Two of them fell."},
                        "Most of it in run 004."};
+    TestStory story;
+    story.verdict = SequenceVerdict::named;
+    story.text = "The tests name stribeck at all, dynamic_ratio = 0.72 (0.68 to 0.77, 90 %).";
+    story.mechanism = "stribeck";
+    story.place = "all";
+    story.parameter = "dynamic_ratio";
+    story.size = 0.72;
+    story.low = 0.68;
+    story.high = 0.77;
+    story.share = 0.97;
+    story.log_evidence = 11.5;
+    story.prior = {{"nothing", 0.5, 0.5}, {"stribeck at all", 0.2, 0.2}};
+    story.steps = {{"pull",
+                    "0, 1, 2",
+                    {{"pull.speed", "friction in slow less in fast cycles", 1, 0.28, 0.004, "", 0.01, 21.5, false},
+                     {"pull.width", "displacement after a reversal", 0, 2e-5, 1e-6, "m", 1.9e-5, 0.4, true}},
+                    {{"stribeck at all", 0.2, 0.97}, {"nothing", 0.5, 0.02}},
+                    11.5,
+                    SequenceVerdict::named,
+                    "It is 21.5 standard deviations from what healthy specimens give."},
+                   {"rest", "0", {}, {}, 11.5, SequenceVerdict::named, "It gave no estimate."}};
+    story.limits = {{"dowel at joint 1", "yield_n = 0.12 N"}, {"drag at all", ""}};
+    story.options = {{"push", 1.5, 0.4, 0.27, ""}, {"shake", 1, 0, 0, "no cause shows in it"}};
+    story.next = {"push"};
+    story.sheet = {"push: at joints 0, 1.", "Clamp the blocks below."};
+    story.notes = {"Run 7 is left out."};
+    story.simulations = 5000;
+    story.seconds = 62.5;
+    d.tests = story;
     d.next_test = NextTest{"harmonic, 3 Hz, 2.5 m/s2, then 5 m/s2",
                            "Slow and fast slip in one test.",
                            {"joint_friction", "stribeck"},

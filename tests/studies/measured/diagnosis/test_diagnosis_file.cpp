@@ -96,6 +96,7 @@ TEST_F(DiagnosisFile, EveryFieldOfTheStructuresIsListed)
     EXPECT_EQ(want.gain, got.gain);
     EXPECT_EQ(want.next_test, got.next_test);
     EXPECT_EQ(want.missing, got.missing);
+    EXPECT_EQ(want.tests, got.tests);
     EXPECT_EQ(want.cost, got.cost);
     // of the others the compiler counts the fields: one name too few or too many here is an error
     const Figure figure; // that of a diagnosis has its place besides
@@ -108,8 +109,8 @@ TEST_F(DiagnosisFile, EveryFieldOfTheStructuresIsListed)
     EXPECT_EQ(listed<FigureSeries>(), 6U);
     const Diagnosis whole;
     [[maybe_unused]] const auto& [d0, d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18,
-                                  d19, d20, d21, d22, d23, d24, d25, d26, d27, d28, d29] = whole;
-    EXPECT_EQ(listed<Diagnosis>(), 30U);
+                                  d19, d20, d21, d22, d23, d24, d25, d26, d27, d28, d29, d30] = whole;
+    EXPECT_EQ(listed<Diagnosis>(), 31U);
     const WindowMotions motion;
     [[maybe_unused]] const auto& [blocks, windows] = motion;
     EXPECT_EQ(listed<WindowMotions>(), 2U);
