@@ -19,6 +19,7 @@ constexpr double least_finite = 0.75;      // part of the healthy specimens in w
 constexpr double least_deviations = 2;     // of a shift that counts, in standard deviations
 constexpr double least_errors = 3;         // and in its standard errors
 constexpr double least_floor = 0.05;       // of the scatter: no test repeats itself better
+constexpr double common_floor = 2;         // of what all joints have in common, over the floor of one
 constexpr Eigen::Index parts_left_out = 6; // one after the other
 
 /// Mean, variance and number of the finite values.
@@ -224,6 +225,15 @@ Signatures signatures_of(const TestSamples& tests)
     for (Eigen::Index j = 0; j < p; ++j)
         s.floor_variance(j) = std::max({std::pow(s.columns[static_cast<std::size_t>(j)].floor_sd, 2),
                                         least_floor * least_floor * s.covariance(j, j)});
+    for (const std::vector<Eigen::Index>& group : s.alike) {
+        // what a laboratory does alike at every joint: a gauge's gain and zero, a table out of level
+        double common = 0;
+        for (const Eigen::Index j : group)
+            common = std::max(common, common_floor * common_floor * s.floor_variance(j));
+        for (const Eigen::Index a : group)
+            for (const Eigen::Index b : group)
+                s.covariance(a, b) += common;
+    }
     s.scale = std::max(1.0, distance_left_out(tests, s));
     s.covariance *= s.scale;
 

@@ -35,6 +35,7 @@ struct Assessment {
     std::string cache = "loop_cache";
     std::uint64_t healthy = 64, of_each = 12;
     int threads = 2;
+    bool signatures = false; ///< only what the tests give is told
 };
 
 std::vector<int> joints_alone(const Specimen& specimen)
@@ -60,6 +61,43 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
                     run.run_order = order++;
                     tests.push_back(std::move(run));
                 }
+}
+
+/// What healthy specimens give at the first joint, and by how many standard deviations each cause shifts it.
+void tell_signatures(const Campaign& campaign, const Study& study, const LoopOptions& options)
+{
+    const std::vector<int> joints = joints_alone(campaign.specimen);
+    std::vector<RunKind> kinds;
+    for (const RunKind kind :
+         {RunKind::pull, RunKind::push, RunKind::drop, RunKind::slide, RunKind::tilt, RunKind::board, RunKind::rest})
+        if (!cannot_do(campaign.specimen, campaign.laboratory, kind))
+            kinds.push_back(kind);
+    const std::vector<LoopCause> causes =
+        loop_causes(campaign.specimen, joints, campaign.specimen.friction_nominal.value_or(0.6),
+                    study.contact.normal_stiffness_n_m2);
+    Observer observer;
+    const SimulatedSamples found = simulated_samples(
+        campaign.specimen, study, planned_tests_of(campaign.specimen, campaign.laboratory, kinds, joints), causes,
+        options.plan, options.cache, options.run, {}, observer);
+    const Signatures s = signatures_of(found.samples);
+    fmt::print("scale {:.2f}\n", s.scale);
+    for (std::size_t k = 0; k < s.columns.size(); ++k) {
+        if (s.columns[k].joint != joints.front())
+            continue;
+        const auto at = static_cast<Eigen::Index>(k);
+        double given = 0;
+        for (const std::vector<Eigen::Index>& group : s.alike)
+            if (const auto in = std::ranges::find(group, at); in != group.end())
+                given = s.sd_given_others(group)(in - group.begin());
+        fmt::print("{}{}: mean {:.4g} sd {:.3g} given the other joints {:.3g} floor {:.3g};", s.columns[k].name,
+                   s.used[k] ? "" : " (not used)", s.mean(at), std::sqrt(s.covariance(at, at)), given,
+                   s.columns[k].floor_sd);
+        for (const CauseSignature& c : s.causes)
+            if (c.shift(at) != 0)
+                fmt::print(" {} {} {:.3g}: {:.1f}", c.cause.mechanism, c.cause.place, c.cause.size,
+                           c.shift(at) / given);
+        fmt::print("\n");
+    }
 }
 
 std::vector<PriorShare> prior_of(const Assessment& how, const VirtualCampaign& made)
@@ -94,6 +132,8 @@ void assess(const Assessment& how, std::uint64_t seed)
     options.cache = fs::path(how.cache) /
                     fmt::format("{}_{:g}.txt", campaign.specimen.blocks(), campaign.specimen.half_width_m.front());
     Observer observer;
+    if (how.signatures)
+        return tell_signatures(campaign, study, options);
     std::vector<MeasuredRun> plans;
     std::string done;
     std::optional<TestStory> story;
@@ -152,6 +192,7 @@ int main(int argc, char** argv)
     app.add_option("--healthy", how.healthy);
     app.add_option("--of-each", how.of_each);
     app.add_option("--threads", how.threads);
+    app.add_flag("--signatures", how.signatures, "tells what healthy specimens and causes give, and does no test");
     try {
         app.parse(argc, argv);
         for (std::uint64_t seed = how.first; seed <= how.last; ++seed)
