@@ -101,7 +101,8 @@ struct JointMechanisms {
 
 /// What the mechanisms make of a block. Every default is neutral.
 struct BlockMechanisms {
-    double drag_n_s2_m2 = 0;     ///< drag: F = -c |v| v, v the centre's velocity in the laboratory
+    double drag_n_s2_m2 = 0;     ///< drag: F = -(c |v| + d) v, v the centre's velocity in the laboratory
+    double drag_n_s_m = 0;       ///< drag: d
     double eccentricity_m = 0;   ///< eccentricity: centre of mass from the geometric centre, along the width
     double eccentricity_z_m = 0; ///< the same along z, in space
     double tie_n_m = 0;          ///< tie: k in F = f - k x - c x', horizontally, against the base; may be negative

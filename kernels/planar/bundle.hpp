@@ -99,6 +99,7 @@ struct OfBlockMechanisms {
         reference_y,   ///< [m]
         eccentricity,  ///< centre of mass from the geometric centre, along the width [m]
         drag_per_mass, ///< c / m [1/m]
+        drag_linear,   ///< dt d / m
         tie_spring,    ///< tie: dt2 k / m
         tie_dashpot,   ///< dt c / m
         tie_pull,      ///< dt2 f / m [m]

@@ -504,7 +504,7 @@ private:
     CalibrationRequest calibration_;
     bool keep_all_ = false;
     DiagnosisRequest diagnosis_;
-    long long nulls_ = 192, specimens_ = 64, seed_ = 1;
+    long long nulls_ = 192, specimens_ = 128, seed_ = 1;
     ExportOptions export_;
     NewStudyOptions new_;
     bool markdown_ = false;

@@ -20,7 +20,7 @@ struct DiagnosisRequest {
     std::uint64_t seed = 1;              ///< of what is drawn in them
     std::optional<std::filesystem::path> cache{}; ///< `DiagnosisOptions::cache`
     std::optional<std::filesystem::path> tests_cache{}; ///< `LoopOptions::cache`
-    std::uint64_t specimens = 64; ///< healthy ones that go through simulated tests of single joints; 0: none
+    std::uint64_t specimens = 128; ///< healthy ones that go through simulated tests of single joints; 0: none
     bool plan = false;            ///< three tests instead of one, for a specimen with no data yet
     std::function<void()> check_outputs{};        ///< called where nothing else is refused any more; may be empty
 };

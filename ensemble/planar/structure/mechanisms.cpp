@@ -145,6 +145,8 @@ void store_mechanisms(const Statics& statics, const std::vector<int>& order, con
         b.at(OfBlockMechanisms::reference_x, i, lane) = block.x_m + block.mechanisms.eccentricity_m;
         b.at(OfBlockMechanisms::reference_y, i, lane) = block.y_m;
         b.at(OfBlockMechanisms::drag_per_mass, i, lane) = block.mechanisms.drag_n_s2_m2 / block.mass_kg;
+        b.at(OfBlockMechanisms::drag_linear, i, lane) =
+            block.mechanisms.drag_n_s_m * statics.realization.step_s / block.mass_kg;
         b.at(OfBlockMechanisms::tie_spring, i, lane) = dt * dt * block.mechanisms.tie_n_m / block.mass_kg;
         b.at(OfBlockMechanisms::tie_dashpot, i, lane) = dt * block.mechanisms.tie_n_s_m / block.mass_kg;
         b.at(OfBlockMechanisms::tie_pull, i, lane) = dt * dt * block.mechanisms.tie_n / block.mass_kg;

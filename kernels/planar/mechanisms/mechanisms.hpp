@@ -310,10 +310,10 @@ public:
             lab_y = fma(pitch_.increment, x, lab_y);
         }
         Real slow_x(0.0), slow_y(0.0), slow_theta(0.0);
-        const Real drag = rows_.get(B::drag_per_mass, i);
-        const bool dragged = any(drag != Real(0.0));
+        const Real drag = rows_.get(B::drag_per_mass, i), linear = rows_.get(B::drag_linear, i);
+        const bool dragged = any((drag != Real(0.0)) | (linear != Real(0.0)));
         if (dragged) {
-            const Real factor = drag_factor(drag, lab_x, lab_y);
+            const Real factor = drag_factor(drag, linear, lab_x, lab_y);
             slow_x = factor * lab_x;
             slow_y = factor * lab_y;
         }

@@ -13,6 +13,7 @@ namespace stylobate {
 namespace {
 
 constexpr double usual_rod_n_m = 2e4; // where the gauge does not state its stiffness
+constexpr double rod_damping = 0.05;  // of critical: of rod and gauge
 constexpr double least_lift_m = 1e-5; // what is held lower stands on its bed
 
 /// A rigid part of the tested body.
@@ -117,6 +118,8 @@ void hold_by_rod(const Specimen& specimen, const SpecimenStructure& built, const
         e.rod_travel_m =
             gauge.speed_m_s != 0 ? push_reach_m * tested_body(specimen, *planned.joint, {}).length_ratio : 0;
         e.rod_laboratory = gauge.to_laboratory ? 1 : 0;
+        if (gauge.to_laboratory) // without it the block would swing on the rod for ever: friction does not damp that
+            e.drag_n_s_m += 2 * rod_damping * std::sqrt(k * body.mass_kg);
     }
 }
 

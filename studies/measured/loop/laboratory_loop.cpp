@@ -23,7 +23,8 @@ constexpr double told_deviations = 2.5; // estimates that are told in words
 constexpr double usual_friction = 0.6;  // where the specimen states none
 constexpr double listed_belief = 0.7;   // of candidates that the first diagnosis lists without a probability
 constexpr double most_told_nats = 8;
-constexpr double like_the_plan = 0.1; // of the largest displacement: farther, and a run was another test
+constexpr std::size_t specimens_of_a_law = 40; // healthy ones that count
+constexpr double like_the_plan = 0.1;          // of the largest displacement: farther, and a run was another test
 
 /// One performance of a test on one joint.
 struct DoneTest {
@@ -115,9 +116,10 @@ void check_like_plan(const Campaign& campaign, const DoneTest& test, TestStory& 
 
 class Loop {
 public:
-    Loop(const Campaign& campaign, const std::vector<LoopCause>& causes, SequenceModel model,
-         const LoopOptions& options)
-        : campaign_(campaign), causes_(causes), model_(std::move(model)), options_(options)
+    Loop(const Campaign& campaign, const std::vector<LoopCause>& causes, const TestSamples& samples,
+         const SequencePrior& prior, const LoopOptions& options)
+        : campaign_(campaign), causes_(causes), samples_(samples), prior_(prior), options_(options),
+          model_(signatures_of(samples), prior)
     {
     }
 
@@ -164,7 +166,6 @@ private:
     {
         StoryStep step;
         step.test = test_kind_name(tests.front().kind);
-        const Belief before = belief_of(model_, seen_);
         std::vector<int> joints;
         std::vector<Estimate> measured;
         const std::size_t first = seen_.size();
@@ -185,7 +186,9 @@ private:
         }
         std::ranges::sort(joints);
         step.joints = joints_in_words(joints);
-        const Belief after = belief_of(model_, seen_);
+        const std::span<const SeenEstimate> so_far(seen_.data(), first);
+        model_ = model_like(seen_);
+        const Belief before = belief_of(model_, so_far), after = belief_of(model_, seen_);
         step.beliefs = beliefs(before, after);
         const SequenceJudgement now = judgement_of(model_, seen_);
         step.log_evidence = now.log_evidence;
@@ -313,10 +316,21 @@ private:
                next;
     }
 
+    /// Of specimens whose law is like that of the measured one, as far as the tests have shown it.
+    SequenceModel model_like(const std::vector<SeenEstimate>& seen) const
+    {
+        std::vector<std::pair<Eigen::Index, double>> values;
+        for (const SeenEstimate& e : seen)
+            values.emplace_back(e.column, e.value);
+        return {signatures_of(like_measured(samples_, values, specimens_of_a_law)), prior_};
+    }
+
     const Campaign& campaign_;
     const std::vector<LoopCause>& causes_;
-    SequenceModel model_;
+    const TestSamples& samples_;
+    const SequencePrior& prior_;
     const LoopOptions& options_;
+    SequenceModel model_;
     std::vector<SeenEstimate> seen_;
 };
 
@@ -376,7 +390,7 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
             return c.cause.mechanism == share.of && (!share.place || c.cause.place == *share.place);
         });
     });
-    Loop(campaign, causes, SequenceModel(signatures, prior), options).tell(steps, joints, story);
+    Loop(campaign, causes, samples.samples, prior, options).tell(steps, joints, story);
     story.simulations = samples.cost.simulations;
     story.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return story;

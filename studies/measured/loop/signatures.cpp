@@ -1,6 +1,7 @@
 #include "studies/measured/loop/signatures.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
 
 #include <Eigen/Cholesky>
@@ -8,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
+#include <string_view>
 #include <tuple>
 
 namespace stylobate {
@@ -98,8 +102,8 @@ ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, 
 {
     ColumnShift out;
     Eigen::VectorXd values = samples.rows.col(j);
-    const bool paired = !samples.pairs.empty();
-    if (paired)
+    const bool paired = samples.differences || !samples.pairs.empty();
+    if (paired && !samples.differences)
         for (Eigen::Index i = 0; i < values.size(); ++i)
             values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
     const FiniteMoments with = finite_moments(values);
@@ -199,6 +203,90 @@ Eigen::MatrixXd Signatures::covariance_of(const std::vector<Eigen::Index>& of) c
 Eigen::VectorXd Signatures::sd_given_others(const std::vector<Eigen::Index>& of) const
 {
     return covariance_of(of).inverse().diagonal().cwiseInverse().cwiseSqrt();
+}
+
+namespace {
+
+/// Estimators that stiffness and damping of the beds move at all joints alike, and no cause at all joints.
+bool of_the_law(const std::string& estimator)
+{
+    static constexpr std::string_view names[] = {"pull.width", "pull.compliance", "push.bond",
+                                                 "push.width", "tilt.width",      "drop.time"};
+    return std::find(std::begin(names), std::end(names), estimator) != std::end(names);
+}
+
+constexpr double farthest_law = 3; // beyond it a law is as unlike as it can be, by one estimator
+
+double median_of(std::vector<double> values)
+{
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values.empty() ? std::nan("") : upper_median(std::move(values));
+}
+
+} // namespace
+
+TestSamples like_measured(const TestSamples& tests, std::span<const std::pair<Eigen::Index, double>> seen,
+                          std::size_t count)
+{
+    std::map<std::string, std::pair<std::vector<Eigen::Index>, std::vector<double>>> groups;
+    for (const auto& [column, value] : seen)
+        if (const std::string& name = tests.columns[static_cast<std::size_t>(column)].name; of_the_law(name)) {
+            groups[name].first.push_back(column);
+            groups[name].second.push_back(value);
+        }
+    const Eigen::Index n = tests.healthy.rows();
+    if (groups.empty() || static_cast<std::size_t>(n) <= count)
+        return tests;
+    std::vector<double> distance(static_cast<std::size_t>(n), 0);
+    for (const auto& [name, group] : groups) {
+        std::vector<double> common;
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const Eigen::RowVectorXd row = tests.healthy(i, group.first);
+            common.push_back(median_of({row.data(), row.data() + row.size()}));
+        }
+        // by ranks: how many laws lie between
+        std::vector<double> sorted = common;
+        std::erase_if(sorted, [](double value) { return !std::isfinite(value); });
+        std::sort(sorted.begin(), sorted.end());
+        const auto rank = [&](double value) {
+            const auto at = std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
+            return static_cast<double>(at) / static_cast<double>(std::max<std::size_t>(sorted.size(), 1));
+        };
+        const double here = rank(median_of(group.second)), width = 0.1;
+        for (std::size_t i = 0; i < distance.size(); ++i) {
+            const double apart = std::isfinite(common[i]) ? (rank(common[i]) - here) / width : farthest_law;
+            distance[i] += std::min(apart * apart, farthest_law * farthest_law);
+        }
+    }
+    std::vector<Eigen::Index> order(distance.size());
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return distance[static_cast<std::size_t>(a)] < distance[static_cast<std::size_t>(b)];
+    });
+    order.resize(count);
+    TestSamples out = tests;
+    out.healthy = tests.healthy(order, Eigen::all);
+    for (CauseSamples& samples : out.causes) {
+        // the nearer half of those that have a twin
+        std::vector<Eigen::Index> rows;
+        for (std::size_t i = 0; i < samples.pairs.size(); ++i)
+            rows.push_back(static_cast<Eigen::Index>(i));
+        std::stable_sort(rows.begin(), rows.end(), [&](Eigen::Index a, Eigen::Index b) {
+            const auto far = [&](Eigen::Index i) {
+                return distance[static_cast<std::size_t>(samples.pairs[static_cast<std::size_t>(i)])];
+            };
+            return far(a) < far(b);
+        });
+        rows.resize((rows.size() + 1) / 2);
+        Eigen::MatrixXd shifted(static_cast<Eigen::Index>(rows.size()), samples.rows.cols());
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            shifted.row(static_cast<Eigen::Index>(i)) =
+                samples.rows.row(rows[i]) - tests.healthy.row(samples.pairs[static_cast<std::size_t>(rows[i])]);
+        samples.rows = std::move(shifted);
+        samples.pairs.clear();
+        samples.differences = true;
+    }
+    return out;
 }
 
 Signatures signatures_of(const TestSamples& tests)

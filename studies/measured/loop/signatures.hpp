@@ -13,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +48,7 @@ struct TestedCause {
 struct CauseSamples {
     TestedCause cause;
     Eigen::MatrixXd rows;        ///< (m x p) NaN: the test gave no estimate
+    bool differences = false;    ///< the rows are differences from the healthy specimen of the same law
     std::vector<int> pairs = {}; ///< (m) row of `TestSamples::healthy` with the same law and specimen, without the
                                  ///< cause; empty: there are none
 };
@@ -85,6 +88,14 @@ struct Signatures {
 /// @param rows  (n x p) NaN: missing   @param alike columns of the same estimator at all joints
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
                                                             const std::vector<std::vector<Eigen::Index>>& alike);
+
+/// The healthy specimens whose contact law is most like the measured one, by what the law gives all joints alike
+/// (`of_the_law`): a soft or lightly damped bed scatters more than a stiff one, and would hide what acts in it.
+/// Specimens with a cause keep what the cause shifts, from their healthy twin. All specimens, where no such estimate
+/// was seen.
+/// @param seen values in columns of `tests`
+TestSamples like_measured(const TestSamples& tests, std::span<const std::pair<Eigen::Index, double>> seen,
+                          std::size_t count);
 
 /// The signatures of simulated specimens. An entry of a shift counts where it is at least 2 standard deviations of the
 /// estimate given the same estimate at the other joints, and 3 standard errors of the shift. The covariance is

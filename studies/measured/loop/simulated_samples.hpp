@@ -27,8 +27,8 @@ struct PlannedTest {
 
 struct SamplePlan {
     std::uint64_t seed = 1;
-    std::uint64_t healthy = 64;       ///< specimens
-    std::uint64_t of_each_cause = 12; ///< with the laws and the scatter of the first healthy ones
+    std::uint64_t healthy = 128;      ///< specimens
+    std::uint64_t of_each_cause = 16; ///< with the laws and the scatter of the first healthy ones
     LawFamily family;
     LaboratoryFloor floor;
 };

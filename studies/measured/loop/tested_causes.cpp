@@ -138,6 +138,9 @@ std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<i
     CauseMaker drag(all, {"drag", "all", "coefficient_n_s2_m2", "N s2/m2"});
     for (const double part : drag_parts)
         drag.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * slide_speed_m_s * length));
+    CauseMaker viscous(all, {"drag", "all, linear", "linear_n_s_m", "N s/m"});
+    for (const double part : drag_parts)
+        viscous.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * std::sqrt(length)));
     for (const int joint : joints)
         add_of_joint(specimen, joint, friction, stiffness_n_m2, all);
     return all;

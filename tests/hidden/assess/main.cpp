@@ -33,7 +33,7 @@ struct Assessment {
     std::string prior = "flat"; ///< "flat", "group" (the right one), or a folder of diagnoses
     int tests = 3;
     std::string cache = "loop_cache";
-    std::uint64_t healthy = 64, of_each = 12;
+    std::uint64_t healthy = 128, of_each = 16;
     int threads = 2;
     bool signatures = false; ///< only what the tests give is told
 };

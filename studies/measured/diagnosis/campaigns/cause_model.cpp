@@ -106,7 +106,7 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             continue;
         Block& block = r.blocks[static_cast<std::size_t>(built.block[b])];
         if (m == "drag")
-            block.mechanisms.drag_n_s2_m2 = size;
+            (is_linear_drag(cause) ? block.mechanisms.drag_n_s_m : block.mechanisms.drag_n_s2_m2) = size;
         else if (m == "eccentricity")
             block.mechanisms.eccentricity_m = size;
         else if (m == "tie")
@@ -165,6 +165,7 @@ void add_mechanism(const SizedCause& sized, const SpecimenStructure& built, Stud
         set(spec, "force", size);
         set(spec, "tension", cause.fixed * size);
         break;
+    case Mechanism::drag:
     case Mechanism::tie:
         for (std::size_t p = 0; p < rule_of(*mechanism).parameters.size(); ++p)
             if (rule_of(*mechanism).parameters[p].key() == cause.parameter)
