@@ -86,8 +86,11 @@ std::string command_of(const CommonOptions& options, const DiagnosisRequest& req
         command += " --study " + shell_word(*study);
     for (const std::string& setting : options.set)
         command += " --set " + shell_word(setting);
-    return command + fmt::format(" -o {} --nulls {} --specimens {} --seed {}{}", shell_word(output), request.nulls,
-                                 request.specimens, request.seed, request.plan ? " --plan" : "");
+    if (request.specimens != DiagnosisRequest{}.specimens)
+        command += fmt::format(" --specimens {}", request.specimens);
+    if (request.plan)
+        command += " --plan";
+    return command + fmt::format(" -o {} --nulls {} --seed {}", shell_word(output), request.nulls, request.seed);
 }
 
 } // namespace

@@ -310,13 +310,14 @@ private:
             ->check(CLI::Range(0LL, 10000LL))
             ->capture_default_str();
         diagnosing
-            ->add_option("--specimens", specimens_,
-                         "number of healthy specimens that go through simulated tests of single joints. 0: none; no "
-                         "test is proposed, and those that the campaign has are not read")
-            ->check(CLI::Range(0LL, 10000LL))
+            ->add_option(
+                "--specimens", specimens_,
+                "number of simulated healthy specimens that go through tests of single joints, with --plan and "
+                "where the campaign has such tests")
+            ->check(CLI::Range(40LL, 10000LL))
             ->capture_default_str();
         diagnosing->add_flag("--plan", diagnosis_.plan,
-                             "propose three tests instead of one; shake runs are not needed");
+                             "propose tests of single joints: the three that tell most. Shake runs are not needed");
         diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")
             ->check(CLI::Range(0LL, 999999999999LL))
             ->capture_default_str();

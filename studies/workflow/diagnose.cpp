@@ -46,13 +46,13 @@ bool any_joint_alone(const Specimen& specimen)
 bool tell_tests(const DiagnosisRequest& request, const Campaign& campaign, const Study& study, const RunOptions& run,
                 Diagnosis& diagnosis, WorkObserver& observer)
 {
-    if (request.specimens == 0 || !any_joint_alone(campaign.specimen))
+    if ((!request.plan && campaign.tests.empty()) || !any_joint_alone(campaign.specimen))
         return true;
     LoopOptions how;
     how.plan.seed = request.seed;
     how.plan.healthy = request.specimens;
     how.cache = request.tests_cache;
-    how.planned = request.plan ? 3 : 1;
+    how.planned = campaign.tests.empty() ? 3 : 1;
     how.run = run;
     const auto begun = std::chrono::steady_clock::now();
     how.progress = [&](std::uint64_t done, std::uint64_t total) {

@@ -18,11 +18,12 @@ struct DiagnosisRequest {
     std::vector<std::string> settings{}; ///< of the start where none is given
     std::uint64_t nulls = 192;           ///< healthy campaigns that are simulated near the measured contact law
     std::uint64_t seed = 1;              ///< of what is drawn in them
-    std::optional<std::filesystem::path> cache{}; ///< `DiagnosisOptions::cache`
+    std::optional<std::filesystem::path> cache{};       ///< `DiagnosisOptions::cache`
     std::optional<std::filesystem::path> tests_cache{}; ///< `LoopOptions::cache`
-    std::uint64_t specimens = 128; ///< healthy ones that go through simulated tests of single joints; 0: none
-    bool plan = false;            ///< three tests instead of one, for a specimen with no data yet
-    std::function<void()> check_outputs{};        ///< called where nothing else is refused any more; may be empty
+    bool plan = false;             ///< tests of single joints are proposed; shake runs are not needed
+    std::uint64_t specimens = 128; ///< healthy ones that go through simulated tests of single joints; they do so for a
+                                   ///< plan, and where the campaign has such tests
+    std::function<void()> check_outputs{}; ///< called where nothing else is refused any more; may be empty
 };
 
 /// Collective, of all ranks of the machine; rank 0 has the diagnosis. The stages are notes.
