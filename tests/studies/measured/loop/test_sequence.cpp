@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <vector>
 
 namespace stylobate {
 namespace {
@@ -185,6 +187,25 @@ TEST(Sequence, ARepeatDecides)
     EXPECT_TRUE(judgement_of(model, once).doubtful);
     EXPECT_EQ(judgement_of(model, five).verdict, SequenceVerdict::named);
     EXPECT_LT(judgement_of(model, lucky).log_evidence, judgement_of(model, once).log_evidence - 1);
+}
+
+TEST(Sequence, SizeIsStudentsPosteriorInClosedForm)
+{
+    // one estimate of scatter 1 that a size shifts by 10 times itself: sizes have Student's density about 1.2
+    Eigen::VectorXd weak(1), strong(1), none = Eigen::VectorXd::Zero(1);
+    weak << 10;
+    strong << 20;
+    CauseSignature one{{"drag", "all", 1, ""}, weak, none}, two{{"drag", "all", 2, ""}, strong, none};
+    const SequenceModel model(
+        gaussian::signatures({{RunKind::slide, 0, "slide.drag"}}, none, Eigen::MatrixXd::Identity(1, 1), 0, {one, two}),
+        {});
+    const std::optional<SizeInterval> size = size_of(model, std::vector<SeenEstimate>{{0, 12}}, {"drag", "all"});
+    ASSERT_TRUE(size);
+    const double quantile = 1.8595 / 10; // t of 8 degrees of freedom, 95 %
+    EXPECT_NEAR(size->mean, 1.2, 0.01);
+    EXPECT_NEAR(size->low, 1.2 - quantile, 0.016) << "sizes are tried at steps of 0.015";
+    EXPECT_NEAR(size->high, 1.2 + quantile, 0.016);
+    EXPECT_FALSE(size_of(model, std::vector<SeenEstimate>{{0, 12}}, {"dowel", "joint 0"}));
 }
 
 TEST(Sequence, LimitsAreOfCausesThatWereTested)

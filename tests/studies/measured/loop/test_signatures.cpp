@@ -114,6 +114,39 @@ TEST(Signatures, FloorIsAddedToTheDiagonal)
     EXPECT_DOUBLE_EQ(c(0, 2), s.covariance(6, 6)) << "a repeat on the same specimen";
 }
 
+TEST(Signatures, AreOfSpecimensWhoseLawIsLikeTheMeasuredOne)
+{
+    // stiff beds turn at their full width, soft ones earlier, and scatter ten times as much
+    constexpr Eigen::Index n = 60;
+    TestSamples tests;
+    tests.columns = {
+        {RunKind::tilt, 0, "tilt.width"}, {RunKind::tilt, 1, "tilt.width"}, {RunKind::pull, 0, "pull.wear"}};
+    tests.healthy.resize(n, 3);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < 3; ++j)
+            tests.healthy(i, j) = (i % 2 == 0 ? 0.1 : 1) * normal(random) - (j < 2 && i % 2 == 1 ? 10 : 0);
+    CauseSamples lost{{"corner_loss", "joint 0 left", 1, ""}, tests.healthy.topRows(6)};
+    lost.rows.col(0).array() -= 2;
+    lost.pairs = {0, 1, 2, 3, 4, 5};
+    tests.causes = {lost};
+    const std::vector<std::pair<Eigen::Index, double>> seen = {{0, 0.05}, {1, -0.02}, {2, 30}};
+    const TestSamples like = like_measured(tests, seen, 25);
+    ASSERT_EQ(like.healthy.rows(), 25);
+    for (Eigen::Index i = 0; i < 25; ++i)
+        EXPECT_GT(like.healthy(i, 0), -5) << "a soft one";
+    ASSERT_EQ(like.causes[0].rows.rows(), 3);
+    EXPECT_NEAR(like.causes[0].rows.col(0).mean(), -2, 1e-12) << "what the cause shifts";
+    EXPECT_NEAR(like.causes[0].rows.col(2).cwiseAbs().maxCoeff(), 0, 1e-12);
+    // what wear gives is no sign of the law; without such a sign all count
+    const std::vector<std::pair<Eigen::Index, double>> wear = {{2, 30}};
+    EXPECT_EQ(like_measured(tests, wear, 25).healthy.rows(), n);
+    const Signatures s = signatures_of(like);
+    EXPECT_LT(s.covariance(0, 0), 0.1);
+    EXPECT_NEAR(s.causes[0].shift(0), -2, 0.1);
+}
+
 TEST(SignaturesStatistics, DistancesOfOtherSpecimensAreAsLargeAsTheySay)
 {
     // 48 specimens for 15 columns: without the factor of parts left out the distances would be too large

@@ -1,0 +1,192 @@
+/// The loop as a whole, in a laboratory that has callipers and a thread alone, so that little is simulated.
+
+#include "studies/measured/loop/laboratory_loop.hpp"
+
+#include "ensemble/model/input_error.hpp"
+#include "io/files/atomic_file.hpp"
+#include "kernels/isa.hpp"
+#include "studies/measured/diagnosis/findings/story_document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace stylobate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Three small blocks in a laboratory without gauge, and whose table and board hardly move.
+Campaign callipers_alone()
+{
+    Campaign campaign;
+    campaign.source = "three.h5";
+    Specimen& s = campaign.specimen;
+    s.name = "three blocks";
+    s.friction_nominal = 0.7;
+    for (int i = 0; i < 3; ++i) {
+        s.half_width_m.push_back(0.024);
+        s.half_height_m.push_back(0.0145);
+        s.depth_m.push_back(0.04);
+        s.mass_kg.push_back(0.135);
+        s.rest_x_m.push_back(0);
+        s.rest_y_m.push_back((2 * i + 1) * 0.0145);
+        s.joints.emplace_back(i - 1, i);
+        s.centre_of_mass_m.push_back(0);
+        s.bearing_left_m.push_back(2e-4);
+        s.bearing_right_m.push_back(2e-4);
+    }
+    campaign.laboratory.stroke_m = 1e-4;
+    campaign.laboratory.tilt_rad = 0.01;
+    campaign.laboratory.force_n = 0;
+    return campaign;
+}
+
+Study stone_contacts()
+{
+    Study study;
+    study.contact.normal_stiffness_n_m2 = 1e8;
+    study.contact.tangential_stiffness_n_m = 5e6;
+    study.contact.friction = 0.7;
+    return study;
+}
+
+LoopOptions small_plan(const fs::path& cache)
+{
+    LoopOptions options;
+    options.plan.healthy = 40;
+    options.plan.of_each_cause = 6;
+    options.cache = cache;
+    options.run = {best_isa(), 2};
+    return options;
+}
+
+class LaboratoryLoop : public testing::Test {
+protected:
+    std::optional<TestStory> told(const Campaign& campaign)
+    {
+        return laboratory_loop(campaign, stone_contacts(), {}, small_plan(folder / "tests.txt"), observer);
+    }
+
+    TemporaryFolder folder;
+    Observer observer;
+};
+
+TEST_F(LaboratoryLoop, NamesAShiftedCentreByCallipersAloneAndNothingOfAHealthySpecimen)
+{
+    Campaign campaign = callipers_alone();
+    const std::optional<TestStory> healthy = told(campaign);
+    ASSERT_TRUE(healthy);
+    EXPECT_EQ(healthy->verdict, SequenceVerdict::none) << healthy->text;
+    ASSERT_EQ(healthy->steps.size(), 1U);
+    EXPECT_EQ(healthy->steps[0].test, "rest");
+    EXPECT_EQ(healthy->steps[0].joints, "0, 1, 2");
+    ASSERT_FALSE(healthy->next.empty());
+    EXPECT_EQ(healthy->next.front(), "drop") << "nothing else can be done";
+    const auto pull = std::ranges::find(healthy->options, "pull", &StoryOption::test);
+    ASSERT_NE(pull, healthy->options.end());
+    EXPECT_NE(pull->left_out, "");
+
+    campaign.specimen.centre_of_mass_m[1] = 0.003;
+    const std::optional<TestStory> shifted = told(campaign);
+    ASSERT_TRUE(shifted);
+    EXPECT_EQ(shifted->verdict, SequenceVerdict::named) << shifted->text;
+    EXPECT_EQ(shifted->mechanism, "eccentricity");
+    EXPECT_EQ(shifted->place, "block 1");
+    ASSERT_TRUE(shifted->size && shifted->low && shifted->high);
+    EXPECT_NEAR(*shifted->size, 0.003, 0.0004);
+    EXPECT_LT(*shifted->low, 0.003);
+    EXPECT_GT(*shifted->high, 0.003);
+    EXPECT_TRUE(shifted->next.empty());
+
+    Document document;
+    add_story(*shifted, document);
+    const std::string text = console_text(document);
+    for (const char* words : {"eccentricity at block 1", "Test 1: rest at joints 0, 1, 2", "rest.centre"})
+        EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST_F(LaboratoryLoop, KeepsItsSimulationsAndRefusesAFileOfSomethingElse)
+{
+    const Campaign campaign = callipers_alone();
+    std::vector<std::uint64_t> rows;
+    LoopOptions options = small_plan(folder / "tests.txt");
+    options.progress = [&](std::uint64_t done, std::uint64_t) { rows.push_back(done); };
+    const std::optional<TestStory> first = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
+    EXPECT_FALSE(rows.empty());
+    rows.clear();
+    std::optional<TestStory> again = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
+    EXPECT_TRUE(rows.empty()) << "all rows are in the file";
+    ASSERT_TRUE(first && again);
+    EXPECT_EQ(again->simulations, 0U);
+    again->simulations = first->simulations;
+    again->seconds = first->seconds;
+    EXPECT_EQ(*first, *again);
+
+    // another specimen is simulated anew, not taken from the file
+    Campaign heavier = campaign;
+    heavier.specimen.mass_kg = {0.2, 0.2, 0.2};
+    EXPECT_TRUE(laboratory_loop(heavier, stone_contacts(), {}, options, observer));
+    EXPECT_FALSE(rows.empty());
+
+    std::ofstream(folder / "notes.txt") << "my notes\n";
+    options.cache = folder / "notes.txt";
+    try {
+        laboratory_loop(campaign, stone_contacts(), {}, options, observer);
+        ADD_FAILURE() << "the notes would be overwritten";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("no file of simulated tests"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(LaboratoryLoop, ToldWhatItCouldNotUse)
+{
+    Campaign campaign = callipers_alone();
+    MeasuredRun run;
+    run.name = "mystery";
+    run.test = RunKind::drop;
+    campaign.tests.push_back(run); // names no joint
+    run.name = "unseen";
+    run.joint = 1;
+    campaign.tests.push_back(run); // has no series
+    const std::optional<TestStory> story = told(campaign);
+    ASSERT_TRUE(story);
+    ASSERT_EQ(story->notes.size(), 2U);
+    EXPECT_NE(story->notes[0].find("Run mystery is left out: it names no joint"), std::string::npos) << story->notes[0];
+    EXPECT_NE(story->notes[1].find("drop at joint 1 gave no estimate"), std::string::npos) << story->notes[1];
+}
+
+TEST(LaboratorySheet, SaysWhatIsDone)
+{
+    const Campaign campaign = callipers_alone();
+    const std::vector<std::string> lines = sheet_of(campaign.specimen, {}, RunKind::push, {0, 1, 2});
+    ASSERT_EQ(lines.size(), 5U);
+    EXPECT_NE(lines[0].find("joints 0, 1, 2"), std::string::npos);
+    EXPECT_NE(lines[2].find("Tape 2 blocks"), std::string::npos);
+    EXPECT_NE(lines[3].find("mm/s"), std::string::npos);
+    EXPECT_NE(lines[4].find("--test push"), std::string::npos);
+}
+
+TEST(PriorOfTheLoop, IsThatOfTheFirstDiagnosis)
+{
+    Diagnosis d;
+    d.candidates.resize(2);
+    d.candidates[0].mechanism = "dowel";
+    d.candidates[0].place = "joint 1";
+    d.candidates[1].mechanism = "drag";
+    d.candidates[1].place = "all";
+    d.candidates[0].gain_nats = 8;
+    d.candidates[1].gain_nats = 0;
+    const std::vector<PriorShare> by_gain = prior_shares(d);
+    ASSERT_EQ(by_gain.size(), 2U);
+    EXPECT_NEAR(by_gain[0].weight, 0.7, 1e-12) << "a gain of 0 says nothing";
+    EXPECT_EQ(by_gain[1].weight, 0);
+    d.candidates[1].probability = 0.4;
+    const std::vector<PriorShare> by_probability = prior_shares(d);
+    EXPECT_EQ(by_probability[0].weight, 0);
+    EXPECT_EQ(by_probability[1].weight, 0.4);
+}
+
+} // namespace
+} // namespace stylobate
