@@ -34,10 +34,10 @@ constexpr MechanismParameter stribeck[] = {
 constexpr MechanismParameter joint_friction[] = {
     {"ratio", "", "", 0, 10, true, acting, 1, by_sampler,
      "ratio of the friction of the joint to its value without this mechanism"}};
-constexpr MechanismParameter drag[] = {{"coefficient", "_n_s2_m2", "N s2/m2", 0, 1e9, false, acting, 0,
-                                        &Block_::drag_n_s2_m2, "c in F = -(c |v| + d) v, v in the laboratory"},
-                                       {"linear", "_n_s_m", "N s/m", 0, 1e9, false, acting, 0, &Block_::drag_n_s_m,
-                                        "d in the same"}};
+constexpr MechanismParameter drag[] = {
+    {"coefficient", "_n_s2_m2", "N s2/m2", 0, 1e9, false, acting, 0, &Block_::drag_n_s2_m2,
+     "c in F = -(c |v| + d) v, v in the laboratory"},
+    {"linear", "_n_s_m", "N s/m", 0, 1e9, false, acting, 0, &Block_::drag_n_s_m, "d in the same"}};
 constexpr MechanismParameter corner_loss[] = {
     {"left", "_m", "m", 0, 10, false, acting, 0, &Joint_::chip_left_m, "length of the face lost at its left end"},
     {"right", "_m", "m", 0, 10, false, acting, 0, &Joint_::chip_right_m, "length of the face lost at its right end"}};

@@ -207,7 +207,8 @@ private:
             refuse(fmt::format("kind = \"{}\" is a test of a joint, but joint is absent.\n  Name the joint under test.",
                                to_string(kind)));
         if (kind != RunKind::shake && kind != RunKind::rest && run_.time_s.empty())
-            refuse("there are no samples.\n  Give rows with what was measured, or in a plan with what the laboratory shall "
+            refuse("there are no samples.\n  Give rows with what was measured, or in a plan with what the laboratory "
+                   "shall "
                    "do.");
         const bool forced = kind == RunKind::pull || kind == RunKind::push;
         if (forced && run_.forces.empty())

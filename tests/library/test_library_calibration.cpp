@@ -1,8 +1,8 @@
 /// The library's calibration is the program's.
 
+#include "io/measured/campaign_writer.hpp"
 #include "stylobate/stylobate.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
-#include "io/measured/campaign_writer.hpp"
 #include "tests/program/program.hpp"
 
 #include "io/measured/measured_file.hpp"

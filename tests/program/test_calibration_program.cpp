@@ -1,7 +1,7 @@
 /// `stylobate calibrate`, interrupted once something is kept, and gone on with.
 
-#include "tests/ensemble/tracking/synthetic_campaign.hpp"
 #include "io/measured/campaign_writer.hpp"
+#include "tests/ensemble/tracking/synthetic_campaign.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/program/program.hpp"
 

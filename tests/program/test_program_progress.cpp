@@ -1,9 +1,9 @@
 /// Progress on standard error: the styles of `--progress`, and the objects of `--progress json` against the line, the
 /// summary and the results.
 
+#include "io/measured/campaign_writer.hpp"
 #include "studies/workflow/workflow.hpp"
 #include "tests/ensemble/tracking/synthetic_campaign.hpp"
-#include "io/measured/campaign_writer.hpp"
 #include "tests/io/measured/measured_samples.hpp"
 #include "tests/program/program.hpp"
 

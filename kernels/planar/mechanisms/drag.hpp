@@ -14,7 +14,8 @@
 namespace stylobate {
 
 /// dt2 / m times the force is -factor x displacement of the last step in the laboratory.
-/// @param per_mass c / m [1/m];  @param linear dt d / m;  @param dx, dy displacement of the last step in the laboratory [m]
+/// @param per_mass c / m [1/m];  @param linear dt d / m;  @param dx, dy displacement of the last step in the laboratory
+/// [m]
 template <class Real>
 STYLOBATE_INLINE Real drag_factor(Real per_mass, Real linear, Real dx, Real dy)
 {
