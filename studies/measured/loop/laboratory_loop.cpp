@@ -165,7 +165,7 @@ private:
     void tell_step(const std::vector<DoneTest>& tests, TestStory& story)
     {
         StoryStep step;
-        step.test = test_kind_name(tests.front().kind);
+        step.test = to_string(tests.front().kind);
         std::vector<int> joints;
         std::vector<Estimate> measured;
         const std::size_t first = seen_.size();
@@ -271,7 +271,7 @@ private:
             tests.push_back({kind, std::nullopt, cost, cannot_do(campaign_.specimen, campaign_.laboratory, kind)});
         }
         for (const RatedTest& rated : rated_tests(model_, seen_, tests))
-            story.options.push_back({test_kind_name(rated.option.test), rated.option.cost, rated.entropy_fall,
+            story.options.push_back({to_string(rated.option.test), rated.option.cost, rated.entropy_fall,
                                      rated.per_cost, rated.left_out.value_or("")});
         if (now.verdict == SequenceVerdict::named || now.verdict == SequenceVerdict::unexplained)
             return;
@@ -281,7 +281,7 @@ private:
         else if (std::optional<RatedTest> one = chosen_test(model_, seen_, tests))
             next.push_back(std::move(*one));
         for (const RatedTest& test : next)
-            story.next.emplace_back(test_kind_name(test.option.test));
+            story.next.emplace_back(to_string(test.option.test));
         if (!next.empty())
             story.sheet = sheet_of(campaign_.specimen, campaign_.laboratory, next.front().option.test, joints);
     }
@@ -401,8 +401,8 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
 {
     const std::vector<MeasuredRun> runs = planned_runs(specimen, laboratory, kind, joints.front());
     std::vector<std::string> lines;
-    lines.push_back(fmt::format("{}: at joints {}, one after the other; the same body stands on each.",
-                                test_kind_name(kind), joints_in_words(joints)));
+    lines.push_back(fmt::format("{}: at joints {}, one after the other; the same body stands on each.", to_string(kind),
+                                joints_in_words(joints)));
     lines.emplace_back("Clamp the blocks below the joint to the table. Take those above its upper block away.");
     if (!runs.empty() && !runs.front().dummies.empty())
         lines.push_back(fmt::format("Tape {} blocks like it onto the upper block ({:.3g} kg each, or dummies of that "
@@ -456,7 +456,7 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
     if (kind != RunKind::rest)
         lines.push_back(fmt::format("Cameras as in the shake runs; {} {} a joint. `stylobate new campaign --test {}` "
                                     "writes a folder for them.",
-                                    runs.size(), runs.size() == 1 ? "run" : "runs", test_kind_name(kind)));
+                                    runs.size(), runs.size() == 1 ? "run" : "runs", to_string(kind)));
     return lines;
 }
 

@@ -143,29 +143,6 @@ CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& sam
 
 } // namespace
 
-const char* test_kind_name(RunKind kind)
-{
-    switch (kind) {
-    case RunKind::shake:
-        return "shake";
-    case RunKind::pull:
-        return "pull";
-    case RunKind::board:
-        return "board";
-    case RunKind::tilt:
-        return "tilt";
-    case RunKind::push:
-        return "push";
-    case RunKind::drop:
-        return "drop";
-    case RunKind::slide:
-        return "slide";
-    case RunKind::rest:
-        return "rest";
-    }
-    return "";
-}
-
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
                                                             const std::vector<std::vector<Eigen::Index>>& alike)
 {

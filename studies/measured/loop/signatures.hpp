@@ -21,9 +21,6 @@
 
 namespace stylobate {
 
-/// "pull", "board", ... as in files.
-const char* test_kind_name(RunKind kind);
-
 /// An estimator of one test at one joint: a column of the tables.
 struct TestColumn {
     RunKind test = RunKind::pull;

@@ -220,7 +220,7 @@ std::string samples_key(const Specimen& specimen, const Study& about, const std:
                       fmt::format(" {} {} floor {:g} {:g} {:g} {:g}", plan.healthy, plan.of_each_cause,
                                   plan.floor.friction, plan.floor.geometry_m, plan.floor.force, plan.floor.time);
     for (const PlannedTest& test : tests) {
-        key += fmt::format(" {} {}", test_kind_name(test.kind), test.joint);
+        key += fmt::format(" {} {}", to_string(test.kind), test.joint);
         for (const MeasuredRun& run : test.runs) {
             key += fmt::format(" {}", run.dummies.size());
             for (const ForceGauge& gauge : run.forces)

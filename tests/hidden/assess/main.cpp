@@ -53,7 +53,7 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
     const int round = static_cast<int>(tests.empty() ? 0 : *tests.back().run_order / 1000 + 1);
     int order = 1000 * round;
     for (int kind = static_cast<int>(RunKind::pull); kind <= static_cast<int>(RunKind::rest); ++kind)
-        if (test == test_kind_name(static_cast<RunKind>(kind)))
+        if (test == to_string(static_cast<RunKind>(kind)))
             for (const int joint : joints_alone(campaign.specimen))
                 for (MeasuredRun run :
                      planned_runs(campaign.specimen, campaign.laboratory, static_cast<RunKind>(kind), joint)) {
