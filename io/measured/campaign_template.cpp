@@ -42,7 +42,7 @@ const char* procedure(RunKind kind)
         return "# Pull: the blocks below the joint are clamped, one block stands on it. A rod from the laboratory "
                "holds\n"
                "# that block by a force gauge, at a quarter of its height. The table rests for 2 s, then cycles by\n"
-               "# +-8 mm: two cycles at 10 mm/s, three at 60 mm/s, two at 10 mm/s. One run for each joint.\n";
+               "# +-8 mm: two cycles at 14 mm/s, three at 60 mm/s, two at 14 mm/s. One run for each joint.\n";
     case RunKind::board:
         return "# Board: the blocks below the joint are clamped to a board, one block stands on it. The board is "
                "tilted\n"

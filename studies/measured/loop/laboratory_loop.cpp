@@ -399,6 +399,11 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
 std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& laboratory, RunKind kind,
                                   const std::vector<int>& joints)
 {
+    if (kind == RunKind::rest)
+        return {"Weigh each block on two supports for its centre of mass.",
+                "Print the beds with ink, and measure from each edge where they begin to carry.",
+                "Measure with a level how the blocks lie.",
+                "The numbers are lists of the specimen: centre_of_mass_m, bearing_left_m, bearing_right_m."};
     const std::vector<MeasuredRun> runs = planned_runs(specimen, laboratory, kind, joints.front());
     std::vector<std::string> lines;
     lines.push_back(fmt::format("{}: at joints {}, one after the other; the same body stands on each.", to_string(kind),
@@ -446,17 +451,12 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
                                     1e3 * span(runs.front().base_displacement_m), runs.front().time_s.back()));
         break;
     case RunKind::rest:
-        lines.emplace_back(
-            "Weigh each block on two supports for its centre of mass. Print the beds with ink and measure "
-            "from each edge where they begin to carry. Measure with a level how the blocks lie.");
-        break;
     case RunKind::shake:
         break;
     }
-    if (kind != RunKind::rest)
-        lines.push_back(fmt::format("Cameras as in the shake runs; {} {} a joint. `stylobate new campaign --test {}` "
-                                    "writes a folder for them.",
-                                    runs.size(), runs.size() == 1 ? "run" : "runs", to_string(kind)));
+    lines.push_back(fmt::format("Cameras as in the shake runs; {} {} a joint. `stylobate new campaign --test {}` "
+                                "writes a folder for them.",
+                                runs.size(), runs.size() == 1 ? "run" : "runs", to_string(kind)));
     return lines;
 }
 
