@@ -105,10 +105,13 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     request.start_name = study.value_or("--set");
     const std::string extended = without_ending + "_extended.toml";
     request.cache = without_ending + "_campaigns.txt";
+    request.next_test = without_ending + "_next_test.h5";
     request.tests_cache = without_ending + "_tests.txt";
     request.check_outputs = [&] {
         check_output(request.measured, output, options.force);
         check_output(request.measured, extended, options.force);
+        if (request.plan)
+            check_output(request.measured, request.next_test->string(), options.force);
         AtomicFile::check(output);
     };
     together(options.ranks, [&] { request.start = start_study(options, request.measured, "diagnose", study); });

@@ -1,5 +1,6 @@
 #include "studies/workflow/diagnose.hpp"
 
+#include "io/measured/campaign_writer.hpp"
 #include "io/measured/measured_file.hpp"
 #include "io/study/study_file.hpp"
 #include "studies/cluster/together.hpp"
@@ -63,7 +64,15 @@ bool tell_tests(const DiagnosisRequest& request, const Campaign& campaign, const
     };
     StopOnly quiet(observer);
     diagnosis.tests = laboratory_loop(campaign, study, prior_shares(diagnosis), how, quiet);
-    return diagnosis.tests.has_value();
+    if (!diagnosis.tests)
+        return false;
+    if (TestStory& story = *diagnosis.tests; request.next_test && !story.next.empty())
+        if (const Campaign plan = planned_campaign(campaign, story.next.front()); !plan.tests.empty()) {
+            write_campaign(plan, *request.next_test);
+            story.sheet.push_back(fmt::format("Set-up of each run, and the motion of the table or the board: {}.",
+                                              request.next_test->string()));
+        }
+    return true;
 }
 
 } // namespace

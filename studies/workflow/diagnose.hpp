@@ -20,6 +20,7 @@ struct DiagnosisRequest {
     std::uint64_t seed = 1;              ///< of what is drawn in them
     std::optional<std::filesystem::path> cache{};       ///< `DiagnosisOptions::cache`
     std::optional<std::filesystem::path> tests_cache{}; ///< `LoopOptions::cache`
+    std::optional<std::filesystem::path> next_test{};   ///< file for the runs of the proposed test; nullopt: none
     bool plan = false;             ///< tests of single joints are proposed; shake runs are not needed
     std::uint64_t specimens = 128; ///< healthy ones that go through simulated tests of single joints; they do so for a
                                    ///< plan, and where the campaign has such tests

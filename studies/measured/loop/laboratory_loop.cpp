@@ -34,6 +34,15 @@ struct DoneTest {
     std::vector<MeasuredRun> runs;
 };
 
+std::vector<int> joints_alone(const Specimen& specimen)
+{
+    std::vector<int> joints;
+    for (int joint = 0; joint < static_cast<int>(specimen.joints.size()); ++joint)
+        if (stands_alone(specimen, joint))
+            joints.push_back(joint);
+    return joints;
+}
+
 std::string joints_in_words(const std::vector<int>& joints)
 {
     return fmt::format("{}", fmt::join(joints, ", "));
@@ -361,10 +370,7 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
 {
     const auto begun = std::chrono::steady_clock::now();
     const Specimen& specimen = campaign.specimen;
-    std::vector<int> joints;
-    for (int joint = 0; joint < static_cast<int>(specimen.joints.size()); ++joint)
-        if (stands_alone(specimen, joint))
-            joints.push_back(joint);
+    const std::vector<int> joints = joints_alone(specimen);
     if (joints.empty())
         throw InputError(campaign.source + ": no block stands on a single joint, so that no joint can be tested by "
                                            "itself.");
@@ -394,6 +400,20 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
     story.simulations = samples.cost.simulations;
     story.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return story;
+}
+
+Campaign planned_campaign(const Campaign& campaign, const std::string& test)
+{
+    Campaign plan;
+    plan.source = campaign.source;
+    plan.specimen = campaign.specimen;
+    plan.laboratory = campaign.laboratory;
+    for (const RunKind kind : joint_test_kinds)
+        if (kind != RunKind::rest && test == to_string(kind))
+            for (const int joint : joints_alone(campaign.specimen))
+                for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, kind, joint))
+                    plan.tests.push_back(std::move(run));
+    return plan;
 }
 
 std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& laboratory, RunKind kind,

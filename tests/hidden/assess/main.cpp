@@ -52,15 +52,18 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
 {
     const int round = static_cast<int>(tests.empty() ? 0 : *tests.back().run_order / 1000 + 1);
     int order = 1000 * round;
-    for (int kind = static_cast<int>(RunKind::pull); kind <= static_cast<int>(RunKind::rest); ++kind)
-        if (test == to_string(static_cast<RunKind>(kind)))
-            for (const int joint : joints_alone(campaign.specimen))
-                for (MeasuredRun run :
-                     planned_runs(campaign.specimen, campaign.laboratory, static_cast<RunKind>(kind), joint)) {
-                    run.name = fmt::format("{:02}_{}", round, run.name);
-                    run.run_order = order++;
-                    tests.push_back(std::move(run));
-                }
+    Campaign plan = planned_campaign(campaign, test);
+    for (const int joint : test == "rest" ? joints_alone(campaign.specimen) : std::vector<int>()) {
+        MeasuredRun& run = plan.tests.emplace_back();
+        run.name = fmt::format("rest_{}", joint);
+        run.test = RunKind::rest;
+        run.joint = joint;
+    }
+    for (MeasuredRun& run : plan.tests) {
+        run.name = fmt::format("{:02}_{}", round, run.name);
+        run.run_order = order++;
+        tests.push_back(std::move(run));
+    }
 }
 
 /// What healthy specimens give at the first joint, and by how many standard deviations each cause shifts it.
