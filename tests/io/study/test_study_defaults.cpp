@@ -28,6 +28,7 @@ const fs::path root = STYLOBATE_SOURCE_DIR;
 const std::set<std::string> without_default = {
     "study.title",          // none
     "structure.dimensions", // of the plane: texts are as before there was space
+    "initial.lift_m",       // 0: texts are as before a block could be dropped
     // of a file: the only component, the unit that it states, as strong as it stands, not filtered
     "excitation.component", "excitation.run", "excitation.unit", "excitation.scale_to_pga_m_s2",
     "excitation.band_pass_hz",
