@@ -20,7 +20,7 @@ constexpr double small_half_width_m = 0.024, small_mass_kg = 0.135; // of the bl
 constexpr double rod_stiffness_n_m = 2e4;                           // for them
 constexpr double still_before_pull_s = 1, creep_s = 1;
 constexpr double turn_s = 0.020; // in which the table turns round
-constexpr double board_rate_rad_s = 4 * pi / 180, board_start_s = 0.5;
+constexpr double board_rate_rad_s = 2 * pi / 180, board_start_s = 0.5;
 constexpr double push_height = 0.9; // over the body's height
 constexpr double push_s = 3, drop_s = 1.2, slide_still_s = 0.3, slide_plateau_s = 3;
 constexpr double slide_hz = 4, slide_m_s2 = 10.7;

@@ -401,7 +401,8 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
         EXPECT_GT(at, before) << title;
         before = at;
     }
-    EXPECT_EQ(count_of(page, "<figure>"), 4U); // three curves, and the ends of the windows in motion
+    // three curves, the ends of the windows in motion, and the estimates of a test of single joints
+    EXPECT_EQ(count_of(page, "<figure>"), 5U);
     for (const char* words :
          {"Joint 0 has less friction than the others", "dynamic_ratio = 0.81&nbsp;(0.7&nbsp;to&nbsp;0.95)",
           "could not be judged", "1a2b3c4d", "crc32", "diagnosis_extended.toml", "sweep, 1&nbsp;to&nbsp;8 Hz",

@@ -127,10 +127,9 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Cam
             sum += m;
         return sum / static_cast<double>(specimen.mass_kg.size());
     }();
-    const double fastest = std::max(paths.speed_m_s, least_speed * speed),
-                 resisted = drag_at_one * mass * specimen.gravity_m_s2;
-    all.push_back({{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"}, resisted / (fastest * fastest)});
-    all.push_back({{"drag", "all", "linear_n_s_m", "N s/m"}, resisted / fastest});
+    all.push_back(
+        {{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"},
+         drag_at_one * mass * specimen.gravity_m_s2 / std::pow(std::max(paths.speed_m_s, least_speed * speed), 2)});
     for (int b = 0; b < specimen.blocks(); ++b) {
         CandidateCause centre{at_block("eccentricity", b, "offset_m", "m"),
                               largest_eccentricity * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};

@@ -232,8 +232,7 @@ BalanceFit::Column BalanceFit::column(const Cause& cause) const
         if (cause.mechanism == "drag")
             return over_blocks(s, cause.block, [&](int b) {
                 const auto k = static_cast<std::size_t>(b);
-                const double vx = s.motion[1][in_x][k], vy = s.motion[1][in_y][k];
-                const double speed = is_linear_drag(cause) ? 1 : std::hypot(vx, vy);
+                const double vx = s.motion[1][in_x][k], vy = s.motion[1][in_y][k], speed = std::hypot(vx, vy);
                 return pushed(s, b, -speed * vx, -speed * vy, 0);
             });
         if (cause.mechanism == "eccentricity")
@@ -526,14 +525,11 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const CampaignScales
             causes.push_back(dowel);
         }
     }
-    for (int b = -1; b < specimen.blocks(); ++b)
-        for (const auto& [parameter, unit] :
-             {std::pair("coefficient_n_s2_m2", "N s2/m2"), std::pair("linear_n_s_m", "N s/m")}) {
-            Cause drag{"drag", b < 0 ? std::string("all") : fmt::format("block {}", b), parameter, unit, 0};
-            drag.block = b;
-            causes.push_back(drag);
-        }
+    causes.push_back({"drag", "all", "coefficient_n_s2_m2", "N s2/m2", 0});
     for (int b = 0; b < specimen.blocks(); ++b) {
+        Cause drag{"drag", fmt::format("block {}", b), "coefficient_n_s2_m2", "N s2/m2", 0};
+        drag.block = b;
+        causes.push_back(drag);
         Cause centre{"eccentricity", fmt::format("block {}", b), "offset_m", "m", 0};
         centre.block = b;
         causes.push_back(centre);

@@ -228,7 +228,7 @@ Json diagnosis_json(const Diagnosis& d)
 {
     Json json = json_of(d, {"verdict"});
     json.member("causes", json_list(named_causes(d), cause));
-    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test", "tests"});
+    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test"});
     if (d.extended_study_file)
         json.member("extended_study", *d.extended_study_file);
     else
@@ -250,7 +250,7 @@ Json diagnosis_json(const Diagnosis& d)
         .member("sensor_tests", json_list(d.sensor_tests, data_test));
     add_members(json, d, {"baseline"});
     json.member("candidates", json_list(d.candidates, candidate));
-    add_members(json, d, {"nulls", "missing"});
+    add_members(json, d, {"nulls", "missing", "tests"});
     return add_members(json, d.cost, {"window_simulations", "block_steps", "threads", "lockstep_speedup"});
 }
 
