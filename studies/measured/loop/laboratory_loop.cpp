@@ -263,9 +263,9 @@ private:
         story.size = parameter_of(cause, now.size);
         if (const std::optional<SizeInterval> sizes = size_of(model_, seen_, *now.cause)) {
             story.size = parameter_of(cause, sizes->mean);
-            const auto [low, high] = std::minmax(parameter_of(cause, sizes->low), parameter_of(cause, sizes->high));
-            story.low = low;
-            story.high = high;
+            const double at_low = parameter_of(cause, sizes->low), at_high = parameter_of(cause, sizes->high);
+            story.low = std::min(at_low, at_high);
+            story.high = std::max(at_low, at_high);
         }
     }
 
