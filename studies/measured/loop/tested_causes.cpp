@@ -12,16 +12,16 @@ namespace stylobate {
 
 namespace {
 
-// Weak and strong.
-constexpr std::array friction_parts = {0.1, 0.3};    // off the friction: of one joint, or of all while they slide
-constexpr std::array worn_parts = {0.1, 0.4};        // of the friction, over the path of a pull
-constexpr std::array held_parts = {0.25, 1.0};       // of a dowel or a bond, over the friction at rest
-constexpr std::array lost_corners = {0.04, 0.15};    // over the width
-constexpr std::array centre_offsets = {0.025, 0.08}; // over the width
-constexpr std::array wedge_angles = {0.002, 0.008};  // [rad]
-constexpr std::array critical_parts = {0.15, 0.5};   // of critical damping, of the block on the joint
-constexpr std::array rates = {3.0, 10.0};            // Hunt and Crossley's lambda over 0.1 sqrt(g h)
-constexpr std::array drag_parts = {0.1, 0.3};        // of the weight, at the speed of the table in `slide`
+// From weak to strong.
+constexpr std::array friction_parts = {0.1, 0.3, 0.6}; // off the friction: of one joint, or of all while they slide
+constexpr std::array worn_parts = {0.1, 0.4, 1.5};     // of the friction, over the path of a pull
+constexpr std::array held_parts = {0.25, 1.0, 3.0};    // of a dowel or a bond, over the friction at rest
+constexpr std::array lost_corners = {0.04, 0.15};      // over the width
+constexpr std::array centre_offsets = {0.025, 0.08};   // over the width
+constexpr std::array wedge_angles = {0.002, 0.008};    // [rad]
+constexpr std::array critical_parts = {0.15, 0.5};     // of critical damping, of the block on the joint
+constexpr std::array rates = {3.0, 10.0};              // Hunt and Crossley's lambda over 0.1 sqrt(g h)
+constexpr std::array drag_parts = {0.1, 0.3, 0.6};     // of the weight, at the speed of the table in `slide`
 constexpr double least_velocity = 0.01, most_velocity = 0.08; // of Stribeck's law, over sqrt(g H)
 constexpr double least_yield = 0.002, most_yield = 0.02;      // slip at which a dowel yields, over the width
 constexpr double least_tension = 0.5, most_tension = 2;       // of a bond, over its cohesion
