@@ -186,9 +186,9 @@ const TestEstimators& board_estimators()
         {{"board.static", "", "logarithm of the friction at the first slip",
           "corners, centres of mass, damping, drag, bonds against opening"},
          {"board.kinetic", "", "logarithm of the friction after the first slip over that at it",
-          "the size of friction, corners, centres of mass, damping"},
+          "the size of friction, corners, centres of mass, damping", "speed"},
          {"board.direction", "", "logarithm of the friction at the first slip, to the left less to the right",
-          "all but friction that depends on direction, and wedges"}}};
+          "all but friction that depends on direction, and wedges", "direction"}}};
     return all;
 }
 

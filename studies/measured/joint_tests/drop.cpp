@@ -115,7 +115,7 @@ const TestEstimators& drop_estimators()
     static const TestEstimators all = {
         drop_of,
         {{"drop.time", "", "mean logarithm of the time [s] from the first impact until rest, with 10 ms more",
-          "friction, dowels, drag, damping that is the common one at this speed"},
+          "friction, dowels, drag, damping that is the common one at this speed", "", true},
          {"drop.scatter", "", "standard deviation of these logarithms", "all that repeats itself"}}};
     return all;
 }

@@ -1,7 +1,6 @@
 #include "studies/measured/joint_tests/estimates.hpp"
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/numerics/sample_quantiles.hpp"
 #include "studies/measured/joint_tests/single_tests.hpp"
 
 #include <algorithm>
@@ -73,37 +72,6 @@ const std::vector<EstimatorName>& estimator_names(RunKind kind)
     static const std::vector<EstimatorName> none;
     const TestEstimators* estimators = estimators_of(kind);
     return estimators ? estimators->names : none;
-}
-
-Estimate with_floor(Estimate estimate, const LaboratoryFloor& floor)
-{
-    estimate.sd = std::hypot(estimate.sd, floor_of(estimate, floor));
-    estimate.floor_sd = 0;
-    return estimate;
-}
-
-std::vector<Estimate> contrasts(const std::vector<Estimate>& of_joints)
-{
-    std::vector<Estimate> found;
-    for (const Estimate& one : of_joints) {
-        std::vector<double> others;
-        double variance = 0;
-        for (const Estimate& other : of_joints)
-            if (other.name == one.name && other.joint != one.joint) {
-                others.push_back(other.value);
-                variance += other.sd * other.sd;
-            }
-        if (others.empty())
-            continue;
-        std::ranges::sort(others);
-        const auto n = static_cast<double>(others.size());
-        const double of_median = (others.size() > 2 ? 1.25 : 1.0) * std::sqrt(variance / n / n);
-        Estimate contrast = one;
-        contrast.value -= sorted_median(others);
-        contrast.sd = std::hypot(one.sd, of_median);
-        found.push_back(contrast);
-    }
-    return found;
 }
 
 } // namespace stylobate

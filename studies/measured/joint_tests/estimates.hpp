@@ -34,7 +34,9 @@ struct EstimatorName {
     std::string name;
     std::string unit; ///< empty: a ratio, or the natural logarithm of one
     std::string what;
-    std::string blind_to; ///< causes that leave it as it is
+    std::string blind_to;        ///< causes that leave it as it is
+    std::string depends_on = {}; ///< what it varies with: "speed", "path", "place", "time", "direction"; empty: nothing
+    bool of_the_law = false;     ///< moved at all joints alike by stiffness and damping of the beds, and by no cause
 };
 
 /// The estimates of one test on one joint. What the runs do not give (nothing slid or turned, a collapse, gaps) is
@@ -46,14 +48,5 @@ std::vector<Estimate> estimates(const Specimen& specimen, std::span<const Measur
 
 /// All estimates that a test can give; none for `shake`.
 const std::vector<EstimatorName>& estimator_names(RunKind kind);
-
-/// The same with the floor in its standard deviation, in quadrature: for a comparison of joints or days.
-Estimate with_floor(Estimate estimate, const LaboratoryFloor& floor);
-
-/// For every name the value of each joint less the median of the other joints: what all joints have in common, above
-/// all their contact law, cancels where the same body stood on every joint. The standard deviation is that of both; of
-/// a median of n > 2 values 1.25 / sqrt(n) times their root mean square one. Names that only one joint has are left
-/// out.
-std::vector<Estimate> contrasts(const std::vector<Estimate>& of_joints);
 
 } // namespace stylobate

@@ -180,8 +180,9 @@ const TestEstimators& push_estimators()
     static const TestEstimators all = {
         push_of,
         {{"push.bond", "", "logarithm of the peak of the force over the force that turns the body",
-          "friction, wear, dowels that slip, damping, drag"},
-         {"push.width", "m", "bearing width less that of whole faces", "friction, centres of mass, damping, drag"},
+          "friction, wear, dowels that slip, damping, drag", "", true},
+         {"push.width", "m", "bearing width less that of whole faces", "friction, centres of mass, damping, drag", "",
+          true},
          {"push.centre", "m", "centre of mass of the body to the right of the middle of its bearing",
           "friction, corners lost alike on both sides, damping, drag"}}};
     return all;

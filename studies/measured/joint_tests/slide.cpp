@@ -163,9 +163,9 @@ const TestEstimators& slide_estimators()
         slide_of,
         {{"slide.friction", "", "logarithm of the friction before wear", "corners, centres of mass, damping, drag"},
          {"slide.wear", "1/m", "friction lost per path slipped",
-          "all but wear of friction, and friction that depends on time"},
+          "all but wear of friction, and friction that depends on time", "path"},
          {"slide.direction", "", "friction to the left less to the right, over their mean",
-          "all but friction that depends on direction"},
+          "all but friction that depends on direction", "direction"},
          {"slide.drag", "1/m", "drag over mass and square of the speed in the laboratory", "all but drag"},
          {"slide.viscous", "1/s", "drag over mass and speed in the laboratory", "all but drag"}}};
     return all;

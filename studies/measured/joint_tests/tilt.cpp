@@ -146,7 +146,7 @@ const TestEstimators& tilt_estimators()
     static const TestEstimators all = {
         tilt_of,
         {{"tilt.width", "m", "bearing width less that of whole faces",
-          "friction, centres of mass, wedges, damping, drag"},
+          "friction, centres of mass, wedges, damping, drag", "", true},
          {"tilt.centre", "m", "centre of mass of the body to the right of the middle of its bearing",
           "friction, corners lost alike on both sides, damping, drag"}}};
     return all;

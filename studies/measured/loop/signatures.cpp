@@ -9,10 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
-#include <string_view>
 #include <tuple>
 
 namespace stylobate {
@@ -184,14 +182,6 @@ Eigen::VectorXd Signatures::sd_given_others(const std::vector<Eigen::Index>& of)
 
 namespace {
 
-/// Estimators that stiffness and damping of the beds move at all joints alike, and no cause at all joints.
-bool of_the_law(const std::string& estimator)
-{
-    static constexpr std::string_view names[] = {"pull.width", "pull.compliance", "push.bond",
-                                                 "push.width", "tilt.width",      "drop.time"};
-    return std::find(std::begin(names), std::end(names), estimator) != std::end(names);
-}
-
 constexpr double farthest_law = 3; // beyond it a law is as unlike as it can be, by one estimator
 
 double median_of(std::vector<double> values)
@@ -207,9 +197,9 @@ TestSamples like_measured(const TestSamples& tests, std::span<const std::pair<Ei
 {
     std::map<std::string, std::pair<std::vector<Eigen::Index>, std::vector<double>>> groups;
     for (const auto& [column, value] : seen)
-        if (const std::string& name = tests.columns[static_cast<std::size_t>(column)].name; of_the_law(name)) {
-            groups[name].first.push_back(column);
-            groups[name].second.push_back(value);
+        if (const TestColumn& of = tests.columns[static_cast<std::size_t>(column)]; of.of_the_law) {
+            groups[of.name].first.push_back(column);
+            groups[of.name].second.push_back(value);
         }
     const Eigen::Index n = tests.healthy.rows();
     if (groups.empty() || static_cast<std::size_t>(n) <= count)

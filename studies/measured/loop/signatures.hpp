@@ -29,6 +29,7 @@ struct TestColumn {
     std::string unit = {};
     std::string depends_on = {}; ///< what it varies with: "speed", "path", "place", "time", "direction"; empty: nothing
     double floor_sd = 0;         ///< reproducibility of the laboratory, anew in every repeat (1 sigma)
+    bool of_the_law = false;     ///< as of `EstimatorName`
     friend bool operator==(const TestColumn&, const TestColumn&) = default;
 };
 
@@ -87,9 +88,9 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixX
                                                             const std::vector<std::vector<Eigen::Index>>& alike);
 
 /// The healthy specimens whose contact law is most like the measured one, by what the law gives all joints alike
-/// (`of_the_law`): a soft or lightly damped bed scatters more than a stiff one, and would hide what acts in it.
-/// Specimens with a cause keep what the cause shifts, from their healthy twin. All specimens, where no such estimate
-/// was seen.
+/// (`TestColumn::of_the_law`): a soft or lightly damped bed scatters more than a stiff one, and would hide what acts in
+/// it. Specimens with a cause keep what the cause shifts, from their healthy twin. All specimens, where no such
+/// estimate was seen.
 /// @param seen values in columns of `tests`
 TestSamples like_measured(const TestSamples& tests, std::span<const std::pair<Eigen::Index, double>> seen,
                           std::size_t count);

@@ -4,19 +4,16 @@
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/measured/diagnosis/campaigns/number_rows.hpp"
 #include "studies/measured/joint_tests/procedures.hpp"
 #include "studies/measured/joint_tests/simulated_test.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <map>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,21 +25,6 @@ namespace {
 constexpr double missing_estimate = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t samples_together = 32;                    ///< specimens whose runs are in memory at once
 constexpr double bearing_noise_m = 1e-4, centre_noise_m = 1e-4; // of callipers and scales
-
-/// What an estimator varies with, by its name: "pull.wear" -> "path".
-std::string dependence_of(const std::string& estimator)
-{
-    static constexpr std::array<std::pair<std::string_view, const char*>, 6> all = {{{".speed", "speed"},
-                                                                                     {".kinetic", "speed"},
-                                                                                     {".wear", "path"},
-                                                                                     {".place", "place"},
-                                                                                     {".time", "time"},
-                                                                                     {".direction", "direction"}}};
-    for (const auto& [ending, what] : all)
-        if (estimator.ends_with(ending) && estimator != "drop.time")
-            return what;
-    return "";
-}
 
 /// The first joint on which the same body stands: what a cause does there it does at all of them.
 int first_alike(const Specimen& specimen, const std::vector<PlannedTest>& tests, int joint)
@@ -77,8 +59,8 @@ public:
         for (const PlannedTest& test : tests) {
             first_.push_back(columns.size());
             for (const EstimatorName& estimator : estimator_names(test.kind))
-                columns.push_back(
-                    {test.kind, test.joint, estimator.name, estimator.unit, dependence_of(estimator.name), 0});
+                columns.push_back({test.kind, test.joint, estimator.name, estimator.unit, estimator.depends_on, 0,
+                                   estimator.of_the_law});
         }
         first_.push_back(columns.size());
         for (std::uint64_t i = 0; i < plan.healthy; ++i)
@@ -241,18 +223,11 @@ std::string samples_key(const Specimen& specimen, const Study& about, const std:
 bool read_sample(const std::string& line, const SampleTable& table, std::pair<std::size_t, std::size_t>& at,
                  std::vector<double>& row)
 {
-    std::vector<double> numbers;
-    std::stringstream in(line);
-    for (std::string part; std::getline(in, part, '\t');) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(part.c_str(), &end));
-        if (end == part.c_str() || *end != '\0')
-            return false;
-    }
-    if (numbers.size() < 2)
+    const std::optional<std::vector<double>> numbers = numbers_of_row(line);
+    if (!numbers || numbers->size() < 2)
         return false;
-    at = {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1])};
-    row.assign(numbers.begin() + 2, numbers.end());
+    at = {static_cast<std::size_t>((*numbers)[0]), static_cast<std::size_t>((*numbers)[1])};
+    row.assign(numbers->begin() + 2, numbers->end());
     return std::binary_search(table.wanted.begin(), table.wanted.end(), at) && row.size() == 2 * table.width(at.first);
 }
 
@@ -279,10 +254,9 @@ public:
     }
     void add(std::size_t test, std::size_t subject, const std::vector<double>& row)
     {
-        text_ += fmt::format("{}\t{}", test, subject);
-        for (const double value : row)
-            text_ += fmt::format("\t{:.17g}", value);
-        text_ += "\n";
+        std::vector<double> all = {static_cast<double>(test), static_cast<double>(subject)};
+        all.insert(all.end(), row.begin(), row.end());
+        text_ += number_row(all) + "\n";
     }
     void save() const
     {

@@ -68,7 +68,7 @@ class Instrument {
       target.reportValidity();
       say(wrong);
     };
-    this.controls.contour = html("input", {type: "text", size: 14, inputmode: "decimal", placeholder: "none", "aria-label": "Contours", change});
+    this.controls.contour = html("input", {type: "text", size: 14, inputmode: "decimal", "aria-label": "Contours", change});
     return html("label", {title: "Probabilities, with commas between them; empty: no lines"}, "Contours ",
                 this.controls.contour);
   }

@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "studies/measured/diagnosis/campaigns/conformal.hpp"
 #include "studies/measured/diagnosis/campaigns/evidence_rows.hpp"
+#include "studies/measured/diagnosis/campaigns/number_rows.hpp"
 #include "studies/measured/diagnosis/campaigns/proposals.hpp"
 #include "studies/measured/diagnosis/evidence/balance_evidence.hpp"
 #include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <numeric>
@@ -129,11 +129,10 @@ constexpr std::uint64_t together = 72;
 
 std::string line_of(const SimulatedCampaign& campaign)
 {
-    std::string text = fmt::format("{}\t{}\t{:.17g}", campaign.number, campaign.cause, campaign.z);
+    std::vector<double> row = {static_cast<double>(campaign.number), static_cast<double>(campaign.cause), campaign.z};
     for (const auto* values : {&campaign.numbers.descriptors, &campaign.numbers.values, &campaign.scores})
-        for (const double value : *values)
-            text += fmt::format("\t{:.17g}", value);
-    return text;
+        row.insert(row.end(), values->begin(), values->end());
+    return number_row(row);
 }
 
 /// How many numbers a row has of each kind.
@@ -144,16 +143,10 @@ struct RowShape {
 /// A line as above. False: it is none, or of another shape.
 bool read_line(const std::string& line, const RowShape& shape, SimulatedCampaign& campaign)
 {
-    std::vector<double> numbers;
-    std::stringstream in(line);
-    for (std::string part; std::getline(in, part, '\t');) {
-        char* end = nullptr;
-        numbers.push_back(std::strtod(part.c_str(), &end));
-        if (end == part.c_str() || *end != '\0')
-            return false;
-    }
-    if (numbers.size() != 3 + shape.descriptors + shape.statistics + shape.scores)
+    const std::optional<std::vector<double>> row = numbers_of_row(line);
+    if (!row || row->size() != 3 + shape.descriptors + shape.statistics + shape.scores)
         return false;
+    const std::vector<double>& numbers = *row;
     campaign.number = static_cast<std::uint64_t>(numbers[0]);
     campaign.cause = static_cast<int>(numbers[1]);
     campaign.z = numbers[2];

@@ -106,7 +106,7 @@ void apply_cause(const SizedCause& sized, const SpecimenStructure& built, Realiz
             continue;
         Block& block = r.blocks[static_cast<std::size_t>(built.block[b])];
         if (m == "drag")
-            (is_linear_drag(cause) ? block.mechanisms.drag_n_s_m : block.mechanisms.drag_n_s2_m2) = size;
+            (cause.parameter == "linear_n_s_m" ? block.mechanisms.drag_n_s_m : block.mechanisms.drag_n_s2_m2) = size;
         else if (m == "eccentricity")
             block.mechanisms.eccentricity_m = size;
         else if (m == "tie")

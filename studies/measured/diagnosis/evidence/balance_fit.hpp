@@ -41,12 +41,6 @@ struct Cause {
     }
 };
 
-/// Whether a cause is drag in proportion to the speed, not to its square.
-inline bool is_linear_drag(const Cause& cause)
-{
-    return cause.parameter == "linear_n_s_m";
-}
-
 /// Whether a cause is no mechanism of the list but stands for forces of no known kind on a block (a tie to the base).
 bool stands_for_unknown(const Cause& cause);
 

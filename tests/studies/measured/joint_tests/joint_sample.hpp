@@ -4,6 +4,7 @@
 
 #include "studies/measured/joint_tests/estimates.hpp"
 #include "studies/measured/joint_tests/procedures.hpp"
+#include "tests/studies/measured/small_blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,19 +29,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Three blocks on a fixed one, joints from below.
 inline Specimen column()
 {
-    Specimen s;
-    s.gravity_m_s2 = gravity;
-    s.friction_nominal = 0.6;
+    Specimen s = small_blocks(3, 0.6, mass, 0.25);
     s.base_block_half_width_m = half_width;
-    for (int b = 0; b < 3; ++b) {
-        s.half_width_m.push_back(half_width);
-        s.half_height_m.push_back(half_height);
-        s.depth_m.push_back(0.048);
-        s.mass_kg.push_back(mass);
-        s.rest_x_m.push_back(0.25);
-        s.rest_y_m.push_back((2 * b + 1) * half_height);
-        s.joints.emplace_back(b - 1, b);
-    }
     return s;
 }
 

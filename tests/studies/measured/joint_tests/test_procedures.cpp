@@ -204,29 +204,18 @@ TEST(Estimates, OfRestAreWhatWasMeasured)
     expect_estimate(estimates(s, runs), "rest.wedge", 0.004, 1e-4);
 }
 
-TEST(Estimates, FloorsAndContrastsByHand)
+TEST(Estimates, FloorIsThatOfTheLaboratory)
 {
-    const LaboratoryFloor friction_only = {.friction = 1, .geometry_m = 0, .force = 0, .time = 0};
-    std::vector<Estimate> all;
-    for (const auto& [joint, value] : {std::pair(0, 1.0), std::pair(1, 2.0), std::pair(2, 4.0), std::pair(3, 9.0)})
-        all.push_back({"pull.friction", joint, value, 0.03, friction_only});
-    all.push_back({"push.bond", 2, 5, 0.1});
-    const auto against = contrasts(all);
-    ASSERT_EQ(against.size(), 4U) << "the bond of one joint has nothing to be compared with";
-    EXPECT_DOUBLE_EQ(against[0].value, 1 - 4);
-    EXPECT_DOUBLE_EQ(against[1].value, 2 - 4);
-    EXPECT_DOUBLE_EQ(against[3].value, 9 - 2);
-    EXPECT_NEAR(against[0].sd, 0.03 * std::sqrt(1 + 1.25 * 1.25 / 3), 1e-12);
-    all.resize(3);
-    EXPECT_DOUBLE_EQ(contrasts(all)[1].value, 2 - 2.5);
-    EXPECT_NEAR(contrasts(all)[1].sd, 0.03 * std::sqrt(1.5), 1e-12) << "a median of two is their mean";
-
-    LaboratoryFloor floor;
-    EXPECT_NEAR(with_floor(all[0], floor).sd, std::hypot(0.03, 0.015), 1e-12);
-    floor.friction = 0.04;
-    EXPECT_NEAR(with_floor(all[0], floor).sd, 0.05, 1e-12);
-    const Estimate width = {"push.width", 0, 0, 3e-4, {.friction = 0, .geometry_m = 1, .force = 0.04, .time = 0}};
-    EXPECT_NEAR(with_floor(width, {}).sd, std::sqrt(9e-8 + 1e-8 + std::pow(0.015 * 0.04, 2)), 1e-12);
+    Specimen s = column();
+    s.centre_of_mass_m = {0, 0.001, 0};
+    MeasuredRun run = plan(RunKind::rest).front();
+    const auto floor_at = [&](double geometry_m) {
+        LaboratoryFloor floor;
+        floor.geometry_m = geometry_m;
+        return find(estimates(s, std::vector<MeasuredRun>{run}, floor), "rest.centre")->floor_sd;
+    };
+    EXPECT_DOUBLE_EQ(floor_at(1e-4), 1e-4);
+    EXPECT_DOUBLE_EQ(floor_at(5e-4), 5e-4);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "studies/measured/joint_tests/joint_bench.hpp"
 #include "studies/measured/joint_tests/simulated_test.hpp"
+#include "tests/studies/measured/small_blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,22 +18,9 @@ namespace {
 
 constexpr double g = 9.81, b = 0.024, h = 0.0145, mass = 0.1355, mu = 0.65;
 
-/// Four equal blocks, one on the other on the table.
 Specimen four_blocks()
 {
-    Specimen s;
-    s.name = "four blocks";
-    s.friction_nominal = mu;
-    for (int i = 0; i < 4; ++i) {
-        s.half_width_m.push_back(b);
-        s.half_height_m.push_back(h);
-        s.depth_m.push_back(0.04);
-        s.mass_kg.push_back(mass);
-        s.rest_x_m.push_back(0.1);
-        s.rest_y_m.push_back((2 * i + 1) * h);
-        s.joints.emplace_back(i - 1, i);
-    }
-    return s;
+    return small_blocks(4, mu, mass, 0.1);
 }
 
 Study contacts()

@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "kernels/isa.hpp"
 #include "studies/measured/diagnosis/findings/story_document.hpp"
+#include "tests/studies/measured/small_blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,21 +23,9 @@ Campaign callipers_alone()
 {
     Campaign campaign;
     campaign.source = "three.h5";
-    Specimen& s = campaign.specimen;
-    s.name = "three blocks";
-    s.friction_nominal = 0.7;
-    for (int i = 0; i < 3; ++i) {
-        s.half_width_m.push_back(0.024);
-        s.half_height_m.push_back(0.0145);
-        s.depth_m.push_back(0.04);
-        s.mass_kg.push_back(0.135);
-        s.rest_x_m.push_back(0);
-        s.rest_y_m.push_back((2 * i + 1) * 0.0145);
-        s.joints.emplace_back(i - 1, i);
-        s.centre_of_mass_m.push_back(0);
-        s.bearing_left_m.push_back(2e-4);
-        s.bearing_right_m.push_back(2e-4);
-    }
+    campaign.specimen = small_blocks(3, 0.7);
+    campaign.specimen.centre_of_mass_m = {0, 0, 0};
+    campaign.specimen.bearing_left_m = campaign.specimen.bearing_right_m = {2e-4, 2e-4, 2e-4};
     campaign.laboratory.stroke_m = 1e-4;
     campaign.laboratory.tilt_rad = 0.01;
     campaign.laboratory.force_n = 0;

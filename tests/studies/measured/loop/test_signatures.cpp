@@ -121,6 +121,7 @@ TEST(Signatures, AreOfSpecimensWhoseLawIsLikeTheMeasuredOne)
     TestSamples tests;
     tests.columns = {
         {RunKind::tilt, 0, "tilt.width"}, {RunKind::tilt, 1, "tilt.width"}, {RunKind::pull, 0, "pull.wear"}};
+    tests.columns[0].of_the_law = tests.columns[1].of_the_law = true;
     tests.healthy.resize(n, 3);
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal;
