@@ -120,10 +120,14 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     if (!options.leads()) // it has simulated its part of the campaigns
         return diagnosis ? exit_done : exit_interrupted;
     if (!diagnosis) {
-        console.note(std::filesystem::exists(*request.cache)
-                         ? "Interrupted. The same command continues: the simulated campaigns are kept in " +
-                               request.cache->string() + "."
-                         : "Interrupted before a simulated campaign was kept. The same command begins anew.");
+        std::vector<std::string> kept;
+        for (const auto& file : {request.cache, request.tests_cache})
+            if (std::filesystem::exists(*file))
+                kept.push_back(file->string());
+        console.note(kept.empty()
+                         ? "Interrupted before anything that was simulated was kept. The same command begins anew."
+                         : "Interrupted. The same command continues: what was simulated is kept in " +
+                               list_words(kept) + ".");
         return console.end(exit_interrupted);
     }
     diagnosis->command = command_of(options, request, study, output);

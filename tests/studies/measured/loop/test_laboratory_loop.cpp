@@ -129,6 +129,36 @@ TEST_F(LaboratoryLoop, KeepsItsSimulationsAndRefusesAFileOfSomethingElse)
     }
 }
 
+/// Asks to stop once it has been told to.
+struct StoppedInTheMiddle : Observer {
+    bool stop = false;
+    bool stop_requested() override { return stop; }
+};
+
+TEST_F(LaboratoryLoop, ContinuesWhereItWasStopped)
+{
+    const Campaign campaign = callipers_alone();
+    LoopOptions options = small_plan(folder / "stopped.txt");
+    StoppedInTheMiddle stopping;
+    std::vector<std::uint64_t> rows;
+    options.progress = [&](std::uint64_t done, std::uint64_t) {
+        rows.push_back(done);
+        stopping.stop = true;
+    };
+    EXPECT_FALSE(laboratory_loop(campaign, stone_contacts(), {}, options, stopping));
+    ASSERT_EQ(rows.size(), 1U);
+    const std::uint64_t kept = rows.front();
+    rows.clear();
+    std::optional<TestStory> continued = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
+    ASSERT_TRUE(continued);
+    EXPECT_GT(rows.front(), kept) << "what was kept is not simulated again";
+    std::optional<TestStory> whole = told(campaign);
+    ASSERT_TRUE(whole);
+    continued->simulations = whole->simulations = 0;
+    continued->seconds = whole->seconds = 0;
+    EXPECT_EQ(*continued, *whole);
+}
+
 TEST_F(LaboratoryLoop, ToldWhatItCouldNotUse)
 {
     Campaign campaign = callipers_alone();
