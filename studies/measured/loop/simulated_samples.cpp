@@ -26,22 +26,18 @@ constexpr double missing_estimate = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t samples_together = 32;                    ///< specimens whose runs are in memory at once
 constexpr double bearing_noise_m = 1e-4, centre_noise_m = 1e-4; // of callipers and scales
 
-/// The first joint on which the same body stands: what a cause does there it does at all of them.
-int first_alike(const Specimen& specimen, const std::vector<PlannedTest>& tests, int joint)
+/// Whether two joints bear the same body on the same face: what a cause does at one of them it does at the other.
+bool same_bodies(const Specimen& s, int joint, int other)
 {
-    const auto body = [&](int j) {
-        return static_cast<std::size_t>(specimen.joints[static_cast<std::size_t>(j)].second);
+    const auto face = [&](int block) { // below: the block, or what stands for the table
+        return block >= 0 ? s.half_width_m[static_cast<std::size_t>(block)]
+                          : s.base_block_half_width_m.value_or(std::numeric_limits<double>::infinity());
     };
-    const auto alike = [&](int j) {
-        return specimen.half_width_m[body(j)] == specimen.half_width_m[body(joint)] &&
-               specimen.half_height_m[body(j)] == specimen.half_height_m[body(joint)] &&
-               specimen.mass_kg[body(j)] == specimen.mass_kg[body(joint)];
-    };
-    int first = joint;
-    for (const PlannedTest& test : tests)
-        if (test.joint < first && alike(test.joint))
-            first = test.joint;
-    return first;
+    const auto [lower, upper] = s.joints[static_cast<std::size_t>(joint)];
+    const auto [other_lower, other_upper] = s.joints[static_cast<std::size_t>(other)];
+    const auto a = static_cast<std::size_t>(upper), b = static_cast<std::size_t>(other_upper);
+    return face(lower) == face(other_lower) && s.half_width_m[a] == s.half_width_m[b] &&
+           s.half_height_m[a] == s.half_height_m[b] && s.mass_kg[a] == s.mass_kg[b];
 }
 
 /// A specimen that is simulated: a healthy one, or one of a cause.
@@ -66,15 +62,19 @@ public:
         for (std::uint64_t i = 0; i < plan.healthy; ++i)
             subjects.push_back({-1, i});
         for (std::size_t c = 0; c < causes.size(); ++c) {
-            twin_.push_back(twin_of(specimen, tests, causes, c));
+            twin_.push_back(twin_of(specimen, causes, c));
             for (std::uint64_t i = 0; i < plan.of_each_cause; ++i)
                 subjects.push_back({static_cast<int>(c), i});
         }
+        const auto simulated = [&](const SampleSubject& subject, int joint) {
+            if (subject.cause < 0)
+                return true;
+            const auto c = static_cast<std::size_t>(subject.cause);
+            return twin_[c] == c && causes[c].acts_at(joint);
+        };
         for (std::size_t t = 0; t < tests.size(); ++t)
             for (std::size_t s = 0; s < subjects.size(); ++s)
-                if (subjects[s].cause < 0 ||
-                    (twin_[static_cast<std::size_t>(subjects[s].cause)].cause == subjects[s].cause &&
-                     causes[static_cast<std::size_t>(subjects[s].cause)].acts_at(specimen, tests[t].joint)))
+                if (simulated(subjects[s], tests[t].joint))
                     wanted.push_back({t, s});
         values.assign(subjects.size() * columns.size(), missing_estimate);
         floors_.resize(columns.size());
@@ -106,7 +106,7 @@ public:
     /// Of a specimen with a cause the tests at joints where it does not act are those of the healthy specimen of the
     /// same law. A cause of a joint is simulated at the first joint of those that bear the same body: what it changes
     /// there it changes at each of them.
-    TestSamples samples(const Specimen& specimen, const std::vector<LoopCause>& causes, const SamplePlan& plan) const
+    TestSamples samples(const std::vector<LoopCause>& causes, const SamplePlan& plan) const
     {
         TestSamples out;
         out.columns = columns;
@@ -126,16 +126,13 @@ public:
             of.rows = out.healthy.topRows(static_cast<Eigen::Index>(plan.of_each_cause));
             for (Eigen::Index k = 0; k < p; ++k) {
                 const TestColumn& column = columns[static_cast<std::size_t>(k)];
-                if (!causes[c].acts_at(specimen, column.joint))
+                if (!causes[c].acts_at(column.joint))
                     continue;
-                const Eigen::Index from = twin_[c].joint < 0 ? k : column_at(column, twin_[c].joint);
-                for (Eigen::Index i = 0; i < of.rows.rows(); ++i) {
-                    const auto subject =
-                        static_cast<std::size_t>(plan.healthy) +
-                        static_cast<std::size_t>(twin_[c].cause) * static_cast<std::size_t>(plan.of_each_cause) +
-                        static_cast<std::size_t>(i);
-                    of.rows(i, k) += row(subject)(from) - out.healthy(i, from);
-                }
+                const Eigen::Index from = twin_[c] == c ? k : column_at(column, causes[twin_[c]].joint);
+                for (Eigen::Index i = 0; i < of.rows.rows(); ++i)
+                    of.rows(i, k) +=
+                        row(plan.healthy + twin_[c] * plan.of_each_cause + static_cast<std::size_t>(i))(from) -
+                        out.healthy(i, from);
             }
             for (std::uint64_t i = 0; i < plan.of_each_cause; ++i)
                 of.pairs.push_back(static_cast<int>(i));
@@ -149,31 +146,17 @@ public:
     std::vector<double> values;                              ///< (subjects x columns)
 
 private:
-    /// The cause that is simulated in the place of another one, and its joint; -1: of all joints.
-    struct Twin {
-        int cause = 0, joint = -1;
-    };
-    static Twin twin_of(const Specimen& specimen, const std::vector<PlannedTest>& tests,
-                        const std::vector<LoopCause>& causes, std::size_t c)
+    /// The first cause of the same kind and size at a joint with the same bodies: it is simulated in the place of c.
+    static std::size_t twin_of(const Specimen& specimen, const std::vector<LoopCause>& causes, std::size_t c)
     {
-        const auto joint_of = [&](const LoopCause& cause) {
-            for (const PlannedTest& test : tests)
-                if (cause.cause.cause.joint < 0 && cause.cause.cause.block < 0)
-                    return -1;
-                else if (cause.acts_at(specimen, test.joint))
-                    return test.joint;
-            return -1;
-        };
-        const int joint = joint_of(causes[c]);
-        if (joint < 0)
-            return {static_cast<int>(c), -1};
-        const int first = first_alike(specimen, tests, joint);
+        const LoopCause& cause = causes[c];
         for (std::size_t other = 0; other < c; ++other)
-            if (causes[other].cause.cause.mechanism == causes[c].cause.cause.mechanism &&
-                causes[other].cause.cause.side == causes[c].cause.cause.side &&
-                causes[other].named.size == causes[c].named.size && joint_of(causes[other]) == first)
-                return {static_cast<int>(other), first};
-        return {static_cast<int>(c), joint};
+            if (const LoopCause& o = causes[other];
+                cause.joint >= 0 && o.joint >= 0 && o.cause.cause.mechanism == cause.cause.cause.mechanism &&
+                o.cause.cause.side == cause.cause.cause.side && o.named.size == cause.named.size &&
+                same_bodies(specimen, o.joint, cause.joint))
+                return other;
+        return c;
     }
     Eigen::Index column_at(const TestColumn& like, int joint) const
     {
@@ -183,7 +166,7 @@ private:
         return at - columns.begin();
     }
 
-    std::vector<Twin> twin_;                  ///< (causes)
+    std::vector<std::size_t> twin_;           ///< (causes)
     std::vector<std::vector<double>> floors_; ///< (columns) of healthy specimens
     std::vector<std::size_t> first_;          ///< (tests + 1) columns
 };
@@ -413,7 +396,7 @@ SimulatedSamples simulated_samples(const Specimen& specimen, const Study& about,
         if (progress)
             progress(done, table.wanted.size());
     }
-    out.samples = table.samples(specimen, causes, plan);
+    out.samples = table.samples(causes, plan);
     out.complete = true;
     return out;
 }

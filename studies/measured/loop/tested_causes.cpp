@@ -31,7 +31,9 @@ constexpr double slide_speed_m_s = 0.43;                      // likewise: 10.7 
 /// One mechanism at one place.
 class CauseMaker {
 public:
-    CauseMaker(std::vector<LoopCause>& all, Cause cause) : all_(all), cause_(std::move(cause)) {}
+    CauseMaker(std::vector<LoopCause>& all, int joint, Cause cause) : all_(all), joint_(joint), cause_(std::move(cause))
+    {
+    }
 
     /// @param size in the tables
     void add(double size, double least_fixed = 0, double most_fixed = 0)
@@ -39,12 +41,14 @@ public:
         const std::string place = cause_.place + (cause_.side ? " " + *cause_.side : "");
         all_.push_back({{cause_, parameter_of(cause_, size)},
                         {cause_.mechanism, place, size, cause_.unit},
+                        joint_,
                         least_fixed,
                         most_fixed});
     }
 
 private:
     std::vector<LoopCause>& all_;
+    int joint_;
     Cause cause_;
 };
 
@@ -64,15 +68,15 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     const double at_rest = friction * mass * specimen.gravity_m_s2;
     const double speed = std::sqrt(specimen.gravity_m_s2 * 2 * specimen.half_height_m[block]);
 
-    CauseMaker friction_of(all, of_joint("joint_friction", joint, "ratio", "", 1));
+    CauseMaker friction_of(all, joint, of_joint("joint_friction", joint, "ratio", "", 1));
     for (const double part : friction_parts)
         for (const double sign : {-1.0, 1.0})
             friction_of.add(sign * part);
-    CauseMaker wear(all, of_joint("friction_wear", joint, "wear_per_m", "1/m"));
+    CauseMaker wear(all, joint, of_joint("friction_wear", joint, "wear_per_m", "1/m"));
     for (const double part : worn_parts)
         wear.add(part / (pull_path_m * body.length_ratio));
-    CauseMaker dowel(all, of_joint("dowel", joint, "yield_n", "N"));
-    CauseMaker bond(all, of_joint("adhesion", joint, "adhesion_n_m", "N/m"));
+    CauseMaker dowel(all, joint, of_joint("dowel", joint, "yield_n", "N"));
+    CauseMaker bond(all, joint, of_joint("adhesion", joint, "adhesion_n_m", "N/m"));
     for (const double part : held_parts) {
         dowel.add(part * at_rest, least_yield * width, most_yield * width);
         bond.add(part * at_rest / width, least_tension, most_tension);
@@ -80,37 +84,29 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     for (const char* side : {"left", "right"}) {
         Cause chip = of_joint("corner_loss", joint, "loss_m", "m");
         chip.side = side;
-        CauseMaker corner(all, chip);
+        CauseMaker corner(all, joint, chip);
         for (const double part : lost_corners)
             corner.add(part * width);
     }
     Cause off{"eccentricity", fmt::format("block {}", body.upper), "offset_m", "m"};
     off.block = body.upper;
-    CauseMaker centre(all, off);
+    CauseMaker centre(all, joint, off);
     for (const double part : centre_offsets)
         for (const double sign : {-1.0, 1.0})
             centre.add(sign * part * width);
-    CauseMaker wedge(all, of_joint("wedge", joint, "angle_rad", "rad"));
+    CauseMaker wedge(all, joint, of_joint("wedge", joint, "angle_rad", "rad"));
     for (const double angle : wedge_angles)
         for (const double sign : {-1.0, 1.0})
             wedge.add(sign * angle);
-    CauseMaker rate(all, of_joint("rate_damping", joint, "rate_s_m", "s/m"));
+    CauseMaker rate(all, joint, of_joint("rate_damping", joint, "rate_s_m", "s/m"));
     for (const double part : rates)
         rate.add(part / (0.1 * speed));
-    CauseMaker dashpot(all, of_joint("face_damping", joint, "dashpot_n_s_m", "N s/m"));
+    CauseMaker dashpot(all, joint, of_joint("face_damping", joint, "dashpot_n_s_m", "N s/m"));
     for (const double part : critical_parts)
         dashpot.add(part * 2 * std::sqrt(stiffness_n_m2 * width * mass));
 }
 
 } // namespace
-
-bool LoopCause::acts_at(const Specimen& specimen, int joint) const
-{
-    const Cause& c = cause.cause;
-    if (c.block >= 0)
-        return specimen.joints[static_cast<std::size_t>(joint)].second == c.block;
-    return c.joint < 0 || c.joint == joint;
-}
 
 SizedCause LoopCause::drawn(double uniform) const
 {
@@ -132,13 +128,13 @@ std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<i
         length += specimen.half_width_m[k] / (0.024 * specimen.blocks());
     }
     const double speed = std::sqrt(specimen.gravity_m_s2 * height);
-    CauseMaker stribeck(all, {"stribeck", "all", "dynamic_ratio", "", 1});
+    CauseMaker stribeck(all, -1, {"stribeck", "all", "dynamic_ratio", "", 1});
     for (const double part : friction_parts)
         stribeck.add(part, least_velocity * speed, most_velocity * speed);
-    CauseMaker drag(all, {"drag", "all", "coefficient_n_s2_m2", "N s2/m2"});
+    CauseMaker drag(all, -1, {"drag", "all", "coefficient_n_s2_m2", "N s2/m2"});
     for (const double part : drag_parts)
         drag.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * slide_speed_m_s * length));
-    CauseMaker viscous(all, {"drag", "all, linear", "linear_n_s_m", "N s/m"});
+    CauseMaker viscous(all, -1, {"drag", "all, linear", "linear_n_s_m", "N s/m"});
     for (const double part : drag_parts)
         viscous.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * std::sqrt(length)));
     for (const int joint : joints)

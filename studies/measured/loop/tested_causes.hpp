@@ -15,11 +15,12 @@ namespace stylobate {
 struct LoopCause {
     SizedCause cause;
     TestedCause named; ///< as the tables have it: its size is 0 where it is neutral
+    int joint = -1;    ///< in whose tests it acts, of a block that on which it stands; -1: all
     /// Second parameter, drawn anew for each specimen, uniform in its logarithm: velocity of Stribeck's law, slip at
     /// which a dowel yields. Both 0: it has none.
     double least_fixed = 0, most_fixed = 0;
 
-    bool acts_at(const Specimen& specimen, int joint) const;
+    bool acts_at(int tested) const { return joint < 0 || joint == tested; }
     /// For one specimen. @param uniform in (0, 1)
     SizedCause drawn(double uniform) const;
 };
