@@ -67,8 +67,11 @@ bool tell_tests(const DiagnosisRequest& request, const Campaign& campaign, const
     diagnosis.tests = laboratory_loop(campaign, study, prior_shares(diagnosis), how, quiet);
     if (!diagnosis.tests)
         return false;
+    diagnosis.cost.simulations += diagnosis.tests->simulations;
+    diagnosis.cost.seconds += diagnosis.tests->seconds;
+    diagnosis.cost.threads = run.threads;
     if (TestStory& story = *diagnosis.tests; request.next_test && !story.next.empty())
-        if (const Campaign plan = planned_campaign(campaign, story.next.front()); !plan.tests.empty()) {
+        if (const Campaign plan = planned_campaign(campaign, story.next); !plan.tests.empty()) {
             write_campaign(plan, *request.next_test);
             story.sheet.push_back(fmt::format("Set-up of each run, and the motion of the table or the board: {}.",
                                               request.next_test->string()));

@@ -56,7 +56,7 @@ std::optional<std::string> why_left_out(const SequenceModel& model, const TestOp
     if (option.cannot)
         return option.cannot;
     if (columns.empty())
-        return "it gives no estimate: nearly every simulated specimen falls in it";
+        return "it gives no estimate in more than a quarter of the simulated specimens";
     if (!any_cause_shows(model, columns, std::nullopt))
         return "no cause of the list shows in it";
     return std::nullopt;

@@ -44,8 +44,9 @@ std::vector<Eigen::Index> columns_of(const Signatures& signatures, const TestOpt
 double expected_entropy(const SequenceModel& model, std::span<const SeenEstimate> seen,
                         const std::vector<Eigen::Index>& columns, const ChoiceSettings& settings);
 
-/// All options, the best first, those that are no choice last: the laboratory cannot do them, nearly everything falls
-/// in them, no cause shows in them, or they are expected to tell nothing.
+/// All options, the best first, those that are no choice last: the laboratory cannot do them, they give no
+/// estimate in more than a quarter of the simulated specimens, no cause shows in them, or they are expected to tell
+/// nothing.
 std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const SeenEstimate> seen,
                                    const std::vector<TestOption>& options, const ChoiceSettings& settings = {});
 

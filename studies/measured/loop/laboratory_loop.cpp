@@ -402,17 +402,19 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
     return story;
 }
 
-Campaign planned_campaign(const Campaign& campaign, const std::string& test)
+Campaign planned_campaign(const Campaign& campaign, const std::vector<std::string>& tests)
 {
     Campaign plan;
     plan.source = campaign.source;
     plan.specimen = campaign.specimen;
     plan.laboratory = campaign.laboratory;
-    for (const RunKind kind : joint_test_kinds)
-        if (kind != RunKind::rest && test == to_string(kind))
-            for (const int joint : joints_alone(campaign.specimen))
-                for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, kind, joint))
-                    plan.tests.push_back(std::move(run));
+    for (const RunKind kind : joint_test_kinds) {
+        if (kind == RunKind::rest || std::ranges::find(tests, to_string(kind)) == tests.end())
+            continue;
+        for (const int joint : joints_alone(campaign.specimen))
+            for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, kind, joint))
+                plan.tests.push_back(std::move(run));
+    }
     return plan;
 }
 

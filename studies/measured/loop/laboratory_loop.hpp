@@ -40,9 +40,9 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
                                          const std::vector<PriorShare>& shares, const LoopOptions& options,
                                          Observer& observer);
 
-/// The specimen with the runs of a test ("pull") at every joint that can be tested by itself, without measurements: to
-/// be followed by a table, or to be performed by a virtual laboratory. Of `rest`: no runs.
-Campaign planned_campaign(const Campaign& campaign, const std::string& test);
+/// The specimen with the runs of tests ("pull", ...) at every joint that can be tested by itself, without measurements:
+/// to be followed by a table, or to be performed by a virtual laboratory. Of `rest`: no runs.
+Campaign planned_campaign(const Campaign& campaign, const std::vector<std::string>& tests);
 
 /// What the laboratory does in a test, a line each: what to clamp, remove and tape, strokes, speeds, angles, repeats.
 std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& laboratory, RunKind kind,

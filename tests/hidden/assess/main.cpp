@@ -52,7 +52,7 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
 {
     const int round = static_cast<int>(tests.empty() ? 0 : *tests.back().run_order / 1000 + 1);
     int order = 1000 * round;
-    Campaign plan = planned_campaign(campaign, test);
+    Campaign plan = planned_campaign(campaign, {test});
     for (const int joint : test == "rest" ? joints_alone(campaign.specimen) : std::vector<int>()) {
         MeasuredRun& run = plan.tests.emplace_back();
         run.name = fmt::format("rest_{}", joint);
