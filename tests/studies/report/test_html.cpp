@@ -393,9 +393,10 @@ TEST(DiagnosisPage, ShowsEveryPartAndEscapesIt)
     expect_balanced(page);
     EXPECT_NE(page.find("Seven drums &lt;script&gt;alert(1)&lt;/script&gt;, 1:10, é"), std::string::npos);
     std::size_t before = 0;
-    for (const char* title : {"Verdict", "Errors and their location", "Candidates", "Unexplained error",
-                              "The extended model and its gain", "The next test", "The data", "The calibrated baseline",
-                              "Tests that were not possible", "Method and cost", "Reproduction"}) {
+    for (const char* title :
+         {"Tests of single joints", "First diagnosis", "Errors and their location", "Candidates", "Unexplained error",
+          "The extended model and its gain", "The next test", "The data", "The calibrated baseline",
+          "Tests that were not possible", "Method and cost", "Reproduction"}) {
         const std::size_t at = page.find(std::string("&ensp;") + title + "</h2>");
         EXPECT_NE(at, std::string::npos) << title;
         EXPECT_GT(at, before) << title;

@@ -53,12 +53,17 @@ public:
 
     Document page()
     {
+        const bool tested = d_.tests && !d_.tests->steps.empty(); // tests decide, the first diagnosis is their prior
+        if (tested)
+            tests();
+        page_.section(tested ? "First diagnosis" : "Verdict");
         verdict();
         wrong();
         candidates();
         unexplained();
         gain();
-        tests();
+        if (!tested)
+            tests();
         next_test();
         data();
         baseline();
@@ -82,7 +87,6 @@ private:
 
     void verdict()
     {
-        page_.section("Verdict");
         // no colour for `none`: it does not show that the model is right
         const char* tone = d_.verdict == Verdict::none ? "" : d_.verdict == Verdict::named ? "warn" : "bad";
         const std::string said = verdict_words(d_);

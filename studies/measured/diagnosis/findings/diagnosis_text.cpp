@@ -223,7 +223,10 @@ std::string baseline_part(const Diagnosis& d)
 std::string diagnosis_text(const Diagnosis& d)
 {
     std::string out = fmt::format("DIAGNOSIS  {}{}\n", d.specimen.empty() ? "" : d.specimen + ", ", d.measured_file);
-    out += heading("Verdict: " + verdict_heading(d)) + wrapped(verdict_words(d), 2);
+    const bool tested = d.tests && !d.tests->steps.empty(); // tests decide, the first diagnosis is their prior
+    if (tested)
+        out += tests_part(d);
+    out += heading((tested ? "First diagnosis: " : "Verdict: ") + verdict_heading(d)) + wrapped(verdict_words(d), 2);
     out += wrapped(left_out_text(2), 2); // the model of every diagnosis is planar
     out += wrong_part(d) + candidates_part(d);
     if (d.indistinguishable.size() > 1)
@@ -231,7 +234,7 @@ std::string diagnosis_text(const Diagnosis& d)
     out += unexplained_part(d) + gain_part(d);
     if (d.extended_study_file)
         out += wrapped("The extended study: " + *d.extended_study_file, 2);
-    out += tests_part(d) + next_test_part(d) + data_part(d) + baseline_part(d);
+    out += (tested ? "" : tests_part(d)) + next_test_part(d) + data_part(d) + baseline_part(d);
     if (!d.missing.empty()) {
         out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)

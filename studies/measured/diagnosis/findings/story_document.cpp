@@ -76,7 +76,7 @@ void add_story(const TestStory& story, Document& document)
         document.table(estimate_table(step));
     }
     if (!story.limits.empty()) {
-        HtmlTable table{"ll", {"cause", "at most (95 %)"}, {}, "What the tests leave possible"};
+        HtmlTable table{"ll", {"cause", "limit (95 %)"}, {}, "What the tests leave possible"};
         for (const StoryLimit& limit : story.limits)
             table.rows.push_back({limit.cause, limit.size.empty() ? "not bounded by what was simulated" : limit.size});
         document.table(table);

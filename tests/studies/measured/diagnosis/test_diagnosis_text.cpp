@@ -106,7 +106,10 @@ TEST(DiagnosisText, SaysTheVerdictFirstAndKeepsItsLinesShort)
         EXPECT_NE(place, std::string::npos) << words << "\n" << text;
         return place;
     };
-    EXPECT_LT(at("Verdict: The cause: joint_friction"), at("Errors"));
+    // tests decide, so their story comes before the first diagnosis
+    EXPECT_LT(at("The tests name stribeck at all"), at("First diagnosis: The cause: joint_friction"));
+    EXPECT_LT(at("Test 1: pull at joints 0, 1, 2"), at("First diagnosis"));
+    EXPECT_LT(at("First diagnosis: The cause: joint_friction"), at("Errors"));
     EXPECT_LT(at("Joint 0 has less friction than the others"), at("Candidates"));
     at("ratio 0.57 (0.49 to 0.66)");
     at("could not be judged");
