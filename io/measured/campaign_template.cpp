@@ -55,7 +55,7 @@ const char* procedure(RunKind kind)
     case RunKind::push:
         return "# Push: the blocks below the joint are clamped. On it stands a block with two dummies taped on top. A "
                "rod\n"
-               "# on the table pushes the top dummy by a force gauge, at 20 mm/s, for 10 mm. Two runs for each joint:\n"
+               "# on the table pushes the top dummy by a force gauge, at 4 mm/s, for 10 mm. Two runs for each joint:\n"
                "# from the left, and from the right.\n";
     case RunKind::drop:
         return "# Drop: the blocks below the joint are clamped. A block with two dummies taped on top hangs 3 mm above "
@@ -171,7 +171,7 @@ std::string run_text(RunKind kind, const std::string& name)
                             "gain_sd = 0.005                             # 1 sigma, relative\n"
                             "noise_n = 0.02                              # 1 sigma\n",
                             pushes ? "0.0783" : "0.00725", pushes ? "\"table\"" : "\"laboratory\"",
-                            pushes ? "0.02" : "0.0");
+                            pushes ? "0.004" : "0.0");
     }
     return text;
 }

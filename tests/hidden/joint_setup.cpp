@@ -225,7 +225,7 @@ void check_plan(const VirtualCampaign& made, const MeasuredRun& planned)
         if (!gauge.to_laboratory && gauge.speed_m_s == 0)
             refuse("the rod on the table has no speed, so the side on which it pushes is not known.");
     }
-    if (planned.test == RunKind::rest)
+    if (planned.test == RunKind::rest && planned.time_s.empty())
         return;
     const std::size_t nt = planned.time_s.size();
     if (nt < 2 || !(planned.time_s[1] > planned.time_s[0]))

@@ -341,7 +341,7 @@ MeasuredRun performed(const VirtualCampaign& made, const MeasuredRun& planned, i
     check_plan(made, planned);
     MeasuredRun run = planned;
     run.run_order = number;
-    if (planned.test == RunKind::rest) {
+    if (planned.test == RunKind::rest && planned.time_s.empty()) {
         if (end != nullptr)
             *end = worn != nullptr ? *worn : State{};
         return run;

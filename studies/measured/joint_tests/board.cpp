@@ -13,8 +13,8 @@
 ///   kinetic     mean over the sides of ln(mu_k / mu_s): below 0 where friction falls with speed or path, or a bond
 ///   broke direction   ln mu_s to the left less to the right; a wedge counts twice
 ///
-/// Errors: noise of cameras and inclinometer through the fit. No estimate of a side on which the block did not slide,
-/// or turned first.
+/// Errors: noise of cameras and inclinometer through the fit. A block that the steepest board does not move has the
+/// mu_s of that board: it has at least that. No estimate of a side on which the block turned first.
 ///
 /// Blind to corners and centres of mass (as long as the block does not turn), damping, bonds against opening, drag.
 
@@ -73,6 +73,23 @@ TiltIntegrals integrals_of(const std::vector<double>& tilt, double step)
     return all;
 }
 
+/// A block that the steepest board does not move has at least the friction of that board.
+std::optional<BoardSide> held_to_the_end(const std::vector<double>& tilt, const std::vector<double>& down,
+                                         std::size_t window, double noise)
+{
+    const std::size_t from = down.size() - std::min(window, down.size());
+    const auto seen = std::ranges::count_if(down.begin() + static_cast<std::ptrdiff_t>(from), down.end(),
+                                            [](double v) { return std::isfinite(v); });
+    const double steepest = finite_mean(tilt, from, down.size()).first;
+    if (down.size() < tilt.size() || 2 * static_cast<std::size_t>(seen) < window || !(steepest > 0))
+        return std::nullopt;
+    BoardSide found;
+    const double mu = std::tan(steepest);
+    found.log_static = std::log(mu);
+    found.static_sd = (1 + mu * mu) / mu * noise / std::sqrt(static_cast<double>(window));
+    return found;
+}
+
 std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun& run, int& side)
 {
     const std::optional<JointRun> seen = joint_run(specimen, run, true);
@@ -91,8 +108,10 @@ std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun&
     data.before = static_cast<std::size_t>(slide_before_s * times * run.rate_hz);
     const auto moved = first_motion(data);
     const double noise = run.base_tilt_rad.noise_sd.value_or(noise_of(run.base_tilt_rad.values));
-    if (!moved || std::ranges::any_of(tilt, [](double t) { return !std::isfinite(t); }))
+    if (std::ranges::any_of(tilt, [](double t) { return !std::isfinite(t); }))
         return std::nullopt;
+    if (!moved)
+        return held_to_the_end(tilt, down, data.before, noise);
     const std::size_t from = *moved > 3 * data.before ? *moved - 3 * data.before : 0;
     const std::size_t to = std::min(tilt.size(), *moved + 3 * data.before);
     std::vector<double> smooth = tilt;

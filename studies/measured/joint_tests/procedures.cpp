@@ -22,7 +22,7 @@ constexpr double still_before_pull_s = 1, creep_s = 1;
 constexpr double turn_s = 0.020; // in which the table turns round
 constexpr double board_rate_rad_s = 2 * pi / 180, board_start_s = 0.5;
 constexpr double push_height = 0.9; // over the body's height
-constexpr double push_s = 3, drop_s = 1.2, slide_still_s = 0.3, slide_plateau_s = 3;
+constexpr double push_s = 3, drop_s = 1.2, rest_s = 0.5, slide_still_s = 0.3, slide_plateau_s = 3;
 constexpr double slide_hz = 4, slide_m_s2 = 10.7;
 constexpr int slide_ramp_cycles = 2;
 constexpr double most_friction = 1; // for which the force gauge must do
@@ -361,7 +361,7 @@ std::vector<MeasuredRun> planned_runs(const Specimen& specimen, const Laboratory
     case RunKind::slide:
         return {slide_run(specimen, joint, body)};
     case RunKind::rest:
-        return {empty_run(specimen, kind, joint, 0)};
+        return {empty_run(specimen, kind, joint, rest_s)};
     case RunKind::shake:
         break;
     }

@@ -17,10 +17,9 @@
 ///               mu N / K for a joint of stiffness K; more for a dowel, whose force comes back beyond its play;
 ///               less by m v^2 / (2 F) for the inertia of the block, on every joint
 ///   compliance  du / dF while |f| < 0.8 after these reversals, less 1 / k of the rod [m/N]
-///   first       ln(F_b / F_p) of the first slip, which is approached slowly: a line in the displacement up to F_b,
-///   then
-///               F_p on average; the place of the break by least squares. Its error is (6 sd^2 r)^(1/3) / F_p at r
-///               newton a sample: where line and plateau are less apart than the noise, the break may be anywhere
+///   first       ln(F_b / F_p): largest mean of three samples until the table has moved by 2.5 mm, over the mean from
+///               there to 5 mm. The first slip is approached slowly; a bond breaks there, a strong one a little later.
+///               The largest of many samples is above the friction by two standard deviations or so, on every joint
 ///
 /// All but `friction` are ratios in which the gauge's gain cancels. The block does not move: blind to drag, and to what
 /// happens where faces open (corners, centres of mass, damping, bonds against opening).
@@ -333,49 +332,29 @@ void add_loops(const HeldBlock& held, double slow_m_s, std::vector<Estimate>& al
     all.push_back(pull_estimate("pull.compliance", slope - 1 / k, sd, slope));
 }
 
-/// The first slip: a line up to the break, then a plateau.
+/// The first slip: the largest force of the first stroke over that of the block that slips on.
 void add_first(const HeldBlock& held, std::vector<Estimate>& all)
 {
     const JointRun& seen = held.seen;
-    const double creep = 0.95 * pull_creep_m * seen.body.length_ratio;
-    std::vector<double> since, force; // the table creeps evenly: a clock has less noise than its sensor
-    double to_side = 0;
-    for (std::size_t i = held.first; i < seen.samples && std::fabs(seen.base_m[i]) < creep; ++i) {
+    const double s = seen.body.length_ratio;
+    std::vector<double> first, after;
+    for (std::size_t i = held.first; i < seen.samples && std::fabs(seen.base_m[i]) < 2 * after_turn_m * s; ++i) {
         if (!held.usable(i))
             return;
-        to_side = seen.base_m[i];
-        since.push_back(seen.time(i) - seen.time(held.first));
-        force.push_back(to_side > 0 ? -held.force_n[i] : held.force_n[i]);
+        const double force = seen.base_m[i] > 0 ? -held.force_n[i] : held.force_n[i];
+        (std::fabs(seen.base_m[i]) < after_turn_m * s ? first : after).push_back(force);
     }
     constexpr std::size_t fewest = 50;
     constexpr double clear_of_noise = 10;
-    if (force.size() < fewest)
+    if (first.size() < fewest || after.size() < fewest)
         return; // not approached slowly
-    const std::size_t tail = force.size() * 3 / 5;
-    const double plateau = finite_mean(force, tail, force.size()).first;
+    const double plateau = finite_mean(after, 0, after.size()).first;
     if (plateau < clear_of_noise * held.force_sd)
         return;
-    std::size_t from = 0, to = 0; // of the line: from a fifth to seven tenths of the plateau
-    while (from < tail && force[from] < 0.2 * plateau)
-        ++from;
-    to = from;
-    while (to < tail && force[to] < 0.7 * plateau)
-        ++to;
-    const LineFit line = line_fit(std::span(since).subspan(from, to - from), std::span(force).subspan(from, to - from));
-    if (line.count < 5 || !(line.slope > 0))
-        return;
-    const auto squared = [](double v) { return v * v; };
-    double sum = 0, least = 0, break_n = plateau;
-    for (std::size_t i = from; i < force.size(); ++i) { // the break after sample i
-        sum += squared(force[i] - line.at_zero - line.slope * since[i]) - squared(force[i] - plateau);
-        if (sum < least && i + 1 < tail) {
-            least = sum;
-            break_n = line.at_zero + line.slope * (since[i] + since[i + 1]) / 2;
-        }
-    }
-    const double ramp = line.slope * seen.step_s();
-    const double sd = std::cbrt(6 * squared(held.force_sd) * ramp) + ramp / 2;
-    all.push_back(pull_estimate("pull.first", std::log(break_n / plateau), sd / plateau, 1));
+    double most = 0;
+    for (std::size_t i = 1; i + 1 < first.size(); ++i)
+        most = std::max(most, (first[i - 1] + first[i] + first[i + 1]) / 3);
+    all.push_back(pull_estimate("pull.first", std::log(most / plateau), held.force_sd / std::sqrt(3.0) / plateau, 1));
 }
 
 std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const MeasuredRun> runs)

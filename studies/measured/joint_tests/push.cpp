@@ -36,7 +36,7 @@ namespace {
 constexpr double least_push_turn = 0.02;   // rad, at the end
 constexpr double most_push_slip_m = 0.001; // times s, of the lower face's middle
 constexpr double settled_push = 0.2;       // of the way of the rod, before the regression begins
-constexpr double peak_within_s = 0.15;     // times sqrt(s), after the rod has started
+constexpr double peak_within = 0.25;       // of the way of the rod: the body stands, or has just begun to turn
 
 struct PushSide {
     double arm_m = 0, arm_sd = 0; ///< a, less the bearing of whole faces
@@ -115,7 +115,7 @@ std::optional<PushSide> push_side(const Specimen& specimen, const MeasuredRun& r
     found.arm_sd = std::hypot(line.at_zero_sd * arm_noise, seen->offset_sd_m);
     found.gain_sd = rod->gain_sd;
     const double plateau = seen->weight_n * line.at_zero / rod->height_m;
-    const std::size_t soon = std::min(index(test_start_s + peak_within_s * body.time_ratio), seen->samples);
+    const std::size_t soon = std::min(index(test_start_s + peak_within * lasts), seen->samples);
     const auto peak = peak_of(force, start, soon);
     if (!peak || *peak < 6 * noise)
         return std::nullopt;

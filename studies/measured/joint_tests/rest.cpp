@@ -22,6 +22,7 @@ namespace {
 
 constexpr double centre_error = 1e-3; // over the width: of two scales
 constexpr double print_error_m = 1e-4;
+constexpr double lies_within = 0.2; // of the floor of lengths: dust in the bed, and not the edge of a print
 
 std::vector<Estimate> rest_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
 {
@@ -54,7 +55,7 @@ std::vector<Estimate> rest_of(const Specimen& specimen, std::span<const Measured
                        joint,
                        turn / count,
                        std::sqrt(variance) / count,
-                       {.friction = 0, .geometry_m = 1 / width, .force = 0, .time = 0}});
+                       {.friction = 0, .geometry_m = lies_within / width, .force = 0, .time = 0}});
     return all;
 }
 

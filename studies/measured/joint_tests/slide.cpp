@@ -12,8 +12,8 @@
 ///   drag        c / m [1/m], with the column d |v| v
 ///   viscous     c_1 / m [1/s], with the column d v in its place: a drag in proportion to the speed
 ///
-/// Errors: noise of the cameras, 2 sd / sqrt(sum of the parabola's squares), through the fit. No estimate where the
-/// block does not slide, or turns.
+/// Errors: noise of the cameras, 2 sd / sqrt(sum of the parabola's squares), through the fit. A block that does not
+/// slide has at least the friction of the table's largest acceleration, and is given that. No estimate where it turns.
 ///
 /// Blind to corners, centres of mass, damping, bonds (broken by the first slip); nearly to friction that falls with
 /// speed, which is alike at both ends of a slip.
@@ -33,6 +33,7 @@ namespace {
 constexpr double accelerated_s = 0.05;                          // a window, times sqrt(s)
 constexpr double slip_line_s = 0.022, least_slip_speed = 0.015; // times sqrt(s); m/s, times sqrt(s)
 constexpr double most_slide_turn = 0.05;                        // rad
+constexpr double most_stay_m = 0.002; // times s: of a block that does not slide (a dowel, much friction)
 
 struct Parabola {
     double speed = 0, acceleration = 0, acceleration_sd = 0; ///< at the middle; sd: for noise of 1
@@ -113,6 +114,31 @@ SlideWindows slide_windows(const JointRun& seen, double g)
     return found;
 }
 
+/// Whether the block was seen to the end and hardly slipped.
+bool stayed_with_the_table(const JointRun& seen)
+{
+    if (seen.samples < seen.run->time_s.size())
+        return false;
+    std::size_t there = 0;
+    for (std::size_t i = 0; i < seen.samples; ++i)
+        there +=
+            std::fabs(seen.slip(i)) < most_stay_m * seen.body.length_ratio && std::fabs(seen.turn(i)) < most_slide_turn
+                ? 1
+                : 0;
+    return 10 * there > 9 * seen.samples;
+}
+
+/// Of the table, by parabolas through windows.
+double peak_acceleration(const JointRun& seen)
+{
+    const auto wide = static_cast<std::size_t>(std::max(8.0, accelerated_s * seen.body.time_ratio / seen.step_s()));
+    double most = 0;
+    for (std::size_t i = 0; i + wide <= seen.base_m.size(); i += 2)
+        if (const auto of = parabola_of(seen.base_m, i, i + wide, seen.step_s()))
+            most = std::max(most, std::fabs(of->acceleration));
+    return most;
+}
+
 std::vector<Estimate> slide_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
 {
     std::vector<Estimate> all;
@@ -122,8 +148,15 @@ std::vector<Estimate> slide_of(const Specimen& specimen, std::span<const Measure
     const double g = specimen.gravity_m_s2;
     SlideWindows found = slide_windows(*seen, g);
     constexpr std::size_t fewest = 12;
-    if (found.windows.size() < fewest)
+    if (found.windows.size() < fewest) {
+        if (stayed_with_the_table(*seen))
+            all.push_back({"slide.friction",
+                           0,
+                           std::log(peak_acceleration(*seen) / g),
+                           seen->x_sd / seen->body.length_ratio,
+                           {.friction = 1, .geometry_m = 0, .force = 0, .time = 0}});
         return all;
+    }
     const auto with = [&](auto column) {
         double squares = 0;
         for (std::size_t i = 0; i < found.windows.size(); ++i) {

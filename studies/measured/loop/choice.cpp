@@ -10,7 +10,7 @@ namespace stylobate {
 
 namespace {
 
-constexpr double least_fall = 0.005; // nats: less is within the error of the draws
+constexpr double least_gain = 0.003; // of the belief: less is within the error of the draws
 
 /// Numbers of one draw. A column has the same number in every test; what varies between specimens has others.
 class PredictionDraw {
@@ -62,12 +62,48 @@ std::optional<std::string> why_left_out(const SequenceModel& model, const TestOp
     return std::nullopt;
 }
 
-void rate(RatedTest& test, double before, double after)
+/// In the mechanism at the place where a hypothesis acts.
+double belief_in(const SequenceModel& model, const Belief& belief, std::size_t hypothesis)
 {
-    test.entropy_fall = before - after;
-    test.per_cost = test.entropy_fall / test.option.cost;
-    if (test.entropy_fall < least_fall)
+    const int cause = model.hypotheses.each[hypothesis].cause;
+    return cause < 0 ? belief.unlisted : belief.at_place(model.hypotheses, static_cast<std::size_t>(cause));
+}
+
+/// Rates a test that is done after others of which the outcome is not known yet.
+/// @param planned columns of those
+RatedTest rated(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                const std::vector<Eigen::Index>& planned, const TestOption& option, const ChoiceSettings& settings,
+                const Prospects& prospects)
+{
+    RatedTest test{option, 0, 0, 0, std::nullopt};
+    std::vector<SequenceModel> models;
+    if (prospects && !option.cannot)
+        models = prospects(option);
+    if (models.empty())
+        models.push_back(model);
+    std::optional<std::string> why;
+    std::size_t useful = 0;
+    for (const SequenceModel& one : models) {
+        const std::vector<Eigen::Index> columns = columns_of(one.signatures, option);
+        if ((why = why_left_out(one, option, columns)))
+            continue;
+        ++useful;
+        std::vector<Eigen::Index> before = planned, all = planned;
+        std::erase_if(before, [&](Eigen::Index k) { return !one.signatures.used[static_cast<std::size_t>(k)]; });
+        all = before;
+        all.insert(all.end(), columns.begin(), columns.end());
+        const ExpectedBelief without = expected_belief(one, seen, before, settings),
+                             with = expected_belief(one, seen, all, settings);
+        const auto n = static_cast<double>(models.size());
+        test.entropy_fall += (without.entropy - with.entropy) / n;
+        test.belief_gain += (with.in_truth - without.in_truth) / n;
+    }
+    test.per_cost = test.belief_gain / test.option.cost;
+    if (useful == 0)
+        test.left_out = why;
+    else if (test.belief_gain < least_gain)
         test.left_out = "it is expected to tell nothing more";
+    return test;
 }
 
 void best_first(std::vector<RatedTest>& tests)
@@ -91,8 +127,8 @@ std::vector<Eigen::Index> columns_of(const Signatures& signatures, const TestOpt
     return out;
 }
 
-double expected_entropy(const SequenceModel& model, std::span<const SeenEstimate> seen,
-                        const std::vector<Eigen::Index>& columns, const ChoiceSettings& settings)
+ExpectedBelief expected_belief(const SequenceModel& model, std::span<const SeenEstimate> seen,
+                               const std::vector<Eigen::Index>& columns, const ChoiceSettings& settings)
 {
     std::vector<Eigen::Index> all;
     std::vector<double> values;
@@ -109,7 +145,7 @@ double expected_entropy(const SequenceModel& model, std::span<const SeenEstimate
     const Eigen::VectorXd first = density.whitened(padded).head(known);
     const Belief now = belief_of(model, seen);
 
-    double sum = 0;
+    ExpectedBelief sum;
     for (int i = 0; i < settings.draws; ++i) {
         const PredictionDraw draw(settings, i);
         // systematic: every hypothesis acts as often as it is believed in, to within one draw
@@ -123,30 +159,28 @@ double expected_entropy(const SequenceModel& model, std::span<const SeenEstimate
         const Eigen::Index ranks = acting ? model.hypotheses.each[*acting].spread.cols() : 0;
         const Eigen::VectorXd white =
             density.continued(acting, first, draw.normals(columns, ranks), draw.uniform(PredictionDraw::radius));
-        sum += belief_from(model, density.log_ratios(white)).entropy();
+        const Belief after = belief_from(model, density.log_ratios(white));
+        sum.entropy += after.entropy() / settings.draws;
+        if (acting)
+            sum.in_truth += belief_in(model, after, *acting) / settings.draws;
     }
-    return sum / settings.draws;
+    return sum;
 }
 
 std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const SeenEstimate> seen,
-                                   const std::vector<TestOption>& options, const ChoiceSettings& settings)
+                                   const std::vector<TestOption>& options, const ChoiceSettings& settings,
+                                   const Prospects& prospects)
 {
-    const double before = belief_of(model, seen).entropy();
     std::vector<RatedTest> out;
-    for (const TestOption& option : options) {
-        const std::vector<Eigen::Index> columns = columns_of(model.signatures, option);
-        RatedTest test{option, 0, 0, std::nullopt};
-        test.left_out = why_left_out(model, option, columns);
-        if (!test.left_out)
-            rate(test, before, expected_entropy(model, seen, columns, settings));
-        out.push_back(std::move(test));
-    }
+    for (const TestOption& option : options)
+        out.push_back(rated(model, seen, {}, option, settings, prospects));
     best_first(out);
     return out;
 }
 
 std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const SeenEstimate> seen,
-                                     const std::vector<TestOption>& options, const ChoiceSettings& settings)
+                                     const std::vector<TestOption>& options, const ChoiceSettings& settings,
+                                     const Prospects& prospects)
 {
     const SequenceJudgement judgement = judgement_of(model, seen);
     std::vector<TestOption> meant;
@@ -159,38 +193,30 @@ std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const
                 meant.push_back(option);
     }
     for (const std::vector<TestOption>* among : {&std::as_const(meant), &options}) {
-        const std::vector<RatedTest> rated = rated_tests(model, seen, *among, settings);
-        if (!rated.empty() && !rated.front().left_out)
-            return rated.front();
+        const std::vector<RatedTest> all = rated_tests(model, seen, *among, settings, prospects);
+        if (!all.empty() && !all.front().left_out)
+            return all.front();
     }
     return std::nullopt;
 }
 
 std::vector<RatedTest> planned_tests(const SequenceModel& model, const std::vector<TestOption>& options,
-                                     std::size_t count, const ChoiceSettings& settings)
+                                     std::size_t count, const ChoiceSettings& settings, const Prospects& prospects)
 {
     std::vector<RatedTest> out;
     std::vector<Eigen::Index> planned;
-    double before = belief_of(model, {}).entropy();
     while (out.size() < count) {
         std::vector<RatedTest> tests;
         for (const TestOption& option : options) {
             if (std::any_of(out.begin(), out.end(), [&](const RatedTest& t) { return t.option == option; }))
                 continue;
-            std::vector<Eigen::Index> columns = columns_of(model.signatures, option);
-            RatedTest test{option, 0, 0, std::nullopt};
-            test.left_out = why_left_out(model, option, columns);
-            columns.insert(columns.begin(), planned.begin(), planned.end());
-            if (!test.left_out)
-                rate(test, before, expected_entropy(model, {}, columns, settings));
-            tests.push_back(std::move(test));
+            tests.push_back(rated(model, {}, planned, option, settings, prospects));
         }
         best_first(tests);
         if (tests.empty() || tests.front().left_out)
             break;
         const std::vector<Eigen::Index> more = columns_of(model.signatures, tests.front().option);
         planned.insert(planned.end(), more.begin(), more.end());
-        before -= tests.front().entropy_fall;
         out.push_back(tests.front());
     }
     return out;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stylobate {
 
@@ -41,15 +42,9 @@ Eigen::VectorXd linear_in_size(const ShiftOfSize& of, double size, Member member
 /// The additional variances, and the spread of the sizes of a cell along the shift.
 Eigen::MatrixXd spread_of(const ShiftOfSize& of, const Hypothesis& h)
 {
-    const Eigen::VectorXd variance = of.variance(h.size);
-    std::vector<Eigen::Index> scattered;
-    for (Eigen::Index j = 0; j < variance.size(); ++j)
-        if (variance(j) > 0)
-            scattered.push_back(j);
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(variance.size(), static_cast<Eigen::Index>(scattered.size()) + 1);
-    out.col(0) = (of.shift(h.to) - of.shift(h.from)) / std::sqrt(12.0);
-    for (std::size_t k = 0; k < scattered.size(); ++k)
-        out(scattered[k], static_cast<Eigen::Index>(k) + 1) = std::sqrt(variance(scattered[k]));
+    const Eigen::MatrixXd scatter = of.spread(h.size);
+    Eigen::MatrixXd out(scatter.rows(), scatter.cols() + 1);
+    out << (of.shift(h.to) - of.shift(h.from)) / std::sqrt(12.0), scatter;
     return out;
 }
 
@@ -118,13 +113,45 @@ Eigen::VectorXd ShiftOfSize::variance(double size) const
     return linear_in_size(*this, size, &CauseSignature::variance);
 }
 
+Eigen::MatrixXd ShiftOfSize::spread(double size) const
+{
+    const Eigen::VectorXd own = variance(size);
+    std::vector<Eigen::Index> scattered;
+    for (Eigen::Index j = 0; j < own.size(); ++j)
+        if (own(j) > 0)
+            scattered.push_back(j);
+    // the simulated sizes around it, and their weights
+    std::vector<std::pair<const Eigen::MatrixXd*, double>> parts;
+    if (const std::size_t last = sizes.size() - 1; std::fabs(size) > std::fabs(sizes[last]))
+        parts.emplace_back(&at[last]->common, size / sizes[last]);
+    else {
+        const Between b = between(sizes, size);
+        if (b.above > 0)
+            parts.emplace_back(&at[b.above - 1]->common, 1 - b.part);
+        parts.emplace_back(&at[b.above]->common, b.part);
+    }
+    auto columns = static_cast<Eigen::Index>(scattered.size());
+    for (const auto& [common, weight] : parts)
+        columns += common->cols();
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(own.size(), columns);
+    Eigen::Index k = 0;
+    for (const Eigen::Index j : scattered)
+        out(j, k++) = std::sqrt(own(j));
+    for (const auto& [common, weight] : parts) {
+        if (common->cols() > 0)
+            out.middleCols(k, common->cols()) = std::sqrt(weight) * *common;
+        k += common->cols();
+    }
+    return out;
+}
+
 std::vector<ShiftOfSize> shifts_of(const Signatures& signatures, const CausePlace& cause)
 {
     std::vector<ShiftOfSize> out;
     for (const double sign : {1.0, -1.0}) {
         std::vector<const CauseSignature*> found;
         for (const CauseSignature& c : signatures.causes)
-            if (c.cause.mechanism == cause.mechanism && c.cause.place == cause.place && sign * c.cause.size > 0)
+            if (CausePlace{c.cause.mechanism, c.cause.place, c.cause.form} == cause && sign * c.cause.size > 0)
                 found.push_back(&c);
         if (found.empty())
             continue;
@@ -142,7 +169,7 @@ std::vector<ShiftOfSize> shifts_of(const Signatures& signatures, const CausePlac
 Hypotheses::Hypotheses(const Signatures& signatures)
 {
     for (const CauseSignature& c : signatures.causes)
-        if (const CausePlace place{c.cause.mechanism, c.cause.place};
+        if (const CausePlace place{c.cause.mechanism, c.cause.place, c.cause.form};
             std::find(causes.begin(), causes.end(), place) == causes.end())
             causes.push_back(place);
     for (std::size_t i = 0; i < causes.size(); ++i) {

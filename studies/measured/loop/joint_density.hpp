@@ -21,8 +21,12 @@ constexpr double estimate_freedom = 8;
 /// A mechanism at a place, whatever its size.
 struct CausePlace {
     std::string mechanism, place;
+    std::string form = {}; ///< (`TestedCause::form`)
     friend bool operator==(const CausePlace&, const CausePlace&) = default;
-    std::string label() const { return mechanism + " at " + place; }
+    /// Whether it is the same mechanism at the same place, in whatever form.
+    bool same_place(const CausePlace& other) const { return mechanism == other.mechanism && place == other.place; }
+    std::string place_words() const { return form.empty() ? place : place + " " + form; }
+    std::string label() const { return mechanism + " at " + place_words(); }
 };
 
 /// One distribution of the estimates: a part of the sizes of a cause, or something that is not in the list.
@@ -42,6 +46,8 @@ struct ShiftOfSize {
     std::vector<const CauseSignature*> at;
     Eigen::VectorXd shift(double size) const;
     Eigen::VectorXd variance(double size) const;
+    /// (p x k) All scatter beside that of healthy specimens; its covariance, S S', is linear in the size.
+    Eigen::MatrixXd spread(double size) const;
 };
 
 struct Hypotheses {

@@ -24,7 +24,8 @@ constexpr double usual_friction = 0.6;  // where the specimen states none
 constexpr double listed_belief = 0.7;   // of candidates that the first diagnosis lists without a probability
 constexpr double most_told_nats = 8;
 constexpr std::size_t specimens_of_a_law = 40; // healthy ones that count
-constexpr double like_the_plan = 0.1;          // of the largest displacement: farther, and a run was another test
+constexpr std::size_t specimens_in_prospect = 4;
+constexpr double like_the_plan = 0.1; // of the largest displacement: farther, and a run was another test
 
 /// One performance of a test on one joint.
 struct DoneTest {
@@ -155,9 +156,9 @@ private:
     const Cause& cause_of(const CausePlace& place) const
     {
         const auto at = std::ranges::find_if(causes_, [&](const LoopCause& c) {
-            return c.named.mechanism == place.mechanism && c.named.place == place.place;
+            return CausePlace{c.named.mechanism, c.named.place, c.named.form} == place;
         });
-        return at->cause.cause;
+        return at->told;
     }
 
     std::vector<StoryBelief> beliefs(const Belief& before, const Belief& after) const
@@ -192,6 +193,7 @@ private:
                     seen_.push_back({*column, e.value});
                     measured.push_back(e);
                 }
+            tried_.emplace_back(test.kind, test.joint);
         }
         std::ranges::sort(joints);
         step.joints = joints_in_words(joints);
@@ -257,7 +259,7 @@ private:
     {
         const Cause& cause = cause_of(*now.cause);
         story.mechanism = now.cause->mechanism;
-        story.place = now.cause->place;
+        story.place = now.cause->place_words();
         story.parameter = cause.parameter;
         story.unit = cause.unit;
         story.size = parameter_of(cause, now.size);
@@ -279,15 +281,16 @@ private:
                     cost = stated;
             tests.push_back({kind, std::nullopt, cost, cannot_do(campaign_.specimen, campaign_.laboratory, kind)});
         }
-        for (const RatedTest& rated : rated_tests(model_, seen_, tests))
+        const Prospects prospects = [&](const TestOption& option) { return models_after(option); };
+        for (const RatedTest& rated : rated_tests(model_, seen_, tests, {}, prospects))
             story.options.push_back({to_string(rated.option.test), rated.option.cost, rated.entropy_fall,
-                                     rated.per_cost, rated.left_out.value_or("")});
+                                     rated.belief_gain, rated.per_cost, rated.left_out.value_or("")});
         if (now.verdict == SequenceVerdict::named || now.verdict == SequenceVerdict::unexplained)
             return;
         std::vector<RatedTest> next;
         if (options_.planned > 1)
-            next = planned_tests(model_, tests, options_.planned);
-        else if (std::optional<RatedTest> one = chosen_test(model_, seen_, tests))
+            next = planned_tests(model_, tests, options_.planned, {}, prospects);
+        else if (std::optional<RatedTest> one = chosen_test(model_, seen_, tests, {}, prospects))
             next.push_back(std::move(*one));
         for (const RatedTest& test : next)
             story.next.emplace_back(to_string(test.option.test));
@@ -331,7 +334,48 @@ private:
         std::vector<std::pair<Eigen::Index, double>> values;
         for (const SeenEstimate& e : seen)
             values.emplace_back(e.column, e.value);
-        return {signatures_of(like_measured(samples_, values, specimens_of_a_law)), prior_};
+        return model_with(values);
+    }
+    SequenceModel model_with(const std::vector<std::pair<Eigen::Index, double>>& values) const
+    {
+        Signatures s = signatures_of(like_measured(samples_, values, specimens_of_a_law));
+        // what a test did not give is not expected of its repeat either
+        for (std::size_t k = 0; k < s.columns.size(); ++k)
+            if (std::ranges::find(tried_, std::pair(s.columns[k].test, s.columns[k].joint)) != tried_.end() &&
+                std::ranges::none_of(seen_, [&](const SeenEstimate& e) { return e.column == static_cast<int>(k); }))
+                s.used[k] = false;
+        return {std::move(s), prior_};
+    }
+
+    /// Models of specimens like some healthy ones, by what a test would show of their law: those at the middles of
+    /// quarters of all, in the order of one estimate.
+    std::vector<SequenceModel> models_after(const TestOption& option) const
+    {
+        std::vector<Eigen::Index> of_law;
+        for (std::size_t k = 0; k < samples_.columns.size(); ++k)
+            if (samples_.columns[k].of_the_law && samples_.columns[k].test == option.test)
+                of_law.push_back(static_cast<Eigen::Index>(k));
+        if (of_law.empty())
+            return {};
+        std::vector<std::pair<Eigen::Index, double>> values;
+        for (const SeenEstimate& e : seen_)
+            values.emplace_back(e.column, e.value);
+        const TestSamples like = like_measured(samples_, values, specimens_of_a_law);
+        std::vector<std::pair<double, Eigen::Index>> order;
+        for (Eigen::Index i = 0; i < like.healthy.rows(); ++i)
+            if (const double value = like.healthy(i, of_law.front()); std::isfinite(value))
+                order.emplace_back(value, i);
+        std::ranges::sort(order);
+        std::vector<SequenceModel> models;
+        for (std::size_t part = 0; part < specimens_in_prospect && !order.empty(); ++part) {
+            const Eigen::Index i = order[(2 * part + 1) * order.size() / (2 * specimens_in_prospect)].second;
+            auto with = values;
+            for (const Eigen::Index k : of_law)
+                if (std::isfinite(like.healthy(i, k)))
+                    with.emplace_back(k, like.healthy(i, k));
+            models.push_back(model_with(with));
+        }
+        return models;
     }
 
     const Campaign& campaign_;
@@ -341,6 +385,7 @@ private:
     const LoopOptions& options_;
     SequenceModel model_;
     std::vector<SeenEstimate> seen_;
+    std::vector<std::pair<RunKind, int>> tried_; ///< tests that were done at a joint
 };
 
 } // namespace
@@ -351,8 +396,6 @@ std::vector<PriorShare> prior_shares(const Diagnosis& diagnosis)
     double sum = 0, likely = 0;
     for (const Candidate& c : diagnosis.candidates) {
         PriorShare share{c.mechanism, c.place, std::expm1(std::min(c.gain_nats.value_or(0), most_told_nats) / 2)};
-        if (c.mechanism == "corner_loss") // of either side
-            share.place.reset();
         likely += c.probability.value_or(0);
         sum += share.weight;
         shares.push_back(std::move(share));
@@ -393,7 +436,8 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
     const Signatures signatures = signatures_of(samples.samples);
     std::erase_if(prior.shares, [&](const PriorShare& share) { // of base and sensors: no test of a joint shows them
         return std::ranges::none_of(signatures.causes, [&](const CauseSignature& c) {
-            return c.cause.mechanism == share.of && (!share.place || c.cause.place == *share.place);
+            return (c.cause.mechanism == share.of || cause_group(c.cause.mechanism) == share.of) &&
+                   (!share.place || c.cause.place == *share.place);
         });
     });
     Loop(campaign, causes, samples.samples, prior, options).tell(steps, joints, story);
@@ -409,7 +453,7 @@ Campaign planned_campaign(const Campaign& campaign, const std::vector<std::strin
     plan.specimen = campaign.specimen;
     plan.laboratory = campaign.laboratory;
     for (const RunKind kind : joint_test_kinds) {
-        if (kind == RunKind::rest || std::ranges::find(tests, to_string(kind)) == tests.end())
+        if (std::ranges::find(tests, to_string(kind)) == tests.end())
             continue;
         for (const int joint : joints_alone(campaign.specimen))
             for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, kind, joint))
@@ -424,7 +468,7 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
     if (kind == RunKind::rest)
         return {"Weigh each block on two supports for its centre of mass.",
                 "Print the beds with ink, and measure from each edge where they begin to carry.",
-                "Measure with a level how the blocks lie.",
+                "Let the cameras see each block for half a second on the one below it, nothing above it: how it lies.",
                 "The numbers are lists of the specimen: centre_of_mass_m, bearing_left_m, bearing_right_m."};
     const std::vector<MeasuredRun> runs = planned_runs(specimen, laboratory, kind, joints.front());
     std::vector<std::string> lines;

@@ -116,10 +116,8 @@ struct HealthyEstimates {
         const Eigen::VectorXd at = root.matrixL().solve(Eigen::VectorXd(of.shift(size)(used.columns)));
         const Eigen::VectorXd weight = root.matrixU().solve(at);
         // repeats on one specimen share what varies between specimens
-        Eigen::VectorXd of_column = Eigen::VectorXd::Zero(of.at.front()->shift.size());
-        for (std::size_t k = 0; k < used.columns.size(); ++k)
-            of_column(used.columns[k]) += weight(static_cast<Eigen::Index>(k));
-        const double variance = at.squaredNorm() + of_column.cwiseAbs2().dot(of.variance(size));
+        const Eigen::MatrixXd spread = of.spread(size)(used.columns, Eigen::all);
+        const double variance = at.squaredNorm() + (spread.transpose() * weight).squaredNorm();
         return variance > 0 ? Along{at.dot(white), at.squaredNorm(), std::sqrt(variance)} : Along{};
     }
     double distance(const ShiftOfSize& of, double size) const
@@ -177,6 +175,16 @@ std::optional<SeenDeviation> deviation_from_others(const Signatures& s, const Us
     const double expected = s.mean(column) + weight.dot(Eigen::Map<const Eigen::VectorXd>(off.data(), n));
     return SeenDeviation{column, value, expected,
                          (value - expected) / std::sqrt(c(0, 0) - weight.dot(c.col(0).tail(n))), true};
+}
+
+/// Sum over the forms of a cause.
+double shares_at(const Hypotheses& hypotheses, const std::vector<double>& shares, std::size_t cause)
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < shares.size(); ++k)
+        if (hypotheses.causes[k].same_place(hypotheses.causes[cause]))
+            sum += shares[k];
+    return sum;
 }
 
 double entropy_of_share(double share)
@@ -263,6 +271,11 @@ double Belief::entropy() const
     return sum;
 }
 
+double Belief::at_place(const Hypotheses& hypotheses, std::size_t cause) const
+{
+    return shares_at(hypotheses, causes, cause);
+}
+
 Belief belief_from(const SequenceModel& model, const Eigen::VectorXd& log_ratios)
 {
     Belief out;
@@ -309,13 +322,18 @@ SequenceJudgement judgement_of(const SequenceModel& model, std::span<const SeenE
     const Belief belief = belief_from(model, density.log_ratios(white));
     out.log_evidence = belief.log_evidence;
     const bool strong = out.log_evidence >= std::log(evidence_to_name);
-    for (std::size_t i = 0; i < belief.causes.size(); ++i)
+    double of_form = 0;
+    for (std::size_t i = 0; i < belief.causes.size(); ++i) {
+        const double share = shares_at(model.hypotheses, belief.causes, i),
+                     before = shares_at(model.hypotheses, model.causes, i);
         // those for which the tests speak, more than for nothing
-        if (belief.causes[i] * model.prior.nothing > belief.nothing * model.causes[i] * (1 + 1e-9) &&
-            belief.causes[i] > out.share) {
+        const bool spoken_for = share * model.prior.nothing > belief.nothing * before * (1 + 1e-9);
+        if (spoken_for && (share > out.share || (share == out.share && belief.causes[i] > of_form))) {
             out.cause = model.hypotheses.causes[i];
-            out.share = belief.causes[i];
+            out.share = share;
+            of_form = belief.causes[i];
         }
+    }
     std::size_t likeliest = 0, farthest = 0;
     double most = 0, off = 0, sum = 0;
     for (std::size_t i = 0; i < model.hypotheses.each.size(); ++i) {
@@ -360,13 +378,9 @@ std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const 
         const double last = most_size * of.sizes.back();
         for (int i = 0; i < limit_steps; ++i) {
             const double size = last * (i + 0.5) / limit_steps;
-            Eigen::MatrixXd covariance = model.signatures.covariance_of(used.columns);
-            const Eigen::VectorXd more = of.variance(size);
-            for (std::size_t a = 0; a < used.columns.size(); ++a) // repeats on one specimen share it
-                for (std::size_t b = 0; b < used.columns.size(); ++b)
-                    if (used.columns[a] == used.columns[b])
-                        covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) += more(used.columns[a]);
-            const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+            const Eigen::MatrixXd spread = of.spread(size)(used.columns, Eigen::all); // repeats share it
+            const Eigen::LLT<Eigen::MatrixXd> root(model.signatures.covariance_of(used.columns) +
+                                                   spread * spread.transpose());
             const Eigen::VectorXd white =
                 root.matrixL().solve(used.values - (model.signatures.mean + of.shift(size))(used.columns));
             const double log_density = -root.matrixLLT().diagonal().array().log().sum() -

@@ -68,7 +68,9 @@ struct Belief {
     std::vector<double> causes;     ///< (`Hypotheses::causes`)
     std::vector<double> hypothesis; ///< (`Hypotheses::each`)
     double log_evidence = 0;        ///< ln E
-    double entropy() const;         ///< of nothing, the causes and what is not listed [nats]
+    /// In the mechanism of a cause at its place, in whatever form.
+    double at_place(const Hypotheses& hypotheses, std::size_t cause) const;
+    double entropy() const; ///< of nothing, the causes and what is not listed [nats]
 };
 
 /// @param log_ratios of the hypotheses, as `JointDensity::log_ratios`; empty: before the first test

@@ -17,12 +17,17 @@ namespace stylobate {
 
 namespace {
 
-constexpr double least_finite = 0.75;      // part of the healthy specimens in which a used column has a value
-constexpr double least_deviations = 2;     // of a shift that counts, in standard deviations
-constexpr double least_errors = 3;         // and in its standard errors
-constexpr double least_floor = 0.05;       // of the scatter: no test repeats itself better
-constexpr double common_floor = 2;         // of what all joints have in common, over the floor of one
+constexpr double least_finite = 0.75;  // part of the healthy specimens in which a used column has a value
+constexpr double least_deviations = 2; // of a shift that counts, in standard deviations
+constexpr double least_errors = 3;     // and in its standard errors
+constexpr double least_floor = 0.05;   // of the scatter: no test repeats itself better
+constexpr double common_floor = 2;     // of what all joints have in common, over the floor of one
+constexpr double fewest_of_cause = 3;  // specimens with an estimate
+constexpr double guessed_part = 0.5;   // standard deviation of a shift that a weaker size lets expect, over the shift
 constexpr Eigen::Index parts_left_out = 6; // one after the other
+// Of the scatter of a cause. What is not seen of it decides: a velocity of Stribeck's law moves all joints together,
+// and some specimens alone do not tell in which proportions.
+constexpr double common_part = 0.5;
 
 /// Mean, variance and number of the finite values.
 struct FiniteMoments {
@@ -105,7 +110,7 @@ ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, 
         for (Eigen::Index i = 0; i < values.size(); ++i)
             values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
     const FiniteMoments with = finite_moments(values);
-    if (with.count < 2 || 2 * with.count < static_cast<double>(values.size()))
+    if (with.count < fewest_of_cause)
         return out;
     out.known = true;
     if (paired) {
@@ -122,8 +127,52 @@ ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, 
     return out;
 }
 
+/// Takes half of the scatter as what the estimates have together in the same specimens.
+void take_common_part(const TestSamples& tests, const CauseSamples& samples, CauseSignature& out)
+{
+    const bool paired = samples.differences || !samples.pairs.empty();
+    if (!paired || samples.rows.rows() < 2)
+        return;
+    const Eigen::Index m = samples.rows.rows();
+    out.common = Eigen::MatrixXd::Zero(out.shift.size(), m);
+    for (Eigen::Index j = 0; j < out.shift.size(); ++j) {
+        if (out.shift(j) == 0 || !column_shift(tests, samples, j).known)
+            continue;
+        Eigen::VectorXd values = samples.rows.col(j);
+        for (Eigen::Index i = 0; i < m && !samples.differences; ++i)
+            values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
+        const FiniteMoments with = finite_moments(values);
+        for (Eigen::Index i = 0; i < m; ++i)
+            if (std::isfinite(values(i)))
+                out.common(j, i) = std::sqrt(common_part / (with.count - 1)) * (values(i) - with.mean);
+        out.variance(j) -= common_part * with.variance;
+    }
+}
+
+/// Where a cause leaves hardly an estimate, because what is tested falls: in proportion to a weaker size.
+void guess_shift(const CauseSignature* weaker, Eigen::Index j, CauseSignature& out)
+{
+    if (weaker && weaker->shift(j) != 0) {
+        out.shift(j) = out.cause.size / weaker->cause.size * weaker->shift(j);
+        out.variance(j) = guessed_part * guessed_part * out.shift(j) * out.shift(j);
+    }
+}
+
+/// The next weaker size of the same cause.
+const CauseSignature* next_weaker(const std::vector<CauseSignature>& known, const TestedCause& cause)
+{
+    const CauseSignature* found = nullptr;
+    for (const CauseSignature& c : known)
+        if (c.cause.mechanism == cause.mechanism && c.cause.place == cause.place && c.cause.form == cause.form &&
+            c.cause.size * cause.size > 0 && std::fabs(c.cause.size) < std::fabs(cause.size) &&
+            (!found || std::fabs(c.cause.size) > std::fabs(found->cause.size)))
+            found = &c;
+    return found;
+}
+
+/// @param weaker the next weaker size of the same cause; null: there is none
 CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& samples, const Signatures& s,
-                               const Eigen::VectorXd& sd)
+                               const Eigen::VectorXd& sd, const CauseSignature* weaker)
 {
     const Eigen::Index p = s.mean.size();
     CauseSignature out{samples.cause, Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
@@ -131,11 +180,16 @@ CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& sam
         if (!s.used[static_cast<std::size_t>(j)])
             continue;
         const ColumnShift c = column_shift(tests, samples, j);
-        if (!c.known || std::fabs(c.shift) < least_deviations * sd(j) || std::fabs(c.shift) < least_errors * c.error)
+        if (!c.known) {
+            guess_shift(weaker, j, out);
+            continue;
+        }
+        if (std::fabs(c.shift) < least_deviations * sd(j) || std::fabs(c.shift) < least_errors * c.error)
             continue;
         out.shift(j) = c.shift;
         out.variance(j) = c.variance;
     }
+    take_common_part(tests, samples, out);
     return out;
 }
 
@@ -296,7 +350,7 @@ Signatures signatures_of(const TestSamples& tests)
     for (const std::vector<Eigen::Index>& group : s.alike)
         sd(group) = s.sd_given_others(group);
     for (const CauseSamples& samples : tests.causes)
-        s.causes.push_back(cause_signature(tests, samples, s, sd));
+        s.causes.push_back(cause_signature(tests, samples, s, sd, next_weaker(s.causes, samples.cause)));
     return s;
 }
 

@@ -39,6 +39,7 @@ struct TestedCause {
     std::string place; ///< "joint 0", "block 2", "all"
     double size = 0;   ///< 0 is neutral; below 0 only where it has two signs
     std::string unit = {};
+    std::string form = {}; ///< of several that one mechanism has at a place: a side, a law; empty: it has one
     friend bool operator==(const TestedCause&, const TestedCause&) = default;
 };
 
@@ -63,6 +64,9 @@ struct CauseSignature {
     TestedCause cause;
     Eigen::VectorXd shift;    ///< (p) of the mean; 0 where it is below 2 standard deviations
     Eigen::VectorXd variance; ///< (p) beside that of healthy specimens, with that of the shift itself
+    /// (p x k) What of the scatter the estimates have together, in addition: its covariance is C C'. No column: not
+    /// known.
+    Eigen::MatrixXd common = {};
 };
 
 struct Signatures {

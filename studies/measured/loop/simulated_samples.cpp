@@ -152,8 +152,8 @@ private:
         const LoopCause& cause = causes[c];
         for (std::size_t other = 0; other < c; ++other)
             if (const LoopCause& o = causes[other];
-                cause.joint >= 0 && o.joint >= 0 && o.cause.cause.mechanism == cause.cause.cause.mechanism &&
-                o.cause.cause.side == cause.cause.cause.side && o.named.size == cause.named.size &&
+                cause.joint >= 0 && o.joint >= 0 && o.named.mechanism == cause.named.mechanism &&
+                o.named.form == cause.named.form && o.named.size == cause.named.size &&
                 same_bodies(specimen, o.joint, cause.joint))
                 return other;
         return c;
@@ -300,21 +300,15 @@ public:
         for (const SampleSubject& subject : subjects)
             simulated.push_back(of(subject));
         std::vector<std::vector<Estimate>> out;
-        if (test.kind == RunKind::rest) {
-            MeasuredRun run;
-            run.test = RunKind::rest;
-            run.joint = test.joint;
-            for (std::size_t s = 0; s < subjects.size(); ++s)
-                out.push_back(estimates(
-                    measured_at_rest(specimen_, *simulated[s].law, simulated[s].causes, plan_.seed, subjects[s]),
-                    std::span(&run, 1), plan_.floor));
-            return out;
-        }
         const SimulatedTests done =
             simulated_tests(specimen_, about_, test.runs, simulated, plan_.seed, options_, observer_);
         cost += done.cost;
-        for (const std::vector<MeasuredRun>& runs : done.runs)
-            out.push_back(estimates(specimen_, runs, plan_.floor));
+        for (std::size_t s = 0; s < done.runs.size(); ++s)
+            out.push_back(estimates(
+                test.kind == RunKind::rest
+                    ? measured_at_rest(specimen_, *simulated[s].law, simulated[s].causes, plan_.seed, subjects[s])
+                    : specimen_,
+                done.runs[s], plan_.floor));
         return out;
     }
 

@@ -22,7 +22,7 @@ namespace stylobate {
 struct PlannedTest {
     RunKind kind = RunKind::pull;
     int joint = 0;
-    std::vector<MeasuredRun> runs; ///< without measurements; of `rest` none
+    std::vector<MeasuredRun> runs; ///< without measurements
 };
 
 struct SamplePlan {

@@ -14,14 +14,16 @@ namespace {
 
 // From weak to strong.
 constexpr std::array friction_parts = {0.1, 0.3, 0.6}; // off the friction: of one joint, or of all while they slide
-constexpr std::array worn_parts = {0.1, 0.4, 1.5};     // of the friction, over the path of a pull
-constexpr std::array held_parts = {0.25, 1.0, 3.0};    // of a dowel or a bond, over the friction at rest
-constexpr std::array lost_corners = {0.04, 0.15};      // over the width
-constexpr std::array centre_offsets = {0.025, 0.08};   // over the width
-constexpr std::array wedge_angles = {0.002, 0.008};    // [rad]
-constexpr std::array critical_parts = {0.15, 0.5};     // of critical damping, of the block on the joint
-constexpr std::array rates = {3.0, 10.0};              // Hunt and Crossley's lambda over 0.1 sqrt(g h)
-constexpr std::array drag_parts = {0.1, 0.3, 0.6};     // of the weight, at the speed of the table in `slide`
+constexpr std::array worn_parts = {0.1, 0.4,  1.5,
+                                   5.0, 20.0, 60.0};      // of the friction, over the path of a pull: the last ones end
+constexpr std::array lost_before = {0.85, 0.97};          // of the friction, before the tests
+constexpr std::array held_parts = {0.25, 1.0, 3.0, 10.0}; // of a dowel or a bond, over the friction at rest
+constexpr std::array lost_corners = {0.04, 0.15};         // over the width
+constexpr std::array centre_offsets = {0.025, 0.08};      // over the width
+constexpr std::array wedge_angles = {0.002, 0.008};       // [rad]
+constexpr std::array critical_parts = {0.15, 0.5, 1.2};   // of critical damping, of the block on the joint
+constexpr std::array rates = {3.0, 10.0};                 // Hunt and Crossley's lambda over 0.1 sqrt(g h)
+constexpr std::array drag_parts = {0.1, 0.3, 0.6};        // of the weight, at the speed of the table in `slide`
 constexpr double least_velocity = 0.01, most_velocity = 0.08; // of Stribeck's law, over sqrt(g H)
 constexpr double least_yield = 0.002, most_yield = 0.02;      // slip at which a dowel yields, over the width
 constexpr double least_tension = 0.5, most_tension = 2;       // of a bond, over its cohesion
@@ -31,16 +33,22 @@ constexpr double slide_speed_m_s = 0.43;                      // likewise: 10.7 
 /// One mechanism at one place.
 class CauseMaker {
 public:
-    CauseMaker(std::vector<LoopCause>& all, int joint, Cause cause) : all_(all), joint_(joint), cause_(std::move(cause))
+    CauseMaker(std::vector<LoopCause>& all, int joint, Cause cause, std::string form = {})
+        : all_(all), joint_(joint), cause_(std::move(cause)), form_(std::move(form))
     {
     }
 
+    /// A cause that acts in the tests as another one does.
+    void add_like(const SizedCause& acting, double size)
+    {
+        all_.push_back({acting, cause_, {cause_.mechanism, cause_.place, size, cause_.unit, form_}, joint_});
+    }
     /// @param size in the tables
     void add(double size, double least_fixed = 0, double most_fixed = 0)
     {
-        const std::string place = cause_.place + (cause_.side ? " " + *cause_.side : "");
         all_.push_back({{cause_, parameter_of(cause_, size)},
-                        {cause_.mechanism, place, size, cause_.unit},
+                        cause_,
+                        {cause_.mechanism, cause_.place, size, cause_.unit, form_},
                         joint_,
                         least_fixed,
                         most_fixed});
@@ -50,6 +58,7 @@ private:
     std::vector<LoopCause>& all_;
     int joint_;
     Cause cause_;
+    std::string form_;
 };
 
 Cause of_joint(const char* mechanism, int joint, const char* parameter, const char* unit, double neutral = 0)
@@ -75,6 +84,10 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     CauseMaker wear(all, joint, of_joint("friction_wear", joint, "wear_per_m", "1/m"));
     for (const double part : worn_parts)
         wear.add(part / (pull_path_m * body.length_ratio));
+    // Wear that went on in other runs before: what is left is little, and goes on being little.
+    CauseMaker worn(all, joint, of_joint("friction_wear", joint, "lost", ""), "worn before");
+    for (const double lost : lost_before)
+        worn.add_like({of_joint("joint_friction", joint, "ratio", "", 1), 1 - lost}, lost);
     CauseMaker dowel(all, joint, of_joint("dowel", joint, "yield_n", "N"));
     CauseMaker bond(all, joint, of_joint("adhesion", joint, "adhesion_n_m", "N/m"));
     for (const double part : held_parts) {
@@ -84,7 +97,7 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     for (const char* side : {"left", "right"}) {
         Cause chip = of_joint("corner_loss", joint, "loss_m", "m");
         chip.side = side;
-        CauseMaker corner(all, joint, chip);
+        CauseMaker corner(all, joint, chip, side);
         for (const double part : lost_corners)
             corner.add(part * width);
     }
@@ -134,7 +147,7 @@ std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<i
     CauseMaker drag(all, -1, {"drag", "all", "coefficient_n_s2_m2", "N s2/m2"});
     for (const double part : drag_parts)
         drag.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * slide_speed_m_s * length));
-    CauseMaker viscous(all, -1, {"drag", "all, linear", "linear_n_s_m", "N s/m"});
+    CauseMaker viscous(all, -1, {"drag", "all", "linear_n_s_m", "N s/m"}, "linear");
     for (const double part : drag_parts)
         viscous.add(part * mass * specimen.gravity_m_s2 / (slide_speed_m_s * std::sqrt(length)));
     for (const int joint : joints)

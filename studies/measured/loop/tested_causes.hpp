@@ -13,7 +13,8 @@
 namespace stylobate {
 
 struct LoopCause {
-    SizedCause cause;
+    SizedCause cause;  ///< that acts
+    Cause told;        ///< the one that is told of: another where it acts in the tests as this one does
     TestedCause named; ///< as the tables have it: its size is 0 where it is neutral
     int joint = -1;    ///< in whose tests it acts, of a block that on which it stands; -1: all
     /// Second parameter, drawn anew for each specimen, uniform in its logarithm: velocity of Stribeck's law, slip at

@@ -35,7 +35,10 @@ struct Assessment {
     std::string cache = "loop_cache";
     std::uint64_t healthy = 128, of_each = 16;
     int threads = 2;
-    bool signatures = false; ///< only what the tests give is told
+    bool options = false;           ///< what is expected of each test is told
+    std::vector<std::string> order; ///< of the tests, instead of those that are proposed
+    bool signatures = false;        ///< only what the tests give is told
+    std::vector<std::string> only;  ///< tests of which that is told; empty: of all
 };
 
 std::vector<int> joints_alone(const Specimen& specimen)
@@ -53,12 +56,6 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
     const int round = static_cast<int>(tests.empty() ? 0 : *tests.back().run_order / 1000 + 1);
     int order = 1000 * round;
     Campaign plan = planned_campaign(campaign, {test});
-    for (const int joint : test == "rest" ? joints_alone(campaign.specimen) : std::vector<int>()) {
-        MeasuredRun& run = plan.tests.emplace_back();
-        run.name = fmt::format("rest_{}", joint);
-        run.test = RunKind::rest;
-        run.joint = joint;
-    }
     for (MeasuredRun& run : plan.tests) {
         run.name = fmt::format("{:02}_{}", round, run.name);
         run.run_order = order++;
@@ -67,13 +64,15 @@ void add_test(const Campaign& campaign, const std::string& test, std::vector<Mea
 }
 
 /// What healthy specimens give at the first joint, and by how many standard deviations each cause shifts it.
-void tell_signatures(const Campaign& campaign, const Study& study, const LoopOptions& options)
+void tell_signatures(const Campaign& campaign, const Study& study, const LoopOptions& options,
+                     const std::vector<std::string>& only)
 {
     const std::vector<int> joints = joints_alone(campaign.specimen);
     std::vector<RunKind> kinds;
     for (const RunKind kind :
          {RunKind::pull, RunKind::push, RunKind::drop, RunKind::slide, RunKind::tilt, RunKind::board, RunKind::rest})
-        if (!cannot_do(campaign.specimen, campaign.laboratory, kind))
+        if (!cannot_do(campaign.specimen, campaign.laboratory, kind) &&
+            (only.empty() || std::ranges::find(only, to_string(kind)) != only.end()))
             kinds.push_back(kind);
     const std::vector<LoopCause> causes =
         loop_causes(campaign.specimen, joints, campaign.specimen.friction_nominal.value_or(0.6),
@@ -136,13 +135,22 @@ void assess(const Assessment& how, std::uint64_t seed)
                     fmt::format("{}_{:g}.txt", campaign.specimen.blocks(), campaign.specimen.half_width_m.front());
     Observer observer;
     if (how.signatures)
-        return tell_signatures(campaign, study, options);
+        return tell_signatures(campaign, study, options, how.only);
     std::vector<MeasuredRun> plans;
     std::string done;
     std::optional<TestStory> story;
     const std::vector<PriorShare> prior = prior_of(how, made);
     for (int i = 0;; ++i) {
         story = laboratory_loop(campaign, study, prior, options, observer);
+        if (how.options) {
+            std::string told;
+            for (const StoryOption& o : story->options)
+                told += fmt::format(" {} {:.3f}{}", o.test, o.per_cost, o.left_out.empty() ? "" : "!");
+            fmt::print("#   fall per cost:{}\n", told);
+        }
+        if (!how.order.empty())
+            story->next = i < static_cast<int>(how.order.size()) ? std::vector{how.order[static_cast<std::size_t>(i)]}
+                                                                 : std::vector<std::string>();
         if (story->next.empty() || i == how.tests)
             break;
         done += (done.empty() ? "" : " ") + story->next.front();
@@ -195,6 +203,9 @@ int main(int argc, char** argv)
     app.add_option("--healthy", how.healthy);
     app.add_option("--of-each", how.of_each);
     app.add_option("--threads", how.threads);
+    app.add_flag("--options", how.options, "tells what is expected of each test");
+    app.add_option("--order", how.order, "tests that are done, instead of those that are proposed");
+    app.add_option("--only", how.only, "with --signatures: of these tests");
     app.add_flag("--signatures", how.signatures, "tells what healthy specimens and causes give, and does no test");
     try {
         app.parse(argc, argv);

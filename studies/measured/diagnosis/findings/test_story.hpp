@@ -64,9 +64,10 @@ struct StoryLimit {
 struct StoryOption {
     std::string test;
     double cost = 1;
-    double entropy_fall = 0; ///< expected [nats]
-    double per_cost = 0;
-    std::string left_out; ///< why it is no choice; empty: it is one
+    double entropy_fall = 0; ///< of the belief, expected [nats]
+    double belief_gain = 0;  ///< in what acts, expected
+    double per_cost = 0;     ///< of the gain
+    std::string left_out;    ///< why it is no choice; empty: it is one
     friend bool operator==(const StoryOption&, const StoryOption&) = default;
 };
 
@@ -141,6 +142,7 @@ void visit_fields(std::type_identity<StoryOption>, F&& f)
     f("test", &StoryOption::test);
     f("cost", &StoryOption::cost);
     f("entropy_fall", &StoryOption::entropy_fall);
+    f("belief_gain", &StoryOption::belief_gain);
     f("per_cost", &StoryOption::per_cost);
     f("left_out", &StoryOption::left_out);
 }

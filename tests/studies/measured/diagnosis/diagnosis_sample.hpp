@@ -190,7 +190,7 @@ inline Diagnosis filled_diagnosis()
                     "It is 21.5 standard deviations from what healthy specimens give."},
                    {"rest", "0", {}, {}, 11.5, SequenceVerdict::named, "It gave no estimate."}};
     story.limits = {{"dowel at joint 1", "yield_n = 0.12 N"}, {"drag at all", ""}};
-    story.options = {{"push", 1.5, 0.4, 0.27, ""}, {"shake", 1, 0, 0, "no cause shows in it"}};
+    story.options = {{"push", 1.5, 0.4, 0.4, 0.27, ""}, {"shake", 1, 0, 0, 0, "no cause shows in it"}};
     story.next = {"push"};
     story.sheet = {"push: at joints 0, 1.", "Clamp the blocks below."};
     story.notes = {"Run 7 is left out."};

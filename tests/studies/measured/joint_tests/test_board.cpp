@@ -97,7 +97,9 @@ TEST(Board, EstimatesNothingWhereNothingSlid)
 {
     SlidingBlock steep;
     steep.static_left = steep.static_right = 2; // 63 degrees
-    EXPECT_TRUE(board_estimates(steep, 70).empty());
+    const auto held = board_estimates(steep, 70);
+    expect_estimate(held, "board.static", std::log(std::tan(steepest_board_rad)), 0.002);
+    EXPECT_FALSE(find(held, "board.kinetic"));
     SlidingBlock turning;
     turning.turns = true;
     EXPECT_TRUE(board_estimates(turning, 80).empty());

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stylobate {
@@ -38,8 +39,8 @@ TEST(TestChoice, ExpectedEntropyIsThatOfItsIntegral)
         for (const double part : parts)
             expected -= part * std::log(part / all) * std::cosh(u) * step;
     }
-    EXPECT_NEAR(expected_entropy(model, {}, {0}, {20'000, 3}), expected, 0.012);
-    EXPECT_EQ(expected_entropy(model, {}, {0}, {200, 3}), expected_entropy(model, {}, {0}, {200, 3}));
+    EXPECT_NEAR(expected_belief(model, {}, {0}, {20'000, 3}).entropy, expected, 0.012);
+    EXPECT_EQ(expected_belief(model, {}, {0}, {200, 3}).entropy, expected_belief(model, {}, {0}, {200, 3}).entropy);
     // before any test
     EXPECT_NEAR(belief_of(model, {}).entropy(),
                 -0.5 * std::log(0.5) - 0.425 * std::log(0.425) - 0.075 * std::log(0.075), 1e-12);
@@ -58,6 +59,46 @@ TEST(TestChoice, PrefersTheGroupThatTheFirstDiagnosisSuspects)
         ASSERT_TRUE(chosen);
         EXPECT_TRUE(chosen->option.test == first || chosen->option.test == second) << group;
     }
+}
+
+TEST(TestChoice, TheBeliefInWhatActsIsThatOfItsIntegral)
+{
+    // one estimate, one cause of prior 0.425: the mean of its posterior where it acts, and the same of what is not
+    // listed
+    const Signatures s =
+        gaussian::signatures({{RunKind::push, 0, "plateau"}}, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1),
+                             0.2, {gaussian::cause("corner_loss", "joint 0", 1, 1, {{0, 3}})});
+    const SequenceModel model(s, {});
+    double expected = 0;
+    const double step = 0.001;
+    for (double u = -9; u <= 9; u += step) {
+        const double x = std::sinh(u);
+        const double nothing = 0.5 * gaussian::student_density(x, 0, 1.04),
+                     cause = 0.425 * gaussian::student_density(x, 3, 1.04 + 9 / 12.0),
+                     unlisted = 0.075 * gaussian::student_density(x, 0, 1.04 * 37);
+        expected += (cause * cause + unlisted * unlisted) / (nothing + cause + unlisted) * std::cosh(u) * step;
+    }
+    EXPECT_NEAR(expected_belief(model, {}, {0}, {20'000, 3}).in_truth, expected, 0.006);
+    EXPECT_NEAR(expected_belief(model, {}, {}, {2000, 3}).in_truth, 0.425 * 0.425 + 0.075 * 0.075, 0.002);
+}
+
+TEST(TestChoice, AsksWhatTheSpecimenMayTurnOutToBe)
+{
+    const Signatures narrow = gaussian::laboratory(); // once the law is known
+    Signatures wide = narrow;
+    wide.covariance *= 25;
+    wide.floor_variance *= 25;
+    const SequenceModel model(wide, {}), known(narrow, {});
+    const auto after_push = [&](const TestOption& option) {
+        return option.test == RunKind::push ? std::vector{known} : std::vector<SequenceModel>();
+    };
+    const auto gain = [&](const std::vector<RatedTest>& all, RunKind test) {
+        return std::ranges::find(all, test, [](const RatedTest& t) { return t.option.test; })->belief_gain;
+    };
+    const std::vector<RatedTest> blind = rated_tests(model, {}, all_kinds()),
+                                 seeing = rated_tests(model, {}, all_kinds(), {}, after_push);
+    EXPECT_GT(gain(seeing, RunKind::push), gain(blind, RunKind::push) + 0.02);
+    EXPECT_EQ(gain(seeing, RunKind::pull), gain(blind, RunKind::pull));
 }
 
 TEST(TestChoice, PrefersTheCheapOneOfEqualTests)
@@ -123,9 +164,9 @@ TEST(TestChoice, OneJointIsWorthLessThanAll)
     const SequenceModel model(gaussian::laboratory(), {});
     const double before = belief_of(model, {}).entropy();
     const double one =
-        before - expected_entropy(model, {}, columns_of(model.signatures, {RunKind::push, 1, 1, {}}), {});
+        before - expected_belief(model, {}, columns_of(model.signatures, {RunKind::push, 1, 1, {}}), {}).entropy;
     const double all =
-        before - expected_entropy(model, {}, columns_of(model.signatures, {RunKind::push, {}, 1, {}}), {});
+        before - expected_belief(model, {}, columns_of(model.signatures, {RunKind::push, {}, 1, {}}), {}).entropy;
     EXPECT_LT(one, 0.3 * all) << "without another joint the law is not known";
     EXPECT_GT(all, 0.2);
 }
@@ -138,7 +179,7 @@ TEST(TestChoice, APlanTakesTestsOfDifferentGroups)
     const auto friction = [](RunKind test) { return test == RunKind::pull || test == RunKind::slide; };
     EXPECT_NE(friction(plan[0].option.test), friction(plan[1].option.test));
     for (std::size_t i = 1; i < plan.size(); ++i)
-        EXPECT_LE(plan[i].entropy_fall, plan[i - 1].entropy_fall + 0.02);
+        EXPECT_LE(plan[i].per_cost, plan[i - 1].per_cost + 0.02);
 }
 
 TEST(TestChoiceStatistics, GreedyChoiceNamesTheCause)

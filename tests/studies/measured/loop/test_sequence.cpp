@@ -105,6 +105,26 @@ TEST(Sequence, TheRightCauseIsNamedAtTheRightJoint)
     EXPECT_GE(named, 2 * specimens_of_each - 2) << "a shift of 9 where 0.7 is the scatter";
 }
 
+TEST(Sequence, FormsOfOneCauseAreNamedTogether)
+{
+    // drag by two laws that one estimate does not tell apart
+    CauseSignature square = gaussian::cause("drag", "all", 1, 1, {{0, 6}}), linear = square;
+    linear.cause.form = "linear";
+    const SequenceModel model(gaussian::signatures({{RunKind::slide, 0, "slide.drag"}}, Eigen::VectorXd::Zero(1),
+                                                   Eigen::MatrixXd::Identity(1, 1), 0.1, {square, linear}),
+                              {});
+    const std::vector<SeenEstimate> seen = {{0, 7}};
+    const Belief belief = belief_of(model, seen);
+    ASSERT_EQ(belief.causes.size(), 2U);
+    EXPECT_LT(belief.causes[0], 0.6);
+    EXPECT_NEAR(belief.at_place(model.hypotheses, 1), belief.causes[0] + belief.causes[1], 1e-15);
+    const SequenceJudgement judgement = judgement_of(model, seen);
+    EXPECT_EQ(judgement.verdict, SequenceVerdict::named);
+    EXPECT_EQ(judgement.cause->mechanism, "drag");
+    EXPECT_NEAR(judgement.share, belief.causes[0] + belief.causes[1], 1e-12);
+    EXPECT_EQ((CausePlace{"drag", "all", "linear"}.label()), "drag at all linear");
+}
+
 TEST(Sequence, AShiftThatNoCauseHasIsUnexplained)
 {
     const SequenceModel model(gaussian::laboratory(), {});

@@ -81,9 +81,44 @@ TEST(Signatures, ScatterOfACauseIsBesideThatOfHealthySpecimens)
     }
     const double variance = (squares - sum * sum / 24) / 23;
     const Signatures s = signatures_of(tests);
-    EXPECT_NEAR(s.causes[0].variance(7), variance * (1 + 1 / 24.0), 1e-9);
+    EXPECT_NEAR(s.causes[0].variance(7) + s.causes[0].common.row(7).squaredNorm(), variance * (1 + 1 / 24.0), 1e-9);
     EXPECT_NEAR(s.causes[0].shift(7), 6 + sum / 24, 1e-9);
     EXPECT_NEAR(s.causes[0].variance(10), 0, 1e-9);
+}
+
+TEST(Signatures, KnowWhatEstimatesScatterTogether)
+{
+    TestSamples tests = gaussian_tables(96, 24, true, 9);
+    Eigen::VectorXd more(24);
+    for (Eigen::Index i = 0; i < 24; ++i)
+        more(i) = std::sin(37.0 * static_cast<double>(i));
+    tests.causes[0].rows.col(7) += more;
+    tests.causes[0].rows.col(10) -= 2 * more;
+    const CauseSignature c = signatures_of(tests).causes[0];
+    const double variance = (more.array() - more.mean()).square().sum() / 23;
+    // half of it, with the sign that they have
+    EXPECT_NEAR(c.common.row(7).dot(c.common.row(10)), -2 * variance / 2, 1e-9);
+    EXPECT_NEAR(c.common.row(7).squaredNorm(), variance / 2, 1e-9);
+    EXPECT_NEAR(c.variance(10), 4 * variance * (0.5 + 1 / 24.0), 1e-9);
+    EXPECT_EQ(c.common.row(0).squaredNorm(), 0) << "it shifts nothing there";
+}
+
+TEST(Signatures, OfASizeUnderWhichAllFallsFollowTheWeakerOne)
+{
+    TestSamples tests = gaussian_tables(96, 24, true, 13);
+    CauseSamples strong = tests.causes[0];
+    strong.cause.size = 3;
+    strong.rows.col(10).array() += 12;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    strong.rows.col(7).tail(22).setConstant(none);
+    strong.rows.col(0).setConstant(none);
+    tests.causes.push_back(strong);
+    const Signatures s = signatures_of(tests);
+    EXPECT_NEAR(s.causes[1].shift(7), 18, 1e-9) << "three times that of the weaker size";
+    EXPECT_NEAR(s.causes[1].variance(7), 81, 1e-9) << "to a half";
+    EXPECT_NEAR(s.causes[1].shift(10), 18, 1e-9) << "as simulated";
+    EXPECT_EQ(s.causes[1].shift(0), 0) << "the weaker size shifts nothing there either";
+    EXPECT_EQ(s.causes[1].variance(0), 0);
 }
 
 TEST(Signatures, LeaveOutWhatFallsAndWhatHasNoScatter)
