@@ -124,7 +124,7 @@ void hold_by_rod(const Specimen& specimen, const SpecimenStructure& built, const
 }
 
 /// Where hands hold the upper block until the release: the body begins there.
-void put_held(const SpecimenStructure& built, const MeasuredRun& planned, JointBench& bench)
+void put_held(const SpecimenStructure& built, const MeasuredRun& planned, double lean_rad, JointBench& bench)
 {
     const auto u = static_cast<std::size_t>(bench.blocks.front()), columns = built.block.size();
     const std::vector<double>&x = planned.blocks.x_m.values, &y = planned.blocks.y_m.values,
@@ -138,13 +138,14 @@ void put_held(const SpecimenStructure& built, const MeasuredRun& planned, JointB
             continue;
         const double base_m = planned.base_displacement_m.empty() ? 0 : planned.base_displacement_m.values[i];
         // turned about its lower corner, then raised
-        const double side = theta[at] > 0 ? -1 : 1, sine = std::sin(theta[at]), cosine = std::cos(theta[at]);
+        const double turn = theta[at] + lean_rad;
+        const double side = turn > 0 ? -1 : 1, sine = std::sin(turn), cosine = std::cos(turn);
         const double corner_x = body.x_m + side * body.half_width_m, corner_y = body.y_m - body.half_height_m;
         const double dx = body.x_m + bench.centre_m.front().first - corner_x,
                      dy = body.y_m + bench.centre_m.front().second - corner_y;
         const double lift = y[at] - built.origin_y_m - (corner_y + sine * dx + cosine * dy);
         body.x_m += x[at] - base_m - built.origin_x_m - (corner_x + cosine * dx - sine * dy);
-        r.initial_tilt_rad = theta[at];
+        r.initial_tilt_rad = turn;
         r.initial_lift_m = lift > least_lift_m ? lift : 0;
         return;
     }
@@ -153,7 +154,7 @@ void put_held(const SpecimenStructure& built, const MeasuredRun& planned, JointB
 } // namespace
 
 JointBench joint_bench(const Specimen& specimen, const SpecimenStructure& built, const Realization& whole,
-                       const MeasuredRun& planned, double offset_m)
+                       const MeasuredRun& planned, double offset_m, double lean_rad)
 {
     check_planned(specimen, planned);
     JointBench bench;
@@ -206,7 +207,7 @@ JointBench joint_bench(const Specimen& specimen, const SpecimenStructure& built,
     r.drums = static_cast<int>(std::count_if(r.blocks.begin(), r.blocks.end(),
                                              [](const Block& block) { return block.role != BlockRole::ground; }));
     if (planned.released_s)
-        put_held(built, planned, bench);
+        put_held(built, planned, lean_rad, bench);
     hold_by_rod(specimen, built, whole, planned, bench);
     return bench;
 }

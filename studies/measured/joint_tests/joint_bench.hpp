@@ -29,9 +29,10 @@ struct JointBench {
 /// @param whole    a realization of the whole specimen: its contacts, and what acts in them
 /// @param planned  with a joint
 /// @param offset_m of the body from its place: how well it was put there
+/// @param lean_rad of a body that is held until a release, from the planned rotation
 /// @throws InputError if the run has no joint, a block or joint that the specimen does not have, or several rods
 JointBench joint_bench(const Specimen& specimen, const SpecimenStructure& built, const Realization& whole,
-                       const MeasuredRun& planned, double offset_m);
+                       const MeasuredRun& planned, double offset_m, double lean_rad = 0);
 
 /// Force of the bench's rod on the body, positive to the right: k (x_e - x_p) of `kernels/planar/mechanisms/rod.hpp`.
 /// @param time_s   since the release

@@ -27,13 +27,14 @@ struct TestSubject {
     std::vector<SizedCause> causes; ///< that act; none: it is healthy
 };
 
-/// What sensors do not know, where a planned run does not state it: 1 sigma.
+/// What sensors and hands do not know, where a planned run does not state it: 1 sigma.
 struct TestSensors {
     double camera_m = 5e-5;
     double camera_rad = 1e-3;
     double force_n = 0.02;
-    double gain = 0.005;    ///< of a force gauge, relative; one for each run
-    double tilt_rad = 5e-4; ///< of the inclinometer
+    double gain = 0.005;     ///< of a force gauge, relative; one for each run
+    double tilt_rad = 5e-4;  ///< of the inclinometer
+    double level_rad = 2e-3; ///< how level a body hangs on its thread
 };
 
 struct SimulatedTests {

@@ -1,5 +1,6 @@
 #include "studies/measured/loop/choice.hpp"
 
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
 
 #include <algorithm>
@@ -69,6 +70,15 @@ double belief_in(const SequenceModel& model, const Belief& belief, std::size_t h
     return cause < 0 ? belief.unlisted : belief.at_place(model.hypotheses, static_cast<std::size_t>(cause));
 }
 
+ExpectedBelief present_belief(const SequenceModel& model, std::span<const SeenEstimate> seen)
+{
+    const Belief now = belief_of(model, seen);
+    ExpectedBelief out{now.entropy(), 0};
+    for (std::size_t h = 0; h < now.hypothesis.size(); ++h)
+        out.in_truth += now.hypothesis[h] * belief_in(model, now, h);
+    return out;
+}
+
 /// Rates a test that is done after others of which the outcome is not known yet.
 /// @param planned columns of those
 RatedTest rated(const SequenceModel& model, std::span<const SeenEstimate> seen,
@@ -92,7 +102,8 @@ RatedTest rated(const SequenceModel& model, std::span<const SeenEstimate> seen,
         std::erase_if(before, [&](Eigen::Index k) { return !one.signatures.used[static_cast<std::size_t>(k)]; });
         all = before;
         all.insert(all.end(), columns.begin(), columns.end());
-        const ExpectedBelief without = expected_belief(one, seen, before, settings),
+        const ExpectedBelief without = before.empty() ? present_belief(one, seen)
+                                                      : expected_belief(one, seen, before, settings),
                              with = expected_belief(one, seen, all, settings);
         const auto n = static_cast<double>(models.size());
         test.entropy_fall += (without.entropy - with.entropy) / n;
@@ -171,33 +182,27 @@ std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const S
                                    const std::vector<TestOption>& options, const ChoiceSettings& settings,
                                    const Prospects& prospects)
 {
-    std::vector<RatedTest> out;
-    for (const TestOption& option : options)
-        out.push_back(rated(model, seen, {}, option, settings, prospects));
+    std::vector<RatedTest> out(options.size());
+    in_parallel(std::size_t{0}, options.size(),
+                [&](std::size_t i) { out[i] = rated(model, seen, {}, options[i], settings, prospects); });
     best_first(out);
     return out;
 }
 
 std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const SeenEstimate> seen,
-                                     const std::vector<TestOption>& options, const ChoiceSettings& settings,
-                                     const Prospects& prospects)
+                                     const std::vector<RatedTest>& rated)
 {
     const SequenceJudgement judgement = judgement_of(model, seen);
-    std::vector<TestOption> meant;
     if (judgement.doubtful && judgement.cause && !seen.empty()) {
         const TestColumn& last = model.signatures.columns[static_cast<std::size_t>(seen.back().column)];
         const std::string group = cause_group(judgement.cause->mechanism);
-        for (const TestOption& option : options)
-            if ((option.test == last.test && (!option.joint || *option.joint == last.joint)) ||
-                any_cause_shows(model, columns_of(model.signatures, option), group))
-                meant.push_back(option);
+        for (const RatedTest& test : rated)
+            if (const TestOption& option = test.option;
+                !test.left_out && ((option.test == last.test && (!option.joint || *option.joint == last.joint)) ||
+                                   any_cause_shows(model, columns_of(model.signatures, option), group)))
+                return test;
     }
-    for (const std::vector<TestOption>* among : {&std::as_const(meant), &options}) {
-        const std::vector<RatedTest> all = rated_tests(model, seen, *among, settings, prospects);
-        if (!all.empty() && !all.front().left_out)
-            return all.front();
-    }
-    return std::nullopt;
+    return !rated.empty() && !rated.front().left_out ? std::optional(rated.front()) : std::nullopt;
 }
 
 std::vector<RatedTest> planned_tests(const SequenceModel& model, const std::vector<TestOption>& options,
@@ -206,12 +211,13 @@ std::vector<RatedTest> planned_tests(const SequenceModel& model, const std::vect
     std::vector<RatedTest> out;
     std::vector<Eigen::Index> planned;
     while (out.size() < count) {
-        std::vector<RatedTest> tests;
-        for (const TestOption& option : options) {
-            if (std::any_of(out.begin(), out.end(), [&](const RatedTest& t) { return t.option == option; }))
-                continue;
-            tests.push_back(rated(model, {}, planned, option, settings, prospects));
-        }
+        std::vector<TestOption> left = options;
+        std::erase_if(left, [&](const TestOption& option) {
+            return std::any_of(out.begin(), out.end(), [&](const RatedTest& t) { return t.option == option; });
+        });
+        std::vector<RatedTest> tests(left.size());
+        in_parallel(std::size_t{0}, left.size(),
+                    [&](std::size_t i) { tests[i] = rated(model, {}, planned, left[i], settings, prospects); });
         best_first(tests);
         if (tests.empty() || tests.front().left_out)
             break;

@@ -67,10 +67,9 @@ std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const S
 
 /// The test to do next. After a doubtful result (`SequenceJudgement::doubtful`) it is among the repeat of the last test
 /// and the tests in which the group of the suspected cause shows.
-/// @return nothing where no test is a choice
+/// @param rated as of `rated_tests`   @return nothing where no test is a choice
 std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const SeenEstimate> seen,
-                                     const std::vector<TestOption>& options, const ChoiceSettings& settings = {},
-                                     const Prospects& prospects = {});
+                                     const std::vector<RatedTest>& rated);
 
 /// Tests to be done together, before any estimate is known: one after the other is added that lets the entropy of the
 /// belief fall most per cost, given the outcome of those before it. Their falls are those beside the ones before.

@@ -282,7 +282,8 @@ private:
             tests.push_back({kind, std::nullopt, cost, cannot_do(campaign_.specimen, campaign_.laboratory, kind)});
         }
         const Prospects prospects = [&](const TestOption& option) { return models_after(option); };
-        for (const RatedTest& rated : rated_tests(model_, seen_, tests, {}, prospects))
+        const std::vector<RatedTest> all = rated_tests(model_, seen_, tests, {}, prospects);
+        for (const RatedTest& rated : all)
             story.options.push_back({to_string(rated.option.test), rated.option.cost, rated.entropy_fall,
                                      rated.belief_gain, rated.per_cost, rated.left_out.value_or("")});
         if (now.verdict == SequenceVerdict::named || now.verdict == SequenceVerdict::unexplained)
@@ -290,7 +291,7 @@ private:
         std::vector<RatedTest> next;
         if (options_.planned > 1)
             next = planned_tests(model_, tests, options_.planned, {}, prospects);
-        else if (std::optional<RatedTest> one = chosen_test(model_, seen_, tests, {}, prospects))
+        else if (std::optional<RatedTest> one = chosen_test(model_, seen_, all))
             next.push_back(std::move(*one));
         for (const RatedTest& test : next)
             story.next.emplace_back(to_string(test.option.test));
@@ -395,7 +396,8 @@ std::vector<PriorShare> prior_shares(const Diagnosis& diagnosis)
     std::vector<PriorShare> shares;
     double sum = 0, likely = 0;
     for (const Candidate& c : diagnosis.candidates) {
-        PriorShare share{c.mechanism, c.place, std::expm1(std::min(c.gain_nats.value_or(0), most_told_nats) / 2)};
+        PriorShare share{loop_mechanism(c.mechanism), c.place,
+                         std::expm1(std::min(c.gain_nats.value_or(0), most_told_nats) / 2)};
         likely += c.probability.value_or(0);
         sum += share.weight;
         shares.push_back(std::move(share));

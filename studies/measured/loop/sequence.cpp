@@ -205,8 +205,7 @@ std::string cause_group(const std::string& mechanism)
         {"eccentricity", "corners, centres and bonds"},
         {"wedge", "corners, centres and bonds"},
         {"adhesion", "corners, centres and bonds"},
-        {"face_damping", "damping"},
-        {"rate_damping", "damping"},
+        {"damping", "damping"},
         {"drag", "drag"},
     };
     const auto found = groups.find(mechanism);

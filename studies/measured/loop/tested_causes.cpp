@@ -23,7 +23,7 @@ constexpr std::array centre_offsets = {0.025, 0.08};      // over the width
 constexpr std::array wedge_angles = {0.002, 0.008};       // [rad]
 constexpr std::array critical_parts = {0.15, 0.5, 1.2};   // of critical damping, of the block on the joint
 constexpr std::array rates = {3.0, 10.0};                 // Hunt and Crossley's lambda over 0.1 sqrt(g h)
-constexpr std::array drag_parts = {0.1, 0.3, 0.6};        // of the weight, at the speed of the table in `slide`
+constexpr std::array drag_parts = {0.1, 0.3, 0.6, 1.5, 4.0};  // of the weight, at the speed of the table in `slide`
 constexpr double least_velocity = 0.01, most_velocity = 0.08; // of Stribeck's law, over sqrt(g H)
 constexpr double least_yield = 0.002, most_yield = 0.02;      // slip at which a dowel yields, over the width
 constexpr double least_tension = 0.5, most_tension = 2;       // of a bond, over its cohesion
@@ -41,14 +41,15 @@ public:
     /// A cause that acts in the tests as another one does.
     void add_like(const SizedCause& acting, double size)
     {
-        all_.push_back({acting, cause_, {cause_.mechanism, cause_.place, size, cause_.unit, form_}, joint_});
+        all_.push_back(
+            {acting, cause_, {loop_mechanism(cause_.mechanism), cause_.place, size, cause_.unit, form_}, joint_});
     }
     /// @param size in the tables
     void add(double size, double least_fixed = 0, double most_fixed = 0)
     {
         all_.push_back({{cause_, parameter_of(cause_, size)},
                         cause_,
-                        {cause_.mechanism, cause_.place, size, cause_.unit, form_},
+                        {loop_mechanism(cause_.mechanism), cause_.place, size, cause_.unit, form_},
                         joint_,
                         least_fixed,
                         most_fixed});
@@ -111,10 +112,10 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     for (const double angle : wedge_angles)
         for (const double sign : {-1.0, 1.0})
             wedge.add(sign * angle);
-    CauseMaker rate(all, joint, of_joint("rate_damping", joint, "rate_s_m", "s/m"));
+    CauseMaker rate(all, joint, of_joint("rate_damping", joint, "rate_s_m", "s/m"), "rate");
     for (const double part : rates)
         rate.add(part / (0.1 * speed));
-    CauseMaker dashpot(all, joint, of_joint("face_damping", joint, "dashpot_n_s_m", "N s/m"));
+    CauseMaker dashpot(all, joint, of_joint("face_damping", joint, "dashpot_n_s_m", "N s/m"), "dashpot");
     for (const double part : critical_parts)
         dashpot.add(part * 2 * std::sqrt(stiffness_n_m2 * width * mass));
 }
@@ -153,6 +154,11 @@ std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<i
     for (const int joint : joints)
         add_of_joint(specimen, joint, friction, stiffness_n_m2, all);
     return all;
+}
+
+std::string loop_mechanism(const std::string& mechanism)
+{
+    return mechanism == "rate_damping" || mechanism == "face_damping" ? "damping" : mechanism;
 }
 
 double parameter_of(const Cause& cause, double size)

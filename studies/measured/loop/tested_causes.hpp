@@ -31,6 +31,10 @@ struct LoopCause {
 std::vector<LoopCause> loop_causes(const Specimen& specimen, const std::vector<int>& joints, double friction,
                                    double stiffness_n_m2);
 
+/// Under which name the loop knows a mechanism of the first diagnosis: damping in proportion to force and speed and a
+/// dashpot are both "damping", for a fall from one height does not tell the two apart.
+std::string loop_mechanism(const std::string& mechanism);
+
 /// A size of the tables as the value of the cause's parameter, and in words: "dynamic_ratio = 0.72".
 double parameter_of(const Cause& cause, double size);
 std::string size_words(const Cause& cause, double size);

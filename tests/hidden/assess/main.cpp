@@ -28,6 +28,7 @@ namespace {
 struct Assessment {
     std::uint64_t first = 1, last = 1;
     std::vector<std::string> effects;
+    bool in_turn = false; ///< one of the effects for each seed, one after the other
     bool nothing = false;
     std::string law, specimen;
     std::string prior = "flat"; ///< "flat", "group" (the right one), or a folder of diagnoses
@@ -35,6 +36,7 @@ struct Assessment {
     std::string cache = "loop_cache";
     std::uint64_t healthy = 128, of_each = 16;
     int threads = 2;
+    std::size_t estimates = 4;      ///< of a step, that are told
     bool options = false;           ///< what is expected of each test is told
     std::vector<std::string> order; ///< of the tests, instead of those that are proposed
     bool signatures = false;        ///< only what the tests give is told
@@ -105,9 +107,35 @@ void tell_signatures(const Campaign& campaign, const Study& study, const LoopOpt
 std::vector<PriorShare> prior_of(const Assessment& how, const VirtualCampaign& made)
 {
     if (how.prior == "group" && !made.effects.empty() && made.effects.front().listed)
-        return {{cause_group(made.effects.front().name), std::nullopt, 0.7}};
+        return {{cause_group(loop_mechanism(made.effects.front().name)), std::nullopt, 0.7}};
     const fs::path file = fs::path(how.prior) / fmt::format("{}.h5", made.seed);
     return fs::exists(file) ? prior_shares(read_diagnosis(file)) : std::vector<PriorShare>();
+}
+
+/// How a verdict stands to what is hidden.
+std::string judged(const VirtualCampaign& made, const TestStory& story)
+{
+    const bool named = story.verdict == SequenceVerdict::named;
+    if (made.effects.empty())
+        return named || story.verdict == SequenceVerdict::unexplained ? "false alarm" : "quiet";
+    const HiddenEffect& e = made.effects.front();
+    if (!e.listed)
+        return named ? "wrong name" : story.verdict == SequenceVerdict::unexplained ? "right" : "missed";
+    if (!named)
+        return story.verdict == SequenceVerdict::unexplained ? "unexplained" : "missed";
+    if (story.mechanism != loop_mechanism(e.name))
+        return "wrong name";
+    return story.place == e.place || story.place.starts_with(e.place + " ") ? "right" : "wrong place";
+}
+
+/// Whether the interval has the size; empty: the two are not the same quantity.
+std::string size_within(const VirtualCampaign& made, const TestStory& story)
+{
+    if (made.effects.empty() || !story.low || !made.effects.front().size_comparable ||
+        story.parameter != made.effects.front().parameter || judged(made, story) != "right")
+        return "";
+    const double size = made.effects.front().size;
+    return size >= *story.low && size <= *story.high ? "within" : "outside";
 }
 
 void assess(const Assessment& how, std::uint64_t seed)
@@ -115,7 +143,7 @@ void assess(const Assessment& how, std::uint64_t seed)
     Wish wish;
     wish.most_motions = 0;
     if (how.nothing || !how.effects.empty())
-        wish.effects = how.effects;
+        wish.effects = how.in_turn ? std::vector{how.effects[(seed - how.first) % how.effects.size()]} : how.effects;
     if (!how.law.empty())
         wish.law = how.law == "nonsmooth" ? hidden::Law::nonsmooth : hidden::Law::compliant;
     if (how.specimen == "column")
@@ -165,21 +193,21 @@ void assess(const Assessment& how, std::uint64_t seed)
         const HiddenEffect& e = made.effects.front();
         hidden = fmt::format("{}\t{}\t{:.4g}", e.listed ? e.name : "outside:" + e.name, e.place, e.size);
     }
-    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\n", seed,
+    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}\t{}\n", seed,
                made.model.law == hidden::Law::nonsmooth ? "A" : "B", made.planned.specimen.name, hidden,
                to_string(story->verdict), story->mechanism, story->place,
                story->size ? fmt::format("{:.4g}", *story->size) : "",
                story->low ? fmt::format("{:.4g}..{:.4g}", *story->low, *story->high) : "", story->share,
-               story->log_evidence, done);
+               story->log_evidence, done, judged(made, *story), size_within(made, *story));
     for (const StoryStep& step : story->steps) {
         std::vector<const StoryEstimate*> order;
         for (const StoryEstimate& e : step.seen)
             order.push_back(&e);
         std::ranges::sort(order, [](auto* a, auto* b) { return std::fabs(a->deviations) > std::fabs(b->deviations); });
         std::string told;
-        for (std::size_t k = 0; k < std::min<std::size_t>(4, order.size()); ++k)
-            told += fmt::format(" {}[{}]={:+.1f}{}", order[k]->name, order[k]->joint, order[k]->deviations,
-                                order[k]->from_the_others ? "o" : "");
+        for (std::size_t k = 0; k < std::min(how.estimates, order.size()); ++k)
+            told += fmt::format(" {}[{}]={:+.1f}{} ({:.3g})", order[k]->name, order[k]->joint, order[k]->deviations,
+                                order[k]->from_the_others ? "o" : "", order[k]->value);
         fmt::print("#   {} lnE {:.1f} {}:{}\n", step.test, step.log_evidence, to_string(step.verdict), told);
     }
     std::fflush(stdout);
@@ -194,6 +222,7 @@ int main(int argc, char** argv)
     app.add_option("--first", how.first, "first seed")->required();
     app.add_option("--last", how.last, "last seed")->required();
     app.add_option("--effect", how.effects, "hidden effects, instead of those of the seeds");
+    app.add_flag("--in-turn", how.in_turn, "one of the effects for each seed, one after the other");
     app.add_flag("--nothing", how.nothing, "no hidden effect");
     app.add_option("--law", how.law)->check(CLI::IsMember({"nonsmooth", "compliant"}));
     app.add_option("--specimen", how.specimen)->check(CLI::IsMember({"column"}));
@@ -203,6 +232,7 @@ int main(int argc, char** argv)
     app.add_option("--healthy", how.healthy);
     app.add_option("--of-each", how.of_each);
     app.add_option("--threads", how.threads);
+    app.add_option("--estimates", how.estimates, "of a step, that are told");
     app.add_flag("--options", how.options, "tells what is expected of each test");
     app.add_option("--order", how.order, "tests that are done, instead of those that are proposed");
     app.add_option("--only", how.only, "with --signatures: of these tests");

@@ -21,6 +21,12 @@ std::vector<TestOption> all_kinds()
     return out;
 }
 
+std::optional<RatedTest> chosen_of(const SequenceModel& model, const std::vector<SeenEstimate>& seen,
+                                   const std::vector<TestOption>& options, const ChoiceSettings& settings = {})
+{
+    return chosen_test(model, seen, rated_tests(model, seen, options, settings));
+}
+
 TEST(TestChoice, ExpectedEntropyIsThatOfItsIntegral)
 {
     // one estimate, one cause: the entropy of Bayes' theorem, integrated over the predicted density
@@ -55,7 +61,7 @@ TEST(TestChoice, PrefersTheGroupThatTheFirstDiagnosisSuspects)
              {"corners, centres and bonds", RunKind::push, RunKind::tilt}}) {
         prior.shares = {{group, {}, 0.9}};
         const SequenceModel model(gaussian::laboratory(), prior);
-        const std::optional<RatedTest> chosen = chosen_test(model, {}, all_kinds());
+        const std::optional<RatedTest> chosen = chosen_of(model, {}, all_kinds());
         ASSERT_TRUE(chosen);
         EXPECT_TRUE(chosen->option.test == first || chosen->option.test == second) << group;
     }
@@ -108,10 +114,10 @@ TEST(TestChoice, PrefersTheCheapOneOfEqualTests)
     const SequenceModel model(gaussian::laboratory(), prior);
     std::vector<TestOption> options = all_kinds();
     options[0].cost = 3;
-    EXPECT_EQ(chosen_test(model, {}, options)->option.test, RunKind::slide);
+    EXPECT_EQ(chosen_of(model, {}, options)->option.test, RunKind::slide);
     options[0].cost = 1;
     options[1].cost = 3;
-    EXPECT_EQ(chosen_test(model, {}, options)->option.test, RunKind::pull);
+    EXPECT_EQ(chosen_of(model, {}, options)->option.test, RunKind::pull);
 }
 
 TEST(TestChoice, LeavesOutWhatCannotBeDoneOrTellsNothing)
@@ -142,7 +148,7 @@ TEST(TestChoice, LeavesOutWhatCannotBeDoneOrTellsNothing)
     EXPECT_FALSE(rated[1].left_out);
     EXPECT_GE(rated[0].per_cost, rated[1].per_cost);
     options.erase(options.begin() + 1, options.begin() + 3);
-    EXPECT_FALSE(chosen_test(model, {}, options));
+    EXPECT_FALSE(chosen_of(model, {}, options));
 }
 
 TEST(TestChoice, StaysInTheGroupOfADoubtfulSign)
@@ -154,7 +160,7 @@ TEST(TestChoice, StaysInTheGroupOfADoubtfulSign)
     ASSERT_TRUE(judgement_of(model, seen).doubtful);
     std::vector<TestOption> options = all_kinds();
     options[0].cost = options[1].cost = 0.01; // cheap, and of the other group
-    const std::optional<RatedTest> chosen = chosen_test(model, seen, options);
+    const std::optional<RatedTest> chosen = chosen_of(model, seen, options);
     ASSERT_TRUE(chosen);
     EXPECT_TRUE(chosen->option.test == RunKind::push || chosen->option.test == RunKind::tilt);
 }
@@ -197,7 +203,7 @@ TEST(TestChoiceStatistics, GreedyChoiceNamesTheCause)
             values(column) += shift;
         std::vector<SeenEstimate> seen;
         for (int k = 0; k < 3; ++k) {
-            const std::optional<RatedTest> next = chosen_test(model, seen, all_kinds(), {64, 1});
+            const std::optional<RatedTest> next = chosen_of(model, seen, all_kinds(), {64, 1});
             if (!next)
                 break;
             gaussian::append(seen, test_of(model.signatures, values, next->option.test));

@@ -48,7 +48,7 @@ TEST(SequencePrior, GroupsHaveAllMechanisms)
 {
     EXPECT_EQ(cause_group("dowel"), "friction");
     EXPECT_EQ(cause_group("adhesion"), "corners, centres and bonds");
-    EXPECT_EQ(cause_group("rate_damping"), "damping");
+    EXPECT_EQ(cause_group("damping"), "damping");
     EXPECT_EQ(cause_group("drag"), "drag");
     EXPECT_EQ(cause_group("rocking_of_the_floor"), "rocking_of_the_floor");
 }
