@@ -34,6 +34,62 @@ Campaign read_campaign(const std::filesystem::path& path)
     return campaign;
 }
 
+namespace {
+
+/// The first quantity in which two specimens differ by more than a hundredth, in words; empty: none.
+std::string first_difference(const Specimen& a, const Specimen& b)
+{
+    if (a.blocks() != b.blocks() || a.joints != b.joints)
+        return fmt::format("{} blocks and {} joints there, {} blocks and {} joints here", b.blocks(), b.joints.size(),
+                           a.blocks(), a.joints.size());
+    constexpr double alike = 0.01; // both may have been measured
+    const auto differ = [&](const char* what, const char* unit, const std::vector<double>& here,
+                            const std::vector<double>& there) {
+        for (std::size_t i = 0; i < std::min(here.size(), there.size()); ++i)
+            if (std::fabs(here[i] - there[i]) > alike * std::fabs(here[i]))
+                return fmt::format("{} {:g} {} for block {} there, {:g} {} here", what, there[i], unit, i, here[i],
+                                   unit);
+        return std::string();
+    };
+    std::string found = differ("half_width_m", "m", a.half_width_m, b.half_width_m);
+    if (found.empty())
+        found = differ("half_height_m", "m", a.half_height_m, b.half_height_m);
+    return found.empty() ? differ("mass_kg", "kg", a.mass_kg, b.mass_kg) : found;
+}
+
+} // namespace
+
+void add_tests_of(const Campaign& more, Campaign& campaign)
+{
+    if (const std::string what = first_difference(campaign.specimen, more.specimen); !what.empty())
+        throw InputError(more.source, 0,
+                         fmt::format("is of another specimen than {}: {}.\n  Give the tests of the same specimen.",
+                                     campaign.source, what));
+    const Specimen& rest = more.specimen;
+    if (more.tests.empty() && rest.centre_of_mass_m.empty() && rest.bearing_left_m.empty())
+        throw InputError(more.source, 0,
+                         "has no test of a single joint.\n  Give a campaign of shake runs as MEASURED.");
+    int last = static_cast<int>(campaign.tests.size()) - 1;
+    for (const MeasuredRun& run : campaign.tests)
+        last = std::max(last, run.run_order.value_or(0));
+    for (std::size_t r = 0; r < more.tests.size(); ++r) {
+        campaign.tests.push_back(more.tests[r]);
+        campaign.tests.back().run_order = last + 1 + more.tests[r].run_order.value_or(static_cast<int>(r));
+    }
+    const auto take = [](const std::vector<double>& from, std::vector<double>& to) {
+        if (!from.empty())
+            to = from;
+    };
+    take(rest.centre_of_mass_m, campaign.specimen.centre_of_mass_m);
+    take(rest.bearing_left_m, campaign.specimen.bearing_left_m);
+    take(rest.bearing_right_m, campaign.specimen.bearing_right_m);
+    campaign.findings.insert(campaign.findings.end(), more.findings.begin(), more.findings.end());
+    if (!more.runs.empty())
+        campaign.findings.push_back(
+            {Severity::note, more.source,
+             fmt::format("its {} shake runs are left out: it was given for its tests", more.runs.size())});
+}
+
 std::string fingerprint(const std::filesystem::path& path)
 {
     std::uint32_t sum = 0;

@@ -86,6 +86,10 @@ std::string command_of(const CommonOptions& options, const DiagnosisRequest& req
         command += " --study " + shell_word(*study);
     for (const std::string& setting : options.set)
         command += " --set " + shell_word(setting);
+    if (!request.tests.empty())
+        command += " --tests";
+    for (const std::string& file : request.tests)
+        command += " " + shell_word(file);
     if (request.specimens != DiagnosisRequest{}.specimens)
         command += fmt::format(" --specimens {}", request.specimens);
     if (request.plan)
@@ -110,8 +114,10 @@ int diagnose_command(const CommonOptions& options, DiagnosisRequest request, con
     request.check_outputs = [&] {
         check_output(request.measured, output, options.force);
         check_output(request.measured, extended, options.force);
-        if (request.plan)
-            check_output(request.measured, request.next_test->string(), options.force);
+        check_output(request.measured, request.next_test->string(), options.force);
+        for (const std::string& file : request.tests) // where the plan may have been measured
+            for (const std::string& made : {output, extended, request.next_test->string()})
+                check_output(file, made, options.force);
         AtomicFile::check(output);
     };
     together(options.ranks, [&] { request.start = start_study(options, request.measured, "diagnose", study); });

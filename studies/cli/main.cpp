@@ -316,6 +316,11 @@ private:
                 "where the campaign has such tests")
             ->check(CLI::Range(40LL, 10000LL))
             ->capture_default_str();
+        diagnosing
+            ->add_option("--tests", diagnosis_.tests,
+                         "files with tests of its joints that are not in MEASURED, in the order in which they "
+                         "were done")
+            ->type_name("FILE...");
         diagnosing->add_flag("--plan", diagnosis_.plan,
                              "propose tests of single joints: the three that tell most. Shake runs are not needed");
         diagnosing->add_option("--seed", seed_, "seed of the simulated campaigns")

@@ -93,6 +93,10 @@ std::optional<Diagnosis> diagnose_measured(const DiagnosisRequest& request, cons
     together(machine.ranks, [&] {
         check_kind(request.measured, "diagnose");
         campaign = read_campaign(request.measured);
+        for (const std::string& file : request.tests) {
+            check_kind(file, "diagnose");
+            add_tests_of(read_campaign(file), campaign);
+        }
         study = request.start ? *request.start
                               : parse_study(default_study(campaign).text, "the default start study of a diagnosis",
                                             request.settings);

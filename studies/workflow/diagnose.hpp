@@ -13,8 +13,9 @@ namespace stylobate {
 
 struct DiagnosisRequest {
     std::string measured;
-    std::optional<Study> start{};        ///< contacts to begin with; none: a bed of stone
-    std::string start_name = "study";    ///< for messages
+    std::vector<std::string> tests{}; ///< files with further tests of its joints, in the order in which they were done
+    std::optional<Study> start{};     ///< contacts to begin with; none: a bed of stone
+    std::string start_name = "study"; ///< for messages
     std::vector<std::string> settings{}; ///< of the start where none is given
     std::uint64_t nulls = 192;           ///< healthy campaigns that are simulated near the measured contact law
     std::uint64_t seed = 1;              ///< of what is drawn in them

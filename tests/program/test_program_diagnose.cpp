@@ -96,6 +96,19 @@ TEST_F(Diagnose, FilesThatAreNoMeasuredDataAreRefused)
     expect_refused(Words{"diagnose", "text.h5"}, {"text.h5", "cannot be read as measured data", "io/FORMAT.md"});
 }
 
+TEST_F(Diagnose, TestsOfAnotherSpecimenAreRefused)
+{
+    write_campaign(folder / "campaign.h5", {});
+    write_campaign(folder / "wide.h5", {.half_width_m = 0.03});
+    write_campaign(folder / "shaken.h5", {});
+    expect_refused(Words{"diagnose", "campaign.h5", "--tests", "wide.h5"},
+                   {"wide.h5", "is of another specimen than campaign.h5", "half_width_m 0.03 m for block 0"});
+    expect_refused(Words{"diagnose", "campaign.h5", "--tests", "shaken.h5"},
+                   {"shaken.h5", "has no test of a single joint", "MEASURED"});
+    expect_refused(Words{"diagnose", "campaign.h5", "--tests", "missing.h5"}, {"missing.h5", "there is no such file"});
+    EXPECT_EQ(names(), (Words{"campaign.h5", "shaken.h5", "wide.h5"})) << "nothing is written";
+}
+
 TEST_F(Diagnose, OptionsAreCheckedBeforeAnythingIsWorkedOn)
 {
     write_campaign(folder / "campaign.h5", {});

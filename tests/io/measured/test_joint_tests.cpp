@@ -454,5 +454,31 @@ TEST_F(MeasuredColumns, AForceNeedsItsHeightAndBlock)
     expect_table_refused({"mass_kg"}, std::string(tracked_toml) + "[[run.dummy]]\nblock = 1\n", tracked_csv());
 }
 
+TEST(JointTestsOfAnotherFile, ContinueTheSequence)
+{
+    Campaign campaign = campaign_with_tests(), more = campaign_with_tests();
+    const std::size_t before = campaign.tests.size();
+    campaign.tests.back().run_order = 40;
+    for (std::size_t r = 0; r < more.tests.size(); ++r)
+        more.tests[r].run_order = static_cast<int>(r);
+    more.source = "more.h5";
+    more.specimen.centre_of_mass_m = {0, 0, 5e-4};
+    more.specimen.bearing_left_m.clear();
+    more.specimen.mass_kg[0] *= 1.004; // weighed anew
+    add_tests_of(more, campaign);
+    ASSERT_EQ(campaign.tests.size(), 2 * before);
+    for (std::size_t r = before; r < campaign.tests.size(); ++r)
+        EXPECT_EQ(campaign.tests[r].run_order, 41 + static_cast<int>(r - before)) << "after those that are there";
+    EXPECT_EQ(campaign.specimen.centre_of_mass_m[2], 5e-4);
+    EXPECT_EQ(campaign.specimen.bearing_left_m[1], 0.0003) << "not measured again";
+    EXPECT_TRUE(finding_at(campaign, "more.h5", "1 shake runs are left out"));
+
+    more.specimen.mass_kg[0] *= 1.05;
+    const std::string text = refusal([&] { add_tests_of(more, campaign); });
+    for (const char* part : {"more.h5", "another specimen", "mass_kg", "block 0"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(campaign.tests.size(), 2 * before) << "nothing is added";
+}
+
 } // namespace
 } // namespace stylobate
