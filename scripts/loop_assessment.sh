@@ -18,11 +18,11 @@ part() { # name, then options
 # flags of the effects for CLI11: one --effect each
 effects() { local e; for e in "$@"; do printf -- '--effect %s ' "$e"; done; }
 # shellcheck disable=SC2046
-part one --first 71001 --last 71060 --in-turn $(effects "${listed[@]}")
-part nothing --first 72001 --last 72040 --nothing
+part one --first 74001 --last 74060 --in-turn $(effects "${listed[@]}")
+part nothing --first 75001 --last 75040 --nothing
 # shellcheck disable=SC2046
-part outside --first 73001 --last 73020 --in-turn $(effects "${outside[@]}")
+part outside --first 76001 --last 76020 --in-turn $(effects "${outside[@]}")
 for name in one nothing outside; do
     echo "$prior, $name:"
-    grep -v '^#' "$out/${prior}_$name.txt" | cut -f 13 | sort | uniq -c
+    grep -v '^#' "$out/${prior}_$name.txt" | cut -f 15 | sort | uniq -c
 done

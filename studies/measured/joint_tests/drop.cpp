@@ -5,12 +5,11 @@
 ///                      body comes to rest than 0.1 mm (times s), or than 5.5 standard deviations of a mean of three
 ///                      samples; t_0 = release + sqrt(2 H / g), H: fall
 ///
-///   time      mean of ln(T + 10 ms sqrt(s)) over the repeats: less than some frames of a camera is nothing. Error:
-///             their scatter over sqrt(n), but at least that of one interval of the cameras' clock, which is
+///   time      median of ln(T + 10 ms sqrt(s)) over the repeats: less than some frames of a camera is nothing. Error:
+///             1.25 of their scatter over sqrt(n), but at least that of one interval of the cameras' clock, which is
 ///             1 / (rate sqrt(12)) over T
-///   early     mean of ln(E + 0.003), E: energy in flight over that of the fall, (y - y_rest) + (y'^2 + r^2 theta'^2) /
-///   2 g
-///             over H, on average over the first 2 sqrt(2 H / g) after the impact. 0.003: the noise of the cameras
+///   early     median of ln(E + 0.003)      0.003: the noise of the cameras; E: energy in flight over that of the fall,
+///             (y - y_rest + (y'^2 + r^2 theta'^2) / 2 g) / H, mean over the first 2 sqrt(2 H / g) after the impact
 ///   late      the same from 150 to 250 ms (times sqrt(s)) after the impact. Errors as of `time`; at least 1 %
 ///
 /// For bounces of restitution e, v_0 = sqrt(2 g H): T is near 2 v_0 / g e / (1 - e). A body that still bounces at the
@@ -137,21 +136,23 @@ std::optional<SeenDrop> seen_drop(const Specimen& specimen, const MeasuredRun& r
     return std::isfinite(out.early + out.late) ? std::optional(out) : std::nullopt;
 }
 
-/// Mean over the repeats and its error.
+/// Median over the repeats and its error: a body that lands on its other corner now and then loses much more.
 struct OfRepeats {
-    double mean = 0, sd = 0;
+    double median = 0, sd = 0;
 };
 
-OfRepeats of_repeats(const std::vector<double>& values, double resolution)
+OfRepeats of_repeats(std::vector<double> values, double resolution)
 {
-    const auto n = static_cast<double>(values.size());
-    OfRepeats out;
+    const std::size_t n = values.size();
+    double mean = 0, squares = 0;
     for (const double value : values)
-        out.mean += value / n;
+        mean += value / static_cast<double>(n);
     for (const double value : values)
-        out.sd += (value - out.mean) * (value - out.mean) / (n - 1);
-    out.sd = std::max(std::sqrt(out.sd), resolution) / std::sqrt(n);
-    return out;
+        squares += (value - mean) * (value - mean) / static_cast<double>(n - 1);
+    std::sort(values.begin(), values.end());
+    constexpr double of_median = 1.25; // its standard deviation over that of the mean, of normal numbers
+    return {(values[(n - 1) / 2] + values[n / 2]) / 2,
+            of_median * std::max(std::sqrt(squares), resolution) / std::sqrt(static_cast<double>(n))};
 }
 
 std::vector<Estimate> drop_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
@@ -169,9 +170,9 @@ std::vector<Estimate> drop_of(const Specimen& specimen, std::span<const Measured
         return {};
     constexpr LaboratoryFloor time = {.friction = 0, .geometry_m = 0, .force = 0, .time = 1};
     const OfRepeats t = of_repeats(logs, resolution), e = of_repeats(early, 0.01), l = of_repeats(late, 0.01);
-    return {{"drop.time", 0, t.mean, t.sd, time},
-            {"drop.early", 0, e.mean, e.sd, time},
-            {"drop.late", 0, l.mean, l.sd, time}};
+    return {{"drop.time", 0, t.median, t.sd, time},
+            {"drop.early", 0, e.median, e.sd, time},
+            {"drop.late", 0, l.median, l.sd, time}};
 }
 
 } // namespace
@@ -180,7 +181,7 @@ const TestEstimators& drop_estimators()
 {
     static const TestEstimators all = {
         drop_of,
-        {{"drop.time", "", "mean logarithm of the time [s] from the first impact until rest, with 10 ms more",
+        {{"drop.time", "", "median logarithm of the time [s] from the first impact until rest, with 10 ms more",
           "friction, dowels, drag, damping that is the common one at this speed", "", true},
          {"drop.early", "", "logarithm of the energy after the first impact", "friction, dowels, drag", "", true},
          {"drop.late", "", "logarithm of the energy after many impacts", "friction, dowels, drag", "", true}}};

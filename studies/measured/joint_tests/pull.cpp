@@ -21,8 +21,9 @@
 ///               there to 5 mm. The first slip is approached slowly; a bond breaks there, a strong one a little later.
 ///               The largest of many samples is above the friction by two standard deviations or so, on every joint
 ///
-/// All but `friction` are ratios in which the gauge's gain cancels. The block does not move: blind to drag, and to what
-/// happens where faces open (corners, centres of mass, damping, bonds against opening).
+/// Where the block never slips (a dowel holds it until it turns), `friction` is that of the largest force: the joint
+/// has at least that. All but `friction` are ratios in which the gauge's gain cancels. The block does not move: blind
+/// to drag, and to what happens where faces open (corners, centres of mass, damping, bonds against opening).
 
 #include "studies/measured/joint_tests/friction_fit.hpp"
 #include "studies/measured/joint_tests/joint_run.hpp"
@@ -357,6 +358,21 @@ void add_first(const HeldBlock& held, std::vector<Estimate>& all)
     all.push_back(pull_estimate("pull.first", std::log(most / plateau), held.force_sd / std::sqrt(3.0) / plateau, 1));
 }
 
+/// A block that does not slip but is lifted off its bed or taken along: the joint holds at least the largest force.
+void add_held_by_more(const HeldBlock& held, std::vector<Estimate>& all)
+{
+    double most = 0;
+    std::size_t last = held.first; // while it stands
+    for (std::size_t i = held.first + 1; i + 1 < held.seen.samples && held.usable(i + 1); ++i) {
+        most = std::max(most, std::fabs(held.force_n[i - 1] + held.force_n[i] + held.force_n[i + 1]) / 3);
+        last = i;
+    }
+    constexpr double clear_of_noise = 10;
+    if (most > clear_of_noise * held.force_sd && last > held.first)
+        all.push_back(pull_estimate("pull.friction", std::log(most / held.seen.weight_n),
+                                    std::hypot(held.force_sd / most, held.gauge->gain_sd), 1));
+}
+
 std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
 {
     std::vector<Estimate> all;
@@ -364,8 +380,10 @@ std::vector<Estimate> pull_of(const Specimen& specimen, std::span<const Measured
     if (!held)
         return all;
     std::vector<PullWindow> found = pull_windows(*held);
-    if (found.empty())
+    if (found.empty()) {
+        add_held_by_more(*held, all);
         return all;
+    }
     mark_fast(found);
     std::vector<FrictionWindow> windows;
     double path = 0;

@@ -34,7 +34,7 @@ struct TestSensors {
     double force_n = 0.02;
     double gain = 0.005;     ///< of a force gauge, relative; one for each run
     double tilt_rad = 5e-4;  ///< of the inclinometer
-    double level_rad = 2e-3; ///< how level a body hangs on its thread
+    double level_rad = 1e-3; ///< how level a body hangs on its thread
 };
 
 struct SimulatedTests {

@@ -2,8 +2,8 @@
 /// The next test of a single joint: the one that lets the belief in what acts grow most per cost, among the tests that
 /// the laboratory can do. The expectation is over estimates that the present belief predicts, with common random
 /// numbers for all tests. The entropy of the belief (Lindley, "On a measure of the information provided by an
-/// experiment", Annals of Mathematical Statistics 27 (1956) 986) does not choose as well: it falls most where many
-/// causes that are hardly believed in are excluded at once, and the suspected one is never tested.
+/// experiment", Annals of Mathematical Statistics 27 (1956) 986) is told beside it. It also falls where causes are
+/// excluded that were hardly believed in.
 
 #include "studies/measured/loop/sequence.hpp"
 
@@ -71,8 +71,8 @@ std::vector<RatedTest> rated_tests(const SequenceModel& model, std::span<const S
 std::optional<RatedTest> chosen_test(const SequenceModel& model, std::span<const SeenEstimate> seen,
                                      const std::vector<RatedTest>& rated);
 
-/// Tests to be done together, before any estimate is known: one after the other is added that lets the entropy of the
-/// belief fall most per cost, given the outcome of those before it. Their falls are those beside the ones before.
+/// Tests to be done together, before any estimate is known: one after the other is added that lets the belief in what
+/// acts grow most per cost, given the outcome of those before it. Their falls are those beside the ones before.
 std::vector<RatedTest> planned_tests(const SequenceModel& model, const std::vector<TestOption>& options,
                                      std::size_t count, const ChoiceSettings& settings = {},
                                      const Prospects& prospects = {});

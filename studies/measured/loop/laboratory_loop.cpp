@@ -65,8 +65,12 @@ std::vector<DoneTest> done_tests(const Campaign& campaign, TestStory& story)
     std::vector<DoneTest> out;
     for (auto& [what, runs] : all) {
         std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        const std::size_t each = std::max<std::size_t>(
-            1, planned_runs(campaign.specimen, campaign.laboratory, what.first, what.second).size());
+        // what was measured at rest stands in the specimen, once
+        const std::size_t each =
+            what.first == RunKind::rest
+                ? runs.size()
+                : std::max<std::size_t>(
+                      1, planned_runs(campaign.specimen, campaign.laboratory, what.first, what.second).size());
         for (std::size_t i = 0; i < runs.size(); ++i) {
             if (i % each == 0)
                 out.push_back({what.first, what.second, runs[i].first, {}});
@@ -192,6 +196,8 @@ private:
                 if (const std::optional<Eigen::Index> column = column_of(e)) {
                     seen_.push_back({*column, e.value});
                     measured.push_back(e);
+                    double& sd = seen_sd_.try_emplace(*column, 0).first->second;
+                    sd = std::max(sd, e.sd);
                 }
             tried_.emplace_back(test.kind, test.joint);
         }
@@ -279,7 +285,11 @@ private:
             for (const auto& [of, stated] : campaign_.laboratory.cost)
                 if (of == kind)
                     cost = stated;
-            tests.push_back({kind, std::nullopt, cost, cannot_do(campaign_.specimen, campaign_.laboratory, kind)});
+            std::optional<std::string> cannot = cannot_do(campaign_.specimen, campaign_.laboratory, kind);
+            if (kind == RunKind::rest &&
+                std::ranges::find(tried_, kind, &std::pair<RunKind, int>::first) != tried_.end())
+                cannot = "It is measured, and stands in the specimen";
+            tests.push_back({kind, std::nullopt, cost, std::move(cannot)});
         }
         const Prospects prospects = [&](const TestOption& option) { return models_after(option); };
         const std::vector<RatedTest> all = rated_tests(model_, seen_, tests, {}, prospects);
@@ -345,6 +355,10 @@ private:
             if (std::ranges::find(tried_, std::pair(s.columns[k].test, s.columns[k].joint)) != tried_.end() &&
                 std::ranges::none_of(seen_, [&](const SeenEstimate& e) { return e.column == static_cast<int>(k); }))
                 s.used[k] = false;
+        // a test that scatters more than simulated ones knows less: bounces of a body that lands otherwise
+        for (const auto& [column, sd] : seen_sd_)
+            s.floor_variance(column) +=
+                std::max(0.0, sd * sd - std::pow(s.columns[static_cast<std::size_t>(column)].own_sd, 2));
         return {std::move(s), prior_};
     }
 
@@ -386,6 +400,7 @@ private:
     const LoopOptions& options_;
     SequenceModel model_;
     std::vector<SeenEstimate> seen_;
+    std::map<Eigen::Index, double> seen_sd_;     ///< the largest error that an estimate in a column says of itself
     std::vector<std::pair<RunKind, int>> tried_; ///< tests that were done at a joint
 };
 
@@ -508,8 +523,8 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
                                     kind == RunKind::board ? "slides" : "turns"));
         break;
     case RunKind::drop:
-        lines.push_back(fmt::format("Let the body hang {:.3g} mm above the joint by a thread, level, and burn the "
-                                    "thread; {} times.",
+        lines.push_back(fmt::format("Let the body hang {:.3g} mm above the joint by a thread, level to 1 mrad, and "
+                                    "burn the thread; {} times.",
                                     1e3 * drop_height_m * tested_body(specimen, joints.front(), {}).length_ratio,
                                     drop_repeats));
         break;

@@ -30,6 +30,7 @@ struct TestColumn {
     std::string depends_on = {}; ///< what it varies with: "speed", "path", "place", "time", "direction"; empty: nothing
     double floor_sd = 0;         ///< reproducibility of the laboratory, anew in every repeat (1 sigma)
     bool of_the_law = false;     ///< as of `EstimatorName`
+    double own_sd = 0;           ///< what one test says of its own error: the median of simulated healthy specimens
     friend bool operator==(const TestColumn&, const TestColumn&) = default;
 };
 

@@ -78,18 +78,20 @@ public:
                     wanted.push_back({t, s});
         values.assign(subjects.size() * columns.size(), missing_estimate);
         floors_.resize(columns.size());
+        errors_.resize(columns.size());
     }
 
-    /// Values of a test's columns, then their floors.
+    /// Values of a test's columns, then their floors, then their errors.
     std::vector<double> row_of(std::size_t test, const std::vector<Estimate>& estimates) const
     {
         const std::size_t n = width(test);
-        std::vector<double> row(2 * n, missing_estimate);
+        std::vector<double> row(3 * n, missing_estimate);
         for (const Estimate& e : estimates)
             for (std::size_t k = 0; k < n; ++k)
                 if (columns[first_[test] + k].name == e.name && columns[first_[test] + k].joint == e.joint) {
                     row[k] = e.value;
                     row[n + k] = e.floor_sd;
+                    row[2 * n + k] = e.sd;
                 }
         return row;
     }
@@ -97,8 +99,10 @@ public:
     {
         for (std::size_t k = 0; k < width(test); ++k) {
             values[subject * columns.size() + first_[test] + k] = row[k];
-            if (subjects[subject].cause < 0 && std::isfinite(row[width(test) + k]))
+            if (subjects[subject].cause < 0 && std::isfinite(row[k])) {
                 floors_[first_[test] + k].push_back(row[width(test) + k]);
+                errors_[first_[test] + k].push_back(row[2 * width(test) + k]);
+            }
         }
     }
     std::size_t width(std::size_t test) const { return first_[test + 1] - first_[test]; }
@@ -111,8 +115,10 @@ public:
         TestSamples out;
         out.columns = columns;
         for (std::size_t k = 0; k < columns.size(); ++k)
-            if (!floors_[k].empty())
+            if (!floors_[k].empty()) {
                 out.columns[k].floor_sd = upper_median(floors_[k]);
+                out.columns[k].own_sd = upper_median(errors_[k]);
+            }
         const auto p = static_cast<Eigen::Index>(columns.size()), n = static_cast<Eigen::Index>(plan.healthy);
         const auto row = [&](std::size_t subject) {
             return Eigen::Map<const Eigen::RowVectorXd>(values.data() + subject * columns.size(), p);
@@ -166,9 +172,9 @@ private:
         return at - columns.begin();
     }
 
-    std::vector<std::size_t> twin_;           ///< (causes)
-    std::vector<std::vector<double>> floors_; ///< (columns) of healthy specimens
-    std::vector<std::size_t> first_;          ///< (tests + 1) columns
+    std::vector<std::size_t> twin_;                    ///< (causes)
+    std::vector<std::vector<double>> floors_, errors_; ///< (columns) of healthy specimens
+    std::vector<std::size_t> first_;                   ///< (tests + 1) columns
 };
 
 constexpr std::string_view samples_head = "# stylobate simulated tests ";
@@ -211,7 +217,7 @@ bool read_sample(const std::string& line, const SampleTable& table, std::pair<st
         return false;
     at = {static_cast<std::size_t>((*numbers)[0]), static_cast<std::size_t>((*numbers)[1])};
     row.assign(numbers->begin() + 2, numbers->end());
-    return std::binary_search(table.wanted.begin(), table.wanted.end(), at) && row.size() == 2 * table.width(at.first);
+    return std::binary_search(table.wanted.begin(), table.wanted.end(), at) && row.size() == 3 * table.width(at.first);
 }
 
 /// Rows in a file that the same call has begun.

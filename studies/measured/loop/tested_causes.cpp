@@ -90,9 +90,11 @@ void add_of_joint(const Specimen& specimen, int joint, double friction, double s
     for (const double lost : lost_before)
         worn.add_like({of_joint("joint_friction", joint, "ratio", "", 1), 1 - lost}, lost);
     CauseMaker dowel(all, joint, of_joint("dowel", joint, "yield_n", "N"));
-    CauseMaker bond(all, joint, of_joint("adhesion", joint, "adhesion_n_m", "N/m"));
+    CauseMaker held(all, joint, of_joint("adhesion", joint, "adhesion_n_m", "N/m"));
+    CauseMaker bond(all, joint, of_joint("adhesion", joint, "adhesion_n_m", "N/m"), "and tension");
     for (const double part : held_parts) {
         dowel.add(part * at_rest, least_yield * width, most_yield * width);
+        held.add(part * at_rest / width);
         bond.add(part * at_rest / width, least_tension, most_tension);
     }
     for (const char* side : {"left", "right"}) {

@@ -38,6 +38,7 @@ struct Assessment {
     int threads = 2;
     std::size_t estimates = 4;      ///< of a step, that are told
     bool options = false;           ///< what is expected of each test is told
+    bool by_entropy = false;        ///< the test that lets the entropy of the belief fall most per cost
     std::vector<std::string> order; ///< of the tests, instead of those that are proposed
     bool signatures = false;        ///< only what the tests give is told
     std::vector<std::string> only;  ///< tests of which that is told; empty: of all
@@ -176,6 +177,10 @@ void assess(const Assessment& how, std::uint64_t seed)
                 told += fmt::format(" {} {:.3f}{}", o.test, o.per_cost, o.left_out.empty() ? "" : "!");
             fmt::print("#   fall per cost:{}\n", told);
         }
+        if (how.by_entropy && !story->next.empty()) {
+            const auto fall = [](const StoryOption& o) { return o.left_out.empty() ? o.entropy_fall / o.cost : 0.0; };
+            story->next = {std::ranges::max_element(story->options, {}, fall)->test};
+        }
         if (!how.order.empty())
             story->next = i < static_cast<int>(how.order.size()) ? std::vector{how.order[static_cast<std::size_t>(i)]}
                                                                  : std::vector<std::string>();
@@ -206,8 +211,9 @@ void assess(const Assessment& how, std::uint64_t seed)
         std::ranges::sort(order, [](auto* a, auto* b) { return std::fabs(a->deviations) > std::fabs(b->deviations); });
         std::string told;
         for (std::size_t k = 0; k < std::min(how.estimates, order.size()); ++k)
-            told += fmt::format(" {}[{}]={:+.1f}{} ({:.3g})", order[k]->name, order[k]->joint, order[k]->deviations,
-                                order[k]->from_the_others ? "o" : "", order[k]->value);
+            told +=
+                fmt::format(" {}[{}]={:+.1f}{} ({:.3g} +- {:.2g})", order[k]->name, order[k]->joint,
+                            order[k]->deviations, order[k]->from_the_others ? "o" : "", order[k]->value, order[k]->sd);
         fmt::print("#   {} lnE {:.1f} {}:{}\n", step.test, step.log_evidence, to_string(step.verdict), told);
     }
     std::fflush(stdout);
@@ -234,6 +240,8 @@ int main(int argc, char** argv)
     app.add_option("--threads", how.threads);
     app.add_option("--estimates", how.estimates, "of a step, that are told");
     app.add_flag("--options", how.options, "tells what is expected of each test");
+    app.add_flag("--by-entropy", how.by_entropy,
+                 "the test that lets the entropy of the belief fall most per cost, instead of the proposed one");
     app.add_option("--order", how.order, "tests that are done, instead of those that are proposed");
     app.add_option("--only", how.only, "with --signatures: of these tests");
     app.add_flag("--signatures", how.signatures, "tells what healthy specimens and causes give, and does no test");

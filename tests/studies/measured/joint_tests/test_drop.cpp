@@ -57,12 +57,12 @@ TEST(Drop, GivesTheTimeUntilRest)
 {
     for (const double restitution : {0.4, 0.5, 0.7, 0.8}) {
         const auto all = estimates(column(), dropped(restitution, 0, 10));
-        expect_estimate(all, "drop.time", std::log(time_of(restitution)), 0.06, 0.05);
+        expect_estimate(all, "drop.time", std::log(time_of(restitution)), 0.08, 0.05);
     }
     EXPECT_GT(time_of(0.7), 1.8 * time_of(0.4)) << "damping is what it is about";
 }
 
-TEST(Drop, GivesTheMeanOfRepeats)
+TEST(Drop, GivesTheMedianOfRepeats)
 {
     // three repeats of each restitution
     const double upper = time_of(0.7 * std::exp(0.1)), lower = time_of(0.7 * std::exp(-0.1));
@@ -103,6 +103,17 @@ TEST(Drop, GivesTheEnergyThatIsLeft)
         } else {
             EXPECT_LT(found_late->value, std::log(0.013)) << restitution;
         }
+    }
+}
+
+TEST(Drop, OneOddLandingChangesLittle)
+{
+    std::vector<MeasuredRun> runs = dropped(0.7, 0, 140);
+    runs[3] = dropped(0.2, 0, 150)[3];
+    const auto all = estimates(column(), runs), even = estimates(column(), dropped(0.7, 0, 140));
+    for (const char* name : {"drop.time", "drop.early"}) {
+        EXPECT_NEAR(find(all, name)->value, find(even, name)->value, 0.05) << name;
+        EXPECT_GT(find(all, name)->sd, 3 * find(even, name)->sd) << name << ": it knows less";
     }
 }
 
