@@ -18,11 +18,14 @@ part() { # name, then options
 # flags of the effects for CLI11: one --effect each
 effects() { local e; for e in "$@"; do printf -- '--effect %s ' "$e"; done; }
 # shellcheck disable=SC2046
-part one --first 74001 --last 74060 --in-turn $(effects "${listed[@]}")
-part nothing --first 75001 --last 75040 --nothing
-# shellcheck disable=SC2046
-part outside --first 76001 --last 76020 --in-turn $(effects "${outside[@]}")
+part one --first 77001 --last 77060 --in-turn $(effects "${listed[@]}")
+if [[ $prior != group ]]; then # the right group is that of a listed effect
+    part nothing --first 78001 --last 78040 --nothing
+    # shellcheck disable=SC2046
+    part outside --first 79001 --last 79020 --in-turn $(effects "${outside[@]}")
+fi
 for name in one nothing outside; do
+    [[ -e $out/${prior}_$name.txt ]] || continue
     echo "$prior, $name:"
     grep -v '^#' "$out/${prior}_$name.txt" | cut -f 15 | sort | uniq -c
 done

@@ -398,9 +398,9 @@ double default_cost(RunKind kind)
     case RunKind::pull:
     case RunKind::tilt:
     case RunKind::push:
-        return 1.5;
+        return 1.25; // clamping and dismantling at every joint is most of any test
     case RunKind::drop:
-        return 1.25;
+        return 1.1;
     }
     return 1;
 }

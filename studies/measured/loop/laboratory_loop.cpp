@@ -347,6 +347,23 @@ private:
             values.emplace_back(e.column, e.value);
         return model_with(values);
     }
+    /// A test that scatters more than simulated ones knows less (bounces of a body that lands otherwise), and does so
+    /// in all its estimates together.
+    void add_own_scatter(Signatures& s) const
+    {
+        std::map<std::pair<RunKind, int>, std::pair<std::vector<Eigen::Index>, std::vector<double>>> tests;
+        for (const auto& [column, sd] : seen_sd_) {
+            const TestColumn& of = s.columns[static_cast<std::size_t>(column)];
+            auto& [columns, more] = tests[{of.test, of.joint}];
+            columns.push_back(column);
+            more.push_back(std::sqrt(std::max(0.0, sd * sd - of.own_sd * of.own_sd)));
+        }
+        for (const auto& [test, estimates] : tests) {
+            const auto& [columns, more] = estimates;
+            const Eigen::Map<const Eigen::VectorXd> scatter(more.data(), static_cast<Eigen::Index>(more.size()));
+            s.covariance(columns, columns) += scatter * scatter.transpose();
+        }
+    }
     SequenceModel model_with(const std::vector<std::pair<Eigen::Index, double>>& values) const
     {
         Signatures s = signatures_of(like_measured(samples_, values, specimens_of_a_law));
@@ -355,10 +372,7 @@ private:
             if (std::ranges::find(tried_, std::pair(s.columns[k].test, s.columns[k].joint)) != tried_.end() &&
                 std::ranges::none_of(seen_, [&](const SeenEstimate& e) { return e.column == static_cast<int>(k); }))
                 s.used[k] = false;
-        // a test that scatters more than simulated ones knows less: bounces of a body that lands otherwise
-        for (const auto& [column, sd] : seen_sd_)
-            s.floor_variance(column) +=
-                std::max(0.0, sd * sd - std::pow(s.columns[static_cast<std::size_t>(column)].own_sd, 2));
+        add_own_scatter(s);
         return {std::move(s), prior_};
     }
 
