@@ -2,9 +2,9 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
-#include "studies/measured/diagnosis/campaigns/law_adjustment.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -195,16 +195,79 @@ CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& sam
 
 } // namespace
 
+namespace {
+
+/// The sample correlation of n rows of scatter 1, in which what is within the noise of so many rows, sqrt(2 ln p / n),
+/// is 0 (Bickel and Levina, "Covariance regularization by thresholding", Annals of Statistics 36 (2008) 2577). Few
+/// estimators are correlated, and those strongly: the friction of a joint in several tests. A shrinkage of all towards
+/// 0 would make many quantities of that one.
+Eigen::MatrixXd sparse_correlation(const Eigen::MatrixXd& rows)
+{
+    const auto n = static_cast<double>(rows.rows() - 1), p = static_cast<double>(rows.cols());
+    Eigen::MatrixXd out = rows.transpose() * rows / n;
+    const Eigen::VectorXd scale = out.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+    out = scale.asDiagonal() * out * scale.asDiagonal();
+    const double noise = std::sqrt(2 * std::log(std::max(p, 2.0)) / n);
+    for (Eigen::Index i = 0; i < out.rows(); ++i)
+        for (Eigen::Index j = 0; j < out.cols(); ++j)
+            out(i, j) = i == j ? 1 : std::fabs(out(i, j)) < noise ? 0 : out(i, j);
+    constexpr double least = 0.005; // of the eigenvalues: what is left need not be positive definite
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(out);
+    if (parts.eigenvalues().minCoeff() >= least)
+        return out;
+    out = parts.eigenvectors() * parts.eigenvalues().cwiseMax(least).asDiagonal() * parts.eigenvectors().transpose();
+    const Eigen::VectorXd one = out.diagonal().cwiseSqrt().cwiseInverse();
+    return one.asDiagonal() * out * one.asDiagonal();
+}
+
+/// Of the means over the joints; and one for all contrasts, which the specimens have joints - 1 times.
+/// @param contrasts (n x p) of scatter 1
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& contrasts, const std::vector<std::vector<Eigen::Index>>& alike)
+{
+    const Eigen::Index n = contrasts.rows(), p = contrasts.cols(), estimators = static_cast<Eigen::Index>(alike.size());
+    std::size_t joints = 1;
+    for (const std::vector<Eigen::Index>& group : alike)
+        joints = std::max(joints, group.size());
+    const auto columns_of = [&](std::size_t k) { // of the mean (0) or the k-th contrast, of the estimators that have it
+        std::pair<std::vector<Eigen::Index>, std::vector<Eigen::Index>> out;
+        for (std::size_t e = 0; e < alike.size(); ++e)
+            if (alike[e].size() > k) {
+                out.first.push_back(static_cast<Eigen::Index>(e));
+                out.second.push_back(alike[e][k]);
+            }
+        return out;
+    };
+    const auto contrasts_each = static_cast<Eigen::Index>(joints) - 1;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n * contrasts_each, estimators);
+    for (Eigen::Index k = 0; k < contrasts_each; ++k) {
+        const auto [at, columns] = columns_of(static_cast<std::size_t>(k) + 1);
+        all.middleRows(n * k, n)(Eigen::all, at) = contrasts(Eigen::all, columns);
+    }
+    const auto [means, mean_columns] = columns_of(0);
+    Eigen::MatrixXd out = Eigen::MatrixXd::Identity(p, p);
+    out(mean_columns, mean_columns) = sparse_correlation(contrasts(Eigen::all, mean_columns));
+    if (contrasts_each == 0)
+        return out;
+    const Eigen::MatrixXd of_contrasts = sparse_correlation(all);
+    for (std::size_t k = 1; k < joints; ++k) {
+        const auto [at, columns] = columns_of(k);
+        out(columns, columns) = of_contrasts(at, at);
+    }
+    return out;
+}
+
+} // namespace
+
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
                                                             const std::vector<std::vector<Eigen::Index>>& alike)
 {
     const Eigen::Index n = rows.rows(), p = rows.cols();
-    Eigen::VectorXd mean(p), variance(p);
+    Eigen::VectorXd mean(p), seen(p);
     Eigen::MatrixXd off(n, p);
     for (Eigen::Index j = 0; j < p; ++j) {
         const FiniteMoments m = finite_moments(rows.col(j));
         mean(j) = m.mean;
-        variance(j) = m.variance;
+        seen(j) = m.count;
         for (Eigen::Index i = 0; i < n; ++i)
             off(i, j) = std::isfinite(rows(i, j)) ? rows(i, j) - m.mean : 0;
     }
@@ -213,12 +276,11 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixX
     const Eigen::VectorXd sd = (contrasts.colwise().squaredNorm().transpose() / static_cast<double>(n - 1)).cwiseSqrt();
     for (Eigen::Index j = 0; j < p; ++j)
         contrasts.col(j) /= std::max(sd(j), 1e-300);
-    const Eigen::MatrixXd correlation = shrunk_correlation(contrasts, Eigen::VectorXd::Ones(n));
+    const Eigen::MatrixXd correlation = correlation_of(contrasts, alike);
     const Eigen::MatrixXd back = basis.transpose() * sd.asDiagonal();
     Eigen::MatrixXd covariance = back * correlation * back.transpose();
-    // missing values stood at the mean
-    for (Eigen::Index j = 0; j < p; ++j)
-        covariance(j, j) = std::max(covariance(j, j), variance(j));
+    for (Eigen::Index j = 0; j < p; ++j) // missing values stood at the mean
+        covariance(j, j) *= static_cast<double>(n) / std::max(seen(j), 1.0);
     return {mean, covariance};
 }
 

@@ -4,8 +4,8 @@
 /// that have gone through all tests; how they were simulated does not matter here.
 ///
 /// The same body stands on every joint, so joints are compared with each other and the healthy contact law cancels.
-/// Therefore the correlation of the estimates is shrunk not between joints but between their mean over the joints and
-/// the contrasts of the joints (`healthy_scatter`): a shrinkage between joints would hide the contrasts. Estimators of
+/// Therefore the correlation of the estimates is not taken between joints but between their means over the joints, and
+/// between the contrasts of the joints (`healthy_scatter`). Estimators of
 /// one joint must be declared as contrasts for the same reason: the slope of friction against speed, and not the
 /// friction at two speeds.
 
@@ -86,8 +86,8 @@ struct Signatures {
     Eigen::MatrixXd covariance_of(const std::vector<Eigen::Index>& of) const;
 };
 
-/// Mean and covariance of healthy specimens. The correlation of the means over the joints and of the contrasts of the
-/// joints (Helmert's) is shrunk towards none, by as much as its own noise requires (`shrunk_correlation`).
+/// Mean and covariance of healthy specimens. The correlation of the means over the joints, and the one that all
+/// contrasts of the joints (Helmert's) have, are 0 where they are within their noise.
 /// @param rows  (n x p) NaN: missing   @param alike columns of the same estimator at all joints
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
                                                             const std::vector<std::vector<Eigen::Index>>& alike);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 namespace stylobate {
@@ -46,6 +47,31 @@ TEST(Signatures, KeepTheContrastsOfTheJoints)
     EXPECT_NEAR(std::sqrt(s.covariance(6, 6)), 5, 1.2);
     EXPECT_GE(s.scale, 1);
     EXPECT_LT(s.scale, 1.6);
+}
+
+TEST(Signatures, OneQuantityThatTwoTestsSeeStaysOne)
+{
+    // twelve estimators at four joints, of few specimens; the first two see the same friction of each joint, to 0.1
+    constexpr Eigen::Index specimens = 40, estimators = 12, tested = 4;
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd rows(specimens, estimators * tested);
+    std::vector<std::vector<Eigen::Index>> alike(estimators);
+    for (Eigen::Index e = 0; e < estimators; ++e)
+        for (Eigen::Index j = 0; j < tested; ++j)
+            alike[static_cast<std::size_t>(e)].push_back(e * tested + j);
+    for (Eigen::Index i = 0; i < specimens; ++i)
+        for (Eigen::Index j = 0; j < tested; ++j) {
+            const double friction = normal(random);
+            for (Eigen::Index e = 0; e < estimators; ++e)
+                rows(i, e * tested + j) = e < 2 ? friction + 0.1 * normal(random) : normal(random);
+        }
+    const Eigen::MatrixXd c = healthy_scatter(rows, alike).second;
+    for (Eigen::Index j = 0; j < tested; ++j) {
+        const double given = c(j, j) - c(j, j + tested) * c(j, j + tested) / c(j + tested, j + tested);
+        EXPECT_LT(std::sqrt(given), 0.35) << "of 0.14; a shrinkage of all correlations gave 0.9";
+        EXPECT_GT(std::sqrt(given), 0.1);
+    }
 }
 
 TEST(Signatures, HaveShiftsOfTwoDeviationsAndMore)
