@@ -15,8 +15,8 @@ namespace stylobate {
 /// @throws InputError, naming file, run and data set
 Campaign read_campaign(const std::filesystem::path& path);
 
-/// A sequence goes on in another file: adds its tests of single joints after those that are there, and what was measured
-/// of the specimen at rest. Shake runs of that file are left out, and reported.
+/// A sequence goes on in another file: adds its tests of single joints after those that are there, and what was
+/// measured of the specimen at rest. Shake runs of that file are left out, and reported.
 /// @throws InputError, naming both files and what differs, if it is of another specimen, or has no test
 void add_tests_of(const Campaign& more, Campaign& campaign);
 
