@@ -165,7 +165,7 @@ std::vector<Estimate> board_of(const Specimen& specimen, std::span<const Measure
             (side < 0 ? left : right).push_back(*found);
     }
     const auto friction = [](const char* name, double value, double sd) {
-        return Estimate{name, 0, value, sd, {.friction = 1, .geometry_m = 0, .force = 0, .time = 0}};
+        return Estimate{name, 0, value, sd, {.friction = 1, .geometry_m = 0, .force = 0, .damping = 0}};
     };
     struct Mean {
         double value = 0, variance = 0, count = 0;

@@ -37,7 +37,7 @@ double floor_of(const Estimate& estimate, const LaboratoryFloor& floor)
 {
     const LaboratoryFloor& per = estimate.per_floor;
     return std::hypot(std::hypot(per.friction * floor.friction, per.geometry_m * floor.geometry_m),
-                      std::hypot(per.force * floor.force, per.time * floor.time));
+                      std::hypot(per.force * floor.force, per.damping * floor.damping));
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct LaboratoryFloor {
     double friction = 0.015;  ///< relative
     double geometry_m = 1e-4; ///< of a bearing's end, or of a centre of mass
     double force = 0.015;     ///< relative
-    double time = 0.05;       ///< relative, of the time until a body is at rest
+    double damping = 0.05;    ///< relative, of the energy that a fall leaves
 };
 
 struct Estimate {

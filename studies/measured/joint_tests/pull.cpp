@@ -198,7 +198,7 @@ void mark_fast(std::vector<PullWindow>& windows)
 
 Estimate pull_estimate(const char* name, double value, double sd, double per_friction)
 {
-    return {name, 0, value, sd, {.friction = per_friction, .geometry_m = 0, .force = 0, .time = 0}};
+    return {name, 0, value, sd, {.friction = per_friction, .geometry_m = 0, .force = 0, .damping = 0}};
 }
 
 void add_place(const FrictionFit& fit, std::vector<Estimate>& all)

@@ -155,7 +155,7 @@ std::vector<Estimate> push_of(const Specimen& specimen, std::span<const Measured
         const double n = left && right ? 2 : 1;
         const double sum = (left ? left->bond : 0) + (right ? right->bond : 0);
         const double sd = std::hypot(left ? left->bond_sd : 0, right ? right->bond_sd : 0);
-        all.push_back({"push.bond", 0, sum / n, sd / n, {.friction = 0, .geometry_m = 0, .force = 1, .time = 0}});
+        all.push_back({"push.bond", 0, sum / n, sd / n, {.friction = 0, .geometry_m = 0, .force = 1, .damping = 0}});
     }
     if (left && right) {
         const double sd = std::hypot(left->arm_sd, right->arm_sd), whole = left->whole_m + right->whole_m;
@@ -163,12 +163,12 @@ std::vector<Estimate> push_of(const Specimen& specimen, std::span<const Measured
                        0,
                        left->arm_m + right->arm_m,
                        std::hypot(sd, whole * right->gain_sd),
-                       {.friction = 0, .geometry_m = 1, .force = whole / std::numbers::sqrt2, .time = 0}});
+                       {.friction = 0, .geometry_m = 1, .force = whole / std::numbers::sqrt2, .damping = 0}});
         all.push_back({"push.centre",
                        0,
                        (left->arm_m - right->arm_m) / 2,
                        sd / 2,
-                       {.friction = 0, .geometry_m = 1, .force = 0, .time = 0}});
+                       {.friction = 0, .geometry_m = 1, .force = 0, .damping = 0}});
     }
     return all;
 }

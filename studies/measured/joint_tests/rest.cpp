@@ -28,7 +28,7 @@ std::vector<Estimate> rest_of(const Specimen& specimen, std::span<const Measured
 {
     const int joint = *runs.front().joint;
     const auto j = static_cast<std::size_t>(joint), u = static_cast<std::size_t>(specimen.joints[j].second);
-    const LaboratoryFloor geometry = {.friction = 0, .geometry_m = 1, .force = 0, .time = 0};
+    const LaboratoryFloor geometry = {.friction = 0, .geometry_m = 1, .force = 0, .damping = 0};
     const double width = 2 * specimen.half_width_m[u];
     std::vector<Estimate> all;
     if (u < specimen.centre_of_mass_m.size())
@@ -55,7 +55,7 @@ std::vector<Estimate> rest_of(const Specimen& specimen, std::span<const Measured
                        joint,
                        turn / count,
                        std::sqrt(variance) / count,
-                       {.friction = 0, .geometry_m = lies_within / width, .force = 0, .time = 0}});
+                       {.friction = 0, .geometry_m = lies_within / width, .force = 0, .damping = 0}});
     return all;
 }
 

@@ -154,7 +154,7 @@ std::vector<Estimate> slide_of(const Specimen& specimen, std::span<const Measure
                            0,
                            std::log(peak_acceleration(*seen) / g),
                            seen->x_sd / seen->body.length_ratio,
-                           {.friction = 1, .geometry_m = 0, .force = 0, .time = 0}});
+                           {.friction = 1, .geometry_m = 0, .force = 0, .damping = 0}});
         return all;
     }
     const auto with = [&](auto column) {
@@ -167,7 +167,7 @@ std::vector<Estimate> slide_of(const Specimen& specimen, std::span<const Measure
                          std::sqrt(squares));
     };
     const auto add = [&](const char* name, double value, double sd, double per_friction) {
-        all.push_back({name, 0, value, sd, {.friction = per_friction, .geometry_m = 0, .force = 0, .time = 0}});
+        all.push_back({name, 0, value, sd, {.friction = per_friction, .geometry_m = 0, .force = 0, .damping = 0}});
     };
     const auto [fit, quadratic] = with([](double v) { return std::fabs(v) * v; });
     const auto [viscous, linear] = with([](double v) { return v; });

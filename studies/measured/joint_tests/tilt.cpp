@@ -135,7 +135,7 @@ std::vector<Estimate> tilt_of(const Specimen& specimen, std::span<const Measured
         return {};
     const double left = arm[0] / count[0], right = arm[1] / count[1];
     const double sd = std::hypot(std::sqrt(variance[0]) / count[0], std::sqrt(variance[1]) / count[1]);
-    const LaboratoryFloor geometry = {.friction = 0, .geometry_m = 1, .force = 0, .time = 0};
+    const LaboratoryFloor geometry = {.friction = 0, .geometry_m = 1, .force = 0, .damping = 0};
     return {{"tilt.width", 0, left + right, sd, geometry}, {"tilt.centre", 0, (left - right) / 2, sd / 2, geometry}};
 }
 

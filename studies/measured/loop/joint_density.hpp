@@ -1,9 +1,10 @@
 #pragma once
 /// The density of estimates under each hypothesis over that of a healthy specimen: multivariate Student with 8 degrees
-/// of freedom, whose scale matrix is the covariance. All estimates so far have one joint density, so that a test counts
-/// given the tests before it, with which it shares friction and widths. Marginals of a multivariate Student density are
-/// of the same kind (Kotz & Nadarajah, "Multivariate t distributions and their applications" (2004)); so the ratios are
-/// a martingale under the healthy density, in any order of the tests.
+/// of freedom, whose scale matrix is the covariance; of more than 8 estimates normal in its middle. All estimates so
+/// far have one joint density, so that a test counts given the tests before it, with which it shares friction and
+/// widths. Marginals of a multivariate Student density are of the same kind (Kotz & Nadarajah, "Multivariate t
+/// distributions and their applications" (2004)); so the ratios are a martingale under the healthy density, in any
+/// order of the tests, as far as its middle is Student's too.
 
 #include "studies/measured/loop/signatures.hpp"
 
@@ -17,17 +18,6 @@
 namespace stylobate {
 
 constexpr double estimate_freedom = 8;
-
-/// A mechanism at a place, whatever its size.
-struct CausePlace {
-    std::string mechanism, place;
-    std::string form = {}; ///< (`TestedCause::form`)
-    friend bool operator==(const CausePlace&, const CausePlace&) = default;
-    /// Whether it is the same mechanism at the same place, in whatever form.
-    bool same_place(const CausePlace& other) const { return mechanism == other.mechanism && place == other.place; }
-    std::string place_words() const { return form.empty() ? place : place + " " + form; }
-    std::string label() const { return mechanism + " at " + place_words(); }
-};
 
 /// One distribution of the estimates: a part of the sizes of a cause, or something that is not in the list.
 struct Hypothesis {

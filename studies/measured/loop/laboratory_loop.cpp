@@ -159,9 +159,7 @@ public:
 private:
     const Cause& cause_of(const CausePlace& place) const
     {
-        const auto at = std::ranges::find_if(causes_, [&](const LoopCause& c) {
-            return CausePlace{c.named.mechanism, c.named.place, c.named.form} == place;
-        });
+        const auto at = std::ranges::find_if(causes_, [&](const LoopCause& c) { return c.named.at() == place; });
         return at->told;
     }
 

@@ -41,7 +41,7 @@ std::optional<TestStory> laboratory_loop(const Campaign& campaign, const Study& 
                                          Observer& observer);
 
 /// The specimen with the runs of tests ("pull", ...) at every joint that can be tested by itself, without measurements:
-/// to be followed by a table, or to be performed by a virtual laboratory. Of `rest`: no runs.
+/// to be followed by a table, or to be performed by a virtual laboratory.
 Campaign planned_campaign(const Campaign& campaign, const std::vector<std::string>& tests);
 
 /// What the laboratory does in a test, a line each: what to clamp, remove and tape, strokes, speeds, angles, repeats.

@@ -95,6 +95,20 @@ double distance_left_out(const TestSamples& tests, const Signatures& s)
     return count > 0 ? sum / count : 1;
 }
 
+bool has_pairs(const CauseSamples& samples)
+{
+    return samples.differences || !samples.pairs.empty();
+}
+
+/// One column: differences from the healthy specimens of the same law, where there are such; else as it is.
+Eigen::VectorXd against_twins(const TestSamples& tests, const CauseSamples& samples, Eigen::Index j)
+{
+    Eigen::VectorXd values = samples.rows.col(j);
+    for (std::size_t i = 0; i < samples.pairs.size() && !samples.differences; ++i)
+        values(static_cast<Eigen::Index>(i)) -= tests.healthy(samples.pairs[i], j);
+    return values;
+}
+
 /// Shift and additional variance of one column, before small ones are left out.
 struct ColumnShift {
     double shift = 0, variance = 0, error = 0;
@@ -104,12 +118,8 @@ struct ColumnShift {
 ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, Eigen::Index j)
 {
     ColumnShift out;
-    Eigen::VectorXd values = samples.rows.col(j);
-    const bool paired = samples.differences || !samples.pairs.empty();
-    if (paired && !samples.differences)
-        for (Eigen::Index i = 0; i < values.size(); ++i)
-            values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
-    const FiniteMoments with = finite_moments(values);
+    const bool paired = has_pairs(samples);
+    const FiniteMoments with = finite_moments(against_twins(tests, samples, j));
     if (with.count < fewest_of_cause)
         return out;
     out.known = true;
@@ -130,17 +140,14 @@ ColumnShift column_shift(const TestSamples& tests, const CauseSamples& samples, 
 /// Takes half of the scatter as what the estimates have together in the same specimens.
 void take_common_part(const TestSamples& tests, const CauseSamples& samples, CauseSignature& out)
 {
-    const bool paired = samples.differences || !samples.pairs.empty();
-    if (!paired || samples.rows.rows() < 2)
+    if (!has_pairs(samples) || samples.rows.rows() < 2)
         return;
     const Eigen::Index m = samples.rows.rows();
     out.common = Eigen::MatrixXd::Zero(out.shift.size(), m);
     for (Eigen::Index j = 0; j < out.shift.size(); ++j) {
         if (out.shift(j) == 0 || !column_shift(tests, samples, j).known)
             continue;
-        Eigen::VectorXd values = samples.rows.col(j);
-        for (Eigen::Index i = 0; i < m && !samples.differences; ++i)
-            values(i) -= tests.healthy(samples.pairs[static_cast<std::size_t>(i)], j);
+        const Eigen::VectorXd values = against_twins(tests, samples, j);
         const FiniteMoments with = finite_moments(values);
         for (Eigen::Index i = 0; i < m; ++i)
             if (std::isfinite(values(i)))
@@ -163,8 +170,8 @@ const CauseSignature* next_weaker(const std::vector<CauseSignature>& known, cons
 {
     const CauseSignature* found = nullptr;
     for (const CauseSignature& c : known)
-        if (c.cause.mechanism == cause.mechanism && c.cause.place == cause.place && c.cause.form == cause.form &&
-            c.cause.size * cause.size > 0 && std::fabs(c.cause.size) < std::fabs(cause.size) &&
+        if (c.cause.at() == cause.at() && c.cause.size * cause.size > 0 &&
+            std::fabs(c.cause.size) < std::fabs(cause.size) &&
             (!found || std::fabs(c.cause.size) > std::fabs(found->cause.size)))
             found = &c;
     return found;
@@ -192,10 +199,6 @@ CauseSignature cause_signature(const TestSamples& tests, const CauseSamples& sam
     take_common_part(tests, samples, out);
     return out;
 }
-
-} // namespace
-
-namespace {
 
 /// The sample correlation of n rows of scatter 1, in which what is within the noise of so many rows, sqrt(2 ln p / n),
 /// is 0 (Bickel and Levina, "Covariance regularization by thresholding", Annals of Statistics 36 (2008) 2577). Few

@@ -34,13 +34,25 @@ struct TestColumn {
     friend bool operator==(const TestColumn&, const TestColumn&) = default;
 };
 
+/// A mechanism at a place, whatever its size.
+struct CausePlace {
+    std::string mechanism, place;
+    std::string form = {}; ///< of several that one mechanism has at a place: a side, a law; empty: it has one
+    friend bool operator==(const CausePlace&, const CausePlace&) = default;
+    /// Whether it is the same mechanism at the same place, in whatever form.
+    bool same_place(const CausePlace& other) const { return mechanism == other.mechanism && place == other.place; }
+    std::string place_words() const { return form.empty() ? place : place + " " + form; }
+    std::string label() const { return mechanism + " at " + place_words(); }
+};
+
 /// A mechanism at a place with a size, that acts in simulated specimens.
 struct TestedCause {
     std::string mechanism;
     std::string place; ///< "joint 0", "block 2", "all"
     double size = 0;   ///< 0 is neutral; below 0 only where it has two signs
     std::string unit = {};
-    std::string form = {}; ///< of several that one mechanism has at a place: a side, a law; empty: it has one
+    std::string form = {}; ///< (`CausePlace`)
+    CausePlace at() const { return {mechanism, place, form}; }
     friend bool operator==(const TestedCause&, const TestedCause&) = default;
 };
 

@@ -189,7 +189,7 @@ std::string samples_key(const Specimen& specimen, const Study& about, const std:
         all.runs.insert(all.runs.end(), test.runs.begin(), test.runs.end());
     std::string key = std::string(samples_head) + campaign_key(all, about, plan.seed) +
                       fmt::format(" {} {} floor {:g} {:g} {:g} {:g}", plan.healthy, plan.of_each_cause,
-                                  plan.floor.friction, plan.floor.geometry_m, plan.floor.force, plan.floor.time);
+                                  plan.floor.friction, plan.floor.geometry_m, plan.floor.force, plan.floor.damping);
     for (const PlannedTest& test : tests) {
         key += fmt::format(" {} {}", to_string(test.kind), test.joint);
         for (const MeasuredRun& run : test.runs) {

@@ -27,29 +27,32 @@ std::optional<RatedTest> chosen_of(const SequenceModel& model, const std::vector
     return chosen_test(model, seen, rated_tests(model, seen, options, settings));
 }
 
-TEST(TestChoice, ExpectedEntropyIsThatOfItsIntegral)
+TEST(TestChoice, ExpectedBeliefIsThatOfItsIntegral)
 {
-    // one estimate, one cause: the entropy of Bayes' theorem, integrated over the predicted density
+    // one estimate, one cause: entropy and mean of Bayes' theorem, integrated over the predicted density
     const Signatures s =
         gaussian::signatures({{RunKind::push, 0, "plateau"}}, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1),
                              0.2, {gaussian::cause("corner_loss", "joint 0", 1, 1, {{0, 3}})});
     const SequenceModel model(s, {});
-    double expected = 0;
+    double entropy = 0, in_truth = 0;
     const double step = 0.001;
     for (double u = -9; u <= 9; u += step) {
-        const double x = std::sinh(u);
-        const double parts[3] = {0.5 * gaussian::student_density(x, 0, 1.04),
-                                 0.425 * gaussian::student_density(x, 3, 1.04 + 9 / 12.0),
-                                 0.075 * gaussian::student_density(x, 0, 1.04 * 37)};
-        const double all = parts[0] + parts[1] + parts[2];
-        for (const double part : parts)
-            expected -= part * std::log(part / all) * std::cosh(u) * step;
+        const double x = std::sinh(u), dx = std::cosh(u) * step;
+        const double nothing = 0.5 * gaussian::student_density(x, 0, 1.04),
+                     cause = 0.425 * gaussian::student_density(x, 3, 1.04 + 9 / 12.0),
+                     unlisted = 0.075 * gaussian::student_density(x, 0, 1.04 * 37), all = nothing + cause + unlisted;
+        for (const double part : {nothing, cause, unlisted})
+            entropy -= part * std::log(part / all) * dx;
+        in_truth += (cause * cause + unlisted * unlisted) / all * dx;
     }
-    EXPECT_NEAR(expected_belief(model, {}, {0}, {20'000, 3}).entropy, expected, 0.012);
+    const ExpectedBelief found = expected_belief(model, {}, {0}, {20'000, 3});
+    EXPECT_NEAR(found.entropy, entropy, 0.012);
+    EXPECT_NEAR(found.in_truth, in_truth, 0.006);
     EXPECT_EQ(expected_belief(model, {}, {0}, {200, 3}).entropy, expected_belief(model, {}, {0}, {200, 3}).entropy);
     // before any test
     EXPECT_NEAR(belief_of(model, {}).entropy(),
                 -0.5 * std::log(0.5) - 0.425 * std::log(0.425) - 0.075 * std::log(0.075), 1e-12);
+    EXPECT_NEAR(expected_belief(model, {}, {}, {2000, 3}).in_truth, 0.425 * 0.425 + 0.075 * 0.075, 0.002);
 }
 
 TEST(TestChoice, PrefersTheGroupThatTheFirstDiagnosisSuspects)
@@ -65,27 +68,6 @@ TEST(TestChoice, PrefersTheGroupThatTheFirstDiagnosisSuspects)
         ASSERT_TRUE(chosen);
         EXPECT_TRUE(chosen->option.test == first || chosen->option.test == second) << group;
     }
-}
-
-TEST(TestChoice, TheBeliefInWhatActsIsThatOfItsIntegral)
-{
-    // one estimate, one cause of prior 0.425: the mean of its posterior where it acts, and the same of what is not
-    // listed
-    const Signatures s =
-        gaussian::signatures({{RunKind::push, 0, "plateau"}}, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1),
-                             0.2, {gaussian::cause("corner_loss", "joint 0", 1, 1, {{0, 3}})});
-    const SequenceModel model(s, {});
-    double expected = 0;
-    const double step = 0.001;
-    for (double u = -9; u <= 9; u += step) {
-        const double x = std::sinh(u);
-        const double nothing = 0.5 * gaussian::student_density(x, 0, 1.04),
-                     cause = 0.425 * gaussian::student_density(x, 3, 1.04 + 9 / 12.0),
-                     unlisted = 0.075 * gaussian::student_density(x, 0, 1.04 * 37);
-        expected += (cause * cause + unlisted * unlisted) / (nothing + cause + unlisted) * std::cosh(u) * step;
-    }
-    EXPECT_NEAR(expected_belief(model, {}, {0}, {20'000, 3}).in_truth, expected, 0.006);
-    EXPECT_NEAR(expected_belief(model, {}, {}, {2000, 3}).in_truth, 0.425 * 0.425 + 0.075 * 0.075, 0.002);
 }
 
 TEST(TestChoice, AsksWhatTheSpecimenMayTurnOutToBe)

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 namespace stylobate {
 namespace {
@@ -42,6 +43,31 @@ TEST(JointDensity, OfOneEstimateIsStudents)
         EXPECT_NEAR(ratios(1), std::log(student_density(x, 2, 0.36 * 37) / healthy), 1e-12) << x;
     }
     EXPECT_NEAR(density.distances()(0), 3 / 0.6, 1e-12);
+}
+
+TEST(JointDensity, QuietEstimatesDoNotMakeTheOneThatIsOffCountTwice)
+{
+    // forty estimates; one is off by 4, which a cause gives, the others are as quiet as can be
+    constexpr Eigen::Index p = 40;
+    std::vector<TestColumn> columns;
+    for (Eigen::Index j = 0; j < p; ++j)
+        columns.push_back({RunKind::pull, 0, "estimate " + std::to_string(j)});
+    const Signatures s = gaussian::signatures(columns, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Identity(p, p), 0,
+                                              {gaussian::cause("dowel", "joint 0", 1, p, {{0, 4}})});
+    const Hypotheses hypotheses(s);
+    const auto ratio = [&](Eigen::Index count) {
+        std::vector<Eigen::Index> used;
+        Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+        for (Eigen::Index j = 0; j < count; ++j)
+            used.push_back(j);
+        values(0) = 4;
+        const JointDensity density(s, hypotheses, used);
+        return density.log_ratios(density.whitened(values))(0);
+    };
+    // by normal numbers: 4^2 / 2, less the spread of the sizes, 1 + 16 / 12
+    const double normal = 8 - std::log(1 + 16 / 12.0) / 2;
+    EXPECT_LT(ratio(1), normal) << "a heavy tail";
+    EXPECT_NEAR(ratio(p), normal, 0.25 * normal) << "Student's density alone: 26";
 }
 
 TEST(JointDensity, RatiosAverageToOneUnderTheHealthyDensity)
