@@ -98,9 +98,9 @@ RatedTest rated(const SequenceModel& model, std::span<const SeenEstimate> seen,
         if ((why = why_left_out(one, option, columns)))
             continue;
         ++useful;
-        std::vector<Eigen::Index> before = planned, all = planned;
+        std::vector<Eigen::Index> before = planned;
         std::erase_if(before, [&](Eigen::Index k) { return !one.signatures.used[static_cast<std::size_t>(k)]; });
-        all = before;
+        std::vector<Eigen::Index> all = before;
         all.insert(all.end(), columns.begin(), columns.end());
         const ExpectedBelief without = before.empty() ? present_belief(one, seen)
                                                       : expected_belief(one, seen, before, settings),

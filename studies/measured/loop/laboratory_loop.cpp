@@ -3,6 +3,7 @@
 #include "ensemble/model/input_error.hpp"
 #include "studies/measured/joint_tests/procedures.hpp"
 #include "studies/measured/loop/choice.hpp"
+#include "studies/measured/loop/known_tests.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +24,6 @@ constexpr double told_deviations = 2.5; // estimates that are told in words
 constexpr double usual_friction = 0.6;  // where the specimen states none
 constexpr double listed_belief = 0.7;   // of candidates that the first diagnosis lists without a probability
 constexpr double most_told_nats = 8;
-constexpr std::size_t specimens_of_a_law = 40; // healthy ones that count
-constexpr std::size_t specimens_in_prospect = 4;
 constexpr double like_the_plan = 0.1; // of the largest displacement: farther, and a run was another test
 
 /// One performance of a test on one joint.
@@ -132,23 +131,22 @@ class Loop {
 public:
     Loop(const Campaign& campaign, const std::vector<LoopCause>& causes, const TestSamples& samples,
          const SequencePrior& prior, const LoopOptions& options)
-        : campaign_(campaign), causes_(causes), samples_(samples), prior_(prior), options_(options),
-          model_(signatures_of(samples), prior)
+        : campaign_(campaign), causes_(causes), options_(options), known_(samples, prior), model_(known_.model())
     {
     }
 
     void tell(const std::vector<std::vector<DoneTest>>& steps, const std::vector<int>& joints, TestStory& story)
     {
-        story.prior = beliefs(belief_of(model_, seen_), belief_of(model_, seen_));
+        story.prior = beliefs(belief_of(model_, known_.seen()), belief_of(model_, known_.seen()));
         for (const std::vector<DoneTest>& step : steps)
             tell_step(step, story);
-        const SequenceJudgement now = judgement_of(model_, seen_);
+        const SequenceJudgement now = judgement_of(model_, known_.seen());
         story.verdict = now.verdict;
         story.log_evidence = now.log_evidence;
         story.share = now.share;
         if (now.verdict == SequenceVerdict::named)
             tell_cause(now, story);
-        for (const SizeLimit& limit : limits_of(model_, seen_))
+        for (const SizeLimit& limit : limits_of(model_, known_.seen()))
             if (now.verdict != SequenceVerdict::named || !now.cause || !(limit.cause == *now.cause))
                 story.limits.push_back({limit.cause.label() + (limit.below_neutral ? ", downwards" : ""),
                                         limit.size ? size_words(cause_of(limit.cause), *limit.size) : std::string()});
@@ -180,7 +178,7 @@ private:
         step.test = to_string(tests.front().kind);
         std::vector<int> joints;
         std::vector<Estimate> measured;
-        const std::size_t first = seen_.size();
+        const std::size_t first = known_.seen().size();
         for (const DoneTest& test : tests) {
             joints.push_back(test.joint);
             check_like_plan(campaign_, test, story);
@@ -192,23 +190,21 @@ private:
                                 step.test, test.joint));
             for (const Estimate& e : found)
                 if (const std::optional<Eigen::Index> column = column_of(e)) {
-                    seen_.push_back({*column, e.value});
+                    known_.add(*column, e);
                     measured.push_back(e);
-                    double& sd = seen_sd_.try_emplace(*column, 0).first->second;
-                    sd = std::max(sd, e.sd);
                 }
-            tried_.emplace_back(test.kind, test.joint);
+            known_.done(test.kind, test.joint);
         }
         std::ranges::sort(joints);
         step.joints = joints_in_words(joints);
-        const std::span<const SeenEstimate> so_far(seen_.data(), first);
-        model_ = model_like(seen_);
-        const Belief before = belief_of(model_, so_far), after = belief_of(model_, seen_);
+        const std::span<const SeenEstimate> seen = known_.seen(), so_far = seen.first(first);
+        model_ = known_.model();
+        const Belief before = belief_of(model_, so_far), after = belief_of(model_, seen);
         step.beliefs = beliefs(before, after);
-        const SequenceJudgement now = judgement_of(model_, seen_);
+        const SequenceJudgement now = judgement_of(model_, known_.seen());
         step.log_evidence = now.log_evidence;
         step.verdict = now.verdict;
-        const std::vector<SeenDeviation> deviations = deviations_of(model_.signatures, std::span(seen_).subspan(first));
+        const std::vector<SeenDeviation> deviations = deviations_of(model_.signatures, seen.subspan(first));
         for (const SeenDeviation& d : deviations) {
             const TestColumn& column = model_.signatures.columns[static_cast<std::size_t>(d.column)];
             StoryEstimate e{column.name, words_of(column.name), column.joint,     d.value, 0, column.unit,
@@ -267,7 +263,7 @@ private:
         story.parameter = cause.parameter;
         story.unit = cause.unit;
         story.size = parameter_of(cause, now.size);
-        if (const std::optional<SizeInterval> sizes = size_of(model_, seen_, *now.cause)) {
+        if (const std::optional<SizeInterval> sizes = size_of(model_, known_.seen(), *now.cause)) {
             story.size = parameter_of(cause, sizes->mean);
             const double at_low = parameter_of(cause, sizes->low), at_high = parameter_of(cause, sizes->high);
             story.low = std::min(at_low, at_high);
@@ -284,13 +280,12 @@ private:
                 if (of == kind)
                     cost = stated;
             std::optional<std::string> cannot = cannot_do(campaign_.specimen, campaign_.laboratory, kind);
-            if (kind == RunKind::rest &&
-                std::ranges::find(tried_, kind, &std::pair<RunKind, int>::first) != tried_.end())
+            if (kind == RunKind::rest && known_.was_done(kind))
                 cannot = "It is measured, and stands in the specimen";
             tests.push_back({kind, std::nullopt, cost, std::move(cannot)});
         }
-        const Prospects prospects = [&](const TestOption& option) { return models_after(option); };
-        const std::vector<RatedTest> all = rated_tests(model_, seen_, tests, {}, prospects);
+        const Prospects prospects = [&](const TestOption& option) { return known_.models_after(option.test); };
+        const std::vector<RatedTest> all = rated_tests(model_, known_.seen(), tests, {}, prospects);
         for (const RatedTest& rated : all)
             story.options.push_back({to_string(rated.option.test), rated.option.cost, rated.entropy_fall,
                                      rated.belief_gain, rated.per_cost, rated.left_out.value_or("")});
@@ -299,7 +294,7 @@ private:
         std::vector<RatedTest> next;
         if (options_.planned > 1)
             next = planned_tests(model_, tests, options_.planned, {}, prospects);
-        else if (std::optional<RatedTest> one = chosen_test(model_, seen_, all))
+        else if (std::optional<RatedTest> one = chosen_test(model_, known_.seen(), all))
             next.push_back(std::move(*one));
         for (const RatedTest& test : next)
             story.next.emplace_back(to_string(test.option.test));
@@ -337,83 +332,11 @@ private:
                next;
     }
 
-    /// Of specimens whose law is like that of the measured one, as far as the tests have shown it.
-    SequenceModel model_like(const std::vector<SeenEstimate>& seen) const
-    {
-        std::vector<std::pair<Eigen::Index, double>> values;
-        for (const SeenEstimate& e : seen)
-            values.emplace_back(e.column, e.value);
-        return model_with(values);
-    }
-    /// A test that scatters more than simulated ones knows less (bounces of a body that lands otherwise), and does so
-    /// in all its estimates together.
-    void add_own_scatter(Signatures& s) const
-    {
-        std::map<std::pair<RunKind, int>, std::pair<std::vector<Eigen::Index>, std::vector<double>>> tests;
-        for (const auto& [column, sd] : seen_sd_) {
-            const TestColumn& of = s.columns[static_cast<std::size_t>(column)];
-            auto& [columns, more] = tests[{of.test, of.joint}];
-            columns.push_back(column);
-            more.push_back(std::sqrt(std::max(0.0, sd * sd - of.own_sd * of.own_sd)));
-        }
-        for (const auto& [test, estimates] : tests) {
-            const auto& [columns, more] = estimates;
-            const Eigen::Map<const Eigen::VectorXd> scatter(more.data(), static_cast<Eigen::Index>(more.size()));
-            s.covariance(columns, columns) += scatter * scatter.transpose();
-        }
-    }
-    SequenceModel model_with(const std::vector<std::pair<Eigen::Index, double>>& values) const
-    {
-        Signatures s = signatures_of(like_measured(samples_, values, specimens_of_a_law));
-        // what a test did not give is not expected of its repeat either
-        for (std::size_t k = 0; k < s.columns.size(); ++k)
-            if (std::ranges::find(tried_, std::pair(s.columns[k].test, s.columns[k].joint)) != tried_.end() &&
-                std::ranges::none_of(seen_, [&](const SeenEstimate& e) { return e.column == static_cast<int>(k); }))
-                s.used[k] = false;
-        add_own_scatter(s);
-        return {std::move(s), prior_};
-    }
-
-    /// Models of specimens like some healthy ones, by what a test would show of their law: those at the middles of
-    /// quarters of all, in the order of one estimate.
-    std::vector<SequenceModel> models_after(const TestOption& option) const
-    {
-        std::vector<Eigen::Index> of_law;
-        for (std::size_t k = 0; k < samples_.columns.size(); ++k)
-            if (samples_.columns[k].of_the_law && samples_.columns[k].test == option.test)
-                of_law.push_back(static_cast<Eigen::Index>(k));
-        if (of_law.empty())
-            return {};
-        std::vector<std::pair<Eigen::Index, double>> values;
-        for (const SeenEstimate& e : seen_)
-            values.emplace_back(e.column, e.value);
-        const TestSamples like = like_measured(samples_, values, specimens_of_a_law);
-        std::vector<std::pair<double, Eigen::Index>> order;
-        for (Eigen::Index i = 0; i < like.healthy.rows(); ++i)
-            if (const double value = like.healthy(i, of_law.front()); std::isfinite(value))
-                order.emplace_back(value, i);
-        std::ranges::sort(order);
-        std::vector<SequenceModel> models;
-        for (std::size_t part = 0; part < specimens_in_prospect && !order.empty(); ++part) {
-            const Eigen::Index i = order[(2 * part + 1) * order.size() / (2 * specimens_in_prospect)].second;
-            auto with = values;
-            for (const Eigen::Index k : of_law)
-                if (std::isfinite(like.healthy(i, k)))
-                    with.emplace_back(k, like.healthy(i, k));
-            models.push_back(model_with(with));
-        }
-        return models;
-    }
-
     const Campaign& campaign_;
     const std::vector<LoopCause>& causes_;
-    const TestSamples& samples_;
-    const SequencePrior& prior_;
     const LoopOptions& options_;
+    KnownTests known_;
     SequenceModel model_;
-    std::vector<SeenEstimate> seen_;
-    std::map<Eigen::Index, double> seen_sd_;     ///< the largest error that an estimate in a column says of itself
-    std::vector<std::pair<RunKind, int>> tried_; ///< tests that were done at a joint
 };
 
 } // namespace
