@@ -66,8 +66,10 @@ const char* procedure(RunKind kind)
                "at\n"
                "# 4 Hz (10.7 m/s2) for 3 s, and the block slides. One run for each joint.\n";
     case RunKind::rest:
-        return "# Rest: callipers, a level, two scales and inked beds give the three lists at the end of [specimen].\n"
-               "# Nothing moves: the run has no table.\n";
+        return "# Rest: callipers, two scales and inked beds give the three lists at the end of [specimen]. Nothing "
+               "moves: the\n"
+               "# run needs no table. With the joint, runs/NAME.csv may have what the cameras saw of the block that "
+               "lies there.\n";
     }
     return "";
 }

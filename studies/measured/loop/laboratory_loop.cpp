@@ -56,7 +56,7 @@ std::vector<DoneTest> done_tests(const Campaign& campaign, TestStory& story)
         const MeasuredRun& run = campaign.tests[r];
         if (run.joint && stands_alone(campaign.specimen, *run.joint))
             all[{run.test, *run.joint}].emplace_back(run.run_order.value_or(static_cast<int>(r)), &run);
-        else
+        else if (run.joint || run.test != RunKind::rest) // what was measured at rest stands in the specimen
             story.notes.push_back(
                 fmt::format("Run {} is left out: {}.", run.name,
                             run.joint ? "what stands on its joint stands on others too" : "it names no joint"));

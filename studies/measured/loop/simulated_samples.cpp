@@ -264,7 +264,10 @@ private:
 Specimen measured_at_rest(const Specimen& specimen, const HealthyLaw& law, const std::vector<SizedCause>& causes,
                           std::uint64_t seed, const SampleSubject& subject)
 {
-    Specimen seen = specimen;
+    Specimen seen = specimen; // in which the measured one's numbers may stand
+    seen.centre_of_mass_m.clear();
+    seen.bearing_left_m.clear();
+    seen.bearing_right_m.clear();
     std::uint64_t element = 0;
     const std::uint64_t index = subject.number + (static_cast<std::uint64_t>(subject.cause + 1) << 32U);
     const auto noise = [&](double sd) {
