@@ -30,6 +30,7 @@ Diagnosis without_shakes(const Campaign& campaign, const Study& study, std::uint
     d.code_version = code_version();
     d.seed = seed;
     d.verdict_text = "There are no shake runs, so that there is no first diagnosis.";
+    d.missing.push_back({"base and sensors; joints and blocks as they move together", "there are no shake runs"});
     for (const Finding& finding : campaign.findings)
         d.data_findings.push_back(finding.place + ": " + finding.text);
     return d;

@@ -248,7 +248,7 @@ private:
             return fmt::format("All estimates are within {:.1f} standard deviations of healthy specimens.",
                                std::fabs(farthest->deviations));
         std::string text = fmt::format(
-            "The {} at joint {} is {:.1f} standard deviations from what {}.", farthest->what, farthest->joint,
+            "At joint {}: {}, {:.1f} standard deviations from what {}.", farthest->joint, farthest->what,
             farthest->deviations, farthest->from_the_others ? "the other joints let expect" : "healthy specimens give");
         if (now.cause)
             text += fmt::format(" The likeliest cause is {} ({:.0f} %).", now.cause->label(), 100 * now.share);
