@@ -186,7 +186,7 @@ private:
             if (found.empty())
                 story.notes.push_back(
                     fmt::format("{} at joint {} gave no estimate: nothing slid or turned, it fell, or "
-                                "it was not seen. Do it again.",
+                                "it was not seen.",
                                 step.test, test.joint));
             for (const Estimate& e : found)
                 if (const std::optional<Eigen::Index> column = column_of(e)) {
