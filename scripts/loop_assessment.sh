@@ -18,11 +18,11 @@ part() { # name, then options
 # flags of the effects for CLI11: one --effect each
 effects() { local e; for e in "$@"; do printf -- '--effect %s ' "$e"; done; }
 # shellcheck disable=SC2046
-part one --first 77001 --last 77060 --in-turn $(effects "${listed[@]}")
+part one --first 81001 --last 81060 --in-turn $(effects "${listed[@]}")
 if [[ $prior != group ]]; then # the right group is that of a listed effect
-    part nothing --first 78001 --last 78040 --nothing
+    part nothing --first 82001 --last 82040 --nothing
     # shellcheck disable=SC2046
-    part outside --first 79001 --last 79020 --in-turn $(effects "${outside[@]}")
+    part outside --first 83001 --last 83020 --in-turn $(effects "${outside[@]}")
 fi
 for name in one nothing outside; do
     [[ -e $out/${prior}_$name.txt ]] || continue

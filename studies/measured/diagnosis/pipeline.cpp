@@ -65,7 +65,6 @@ private:
     void show_windows(const std::vector<ChosenWindow>& chosen);
     void judge_extended_study();
     void write_extended_study();
-    void propose_next_test();
     void tell_method_and_cost();
 
     const Campaign& measured_;
@@ -102,7 +101,6 @@ std::optional<Diagnosis> Pipeline::run()
         return std::nullopt;
     find_wrong_windows();
     judge_extended_study();
-    propose_next_test();
     if (observer_.stop_requested())
         return std::nullopt;
     tell_method_and_cost();
@@ -411,21 +409,6 @@ void Pipeline::write_extended_study()
                     "In a study each run begins with a new specimen.");
     if (!left_out.empty())
         d_.missing.push_back({"all of the extended study", "It lacks " + list_words(left_out) + "."});
-}
-
-/// A motion that would separate the two most probable causes of different mechanisms.
-void Pipeline::propose_next_test()
-{
-    std::vector<JudgedCause> rivals;
-    for (const auto* list : {&decided_.named, &decided_.in_set, &decided_.judged})
-        for (const JudgedCause& j : *list)
-            if (j.channel != Channel::direct && j.fit.gain > 0 && rivals.size() < 2 &&
-                std::none_of(rivals.begin(), rivals.end(), [&](const JudgedCause& other) {
-                    return other.fit.cause.mechanism == j.fit.cause.mechanism;
-                }))
-                rivals.push_back(j);
-    if (!decided_.in_set.empty() || (!decided_.named.empty() && decided_.named.front().channel != Channel::direct))
-        d_.next_test = next_test(measured_, scales_, study_, rivals, options_.seed, options_.run, count_, observer_);
 }
 
 void Pipeline::tell_method_and_cost()

@@ -44,11 +44,4 @@ std::optional<ModelGain> predictive_gain(const Campaign& campaign, const Campaig
                                          const std::vector<JudgedCause>& named, std::uint64_t seed,
                                          const RunOptions& options, SimulationCount& count, Observer& observer);
 
-// ---- The test that would distinguish the remaining causes.
-
-/// Of a few motions that a table can make, the one whose outcome separates these causes best.
-std::optional<NextTest> next_test(const Campaign& campaign, const CampaignScales& scales, const Study& baseline,
-                                  const std::vector<JudgedCause>& causes, std::uint64_t seed, const RunOptions& options,
-                                  SimulationCount& count, Observer& observer);
-
 } // namespace stylobate

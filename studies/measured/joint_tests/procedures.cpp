@@ -206,20 +206,26 @@ MeasuredRun push_run(const Specimen& specimen, int joint, const TestedBody& body
     return run;
 }
 
-MeasuredRun drop_run(const Specimen& specimen, int joint, const TestedBody& body)
+/// @param side on which the lower corner is: -1 left, 1 right
+MeasuredRun drop_run(const Specimen& specimen, int joint, const TestedBody& body, int side)
 {
     MeasuredRun run =
         empty_run(specimen, RunKind::drop, joint, test_start_s + (drop_s - test_start_s) * body.time_ratio);
     run.released_s = test_start_s;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const auto tested = static_cast<std::size_t>(body.upper);
+    const double w = specimen.half_width_m[tested], h = specimen.half_height_m[tested];
+    // the lower corner half as far inside its place as the lean would bring it
+    const double aside = side * h * std::sin(drop_lean_rad) / 2;
+    const double up =
+        drop_height_m * body.length_ratio + w * std::sin(drop_lean_rad) - h * (1 - std::cos(drop_lean_rad));
     for (const double t : run.time_s)
-        for (int b = 0; b < specimen.blocks(); ++b) {
-            const auto k = static_cast<std::size_t>(b);
-            const bool held = t <= test_start_s && std::ranges::count(run.present, b) > 0;
-            const double up = b == body.upper ? drop_height_m * body.length_ratio : 0;
-            run.blocks.x_m.values.push_back(held ? specimen.rest_x_m[k] : none);
-            run.blocks.y_m.values.push_back(held ? specimen.rest_y_m[k] + up : none);
-            run.blocks.theta_rad.values.push_back(held ? 0.0 : none);
+        for (std::size_t b = 0; b < static_cast<std::size_t>(specimen.blocks()); ++b) {
+            const bool held = t <= test_start_s && std::ranges::count(run.present, static_cast<int>(b)) > 0;
+            const bool hangs = b == tested;
+            run.blocks.x_m.values.push_back(held ? specimen.rest_x_m[b] + (hangs ? aside : 0) : none);
+            run.blocks.y_m.values.push_back(held ? specimen.rest_y_m[b] + (hangs ? up : 0) : none);
+            run.blocks.theta_rad.values.push_back(held ? (hangs ? -side * drop_lean_rad : 0) : none);
         }
     return run;
 }
@@ -351,10 +357,13 @@ std::vector<MeasuredRun> planned_runs(const Specimen& specimen, const Laboratory
     case RunKind::push:
         return both_sides([&](int side) { return push_run(specimen, joint, body, side); });
     case RunKind::drop: {
-        std::vector<MeasuredRun> runs(drop_repeats, drop_run(specimen, joint, body));
+        std::vector<MeasuredRun> runs;
         for (int i = 0; i < drop_repeats; ++i) {
-            runs[static_cast<std::size_t>(i)].repeat = i;
-            runs[static_cast<std::size_t>(i)].name += fmt::format("_{}", i);
+            const bool right = i % 2 != 0;
+            runs.push_back(drop_run(specimen, joint, body, right ? 1 : -1));
+            runs.back().motion_id += right ? 1 : 0;
+            runs.back().repeat = i / 2;
+            runs.back().name += fmt::format("_{}_{}", right ? "right" : "left", i / 2);
         }
         return runs;
     }

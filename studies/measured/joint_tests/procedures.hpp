@@ -21,7 +21,8 @@ inline constexpr double pull_slow_m_s = 0.014;        ///< its slow cycles
 inline constexpr double pull_fast_m_s = 0.060;        ///< its fast cycles
 inline constexpr double push_reach_m = 0.010;         ///< the rod's end is held after that way
 inline constexpr double push_speed_m_s = 0.004;       ///< of the rod's end
-inline constexpr double drop_height_m = 0.003;        ///< of the body above its place
+inline constexpr double drop_height_m = 0.003;        ///< of the lower corner above its place
+inline constexpr double drop_lean_rad = 0.1;          ///< of the body that hangs, in turn to the left and to the right
 inline constexpr int drop_repeats = 6;                ///< of `drop`
 inline constexpr double steepest_board_rad = 0.69813; ///< 40 degrees
 

@@ -219,11 +219,6 @@ Eigen::VectorXd JointDensity::whitened_shift(const Eigen::VectorXd& shift) const
     return root_.matrixL().solve(Eigen::VectorXd(shift(columns_)));
 }
 
-namespace {
-
-/// What a squared distance takes off the logarithm of the density: Student's tails, for outliers. Nearer than n less
-/// the degrees of freedom it goes on along the tangent, as for normal numbers: many quiet estimates, of a laboratory
-/// better than its stated floors, shall not teach that all are quieter than stated. One that is off would count twice.
 double surprise(double squares, Eigen::Index estimates)
 {
     const auto n = static_cast<double>(estimates);
@@ -231,8 +226,6 @@ double surprise(double squares, Eigen::Index estimates)
     return power * (std::log1p(std::max(squares, tangent) / estimate_freedom) +
                     std::min(0.0, squares - tangent) / (estimate_freedom + tangent));
 }
-
-} // namespace
 
 Eigen::VectorXd JointDensity::log_ratios(const Eigen::VectorXd& white) const
 {

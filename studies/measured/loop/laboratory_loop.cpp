@@ -458,8 +458,10 @@ std::vector<std::string> sheet_of(const Specimen& specimen, const Laboratory& la
                                     kind == RunKind::board ? "slides" : "turns"));
         break;
     case RunKind::drop:
-        lines.push_back(fmt::format("Let the body hang {:.3g} mm above the joint by a thread, level to 1 mrad, and "
-                                    "burn the thread; {} times.",
+        lines.push_back(fmt::format("Let the body hang by a thread with a lean of {:.3g} degrees, its lower corner "
+                                    "{:.3g} mm above the joint, and burn the thread; {} times, in turn with the left "
+                                    "and the right corner below.",
+                                    57.29578 * drop_lean_rad,
                                     1e3 * drop_height_m * tested_body(specimen, joints.front(), {}).length_ratio,
                                     drop_repeats));
         break;

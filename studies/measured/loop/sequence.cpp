@@ -382,9 +382,8 @@ std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const 
                                                    spread * spread.transpose());
             const Eigen::VectorXd white =
                 root.matrixL().solve(used.values - (model.signatures.mean + of.shift(size))(used.columns));
-            const double log_density = -root.matrixLLT().diagonal().array().log().sum() -
-                                       (estimate_freedom + static_cast<double>(white.size())) / 2 *
-                                           std::log1p(white.squaredNorm() / estimate_freedom);
+            const double log_density =
+                -root.matrixLLT().diagonal().array().log().sum() - surprise(white.squaredNorm(), white.size());
             sizes.emplace_back(size, log_density + std::log(std::fabs(last) / limit_steps));
         }
     }

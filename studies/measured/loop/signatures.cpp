@@ -259,6 +259,20 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& contrasts, const std::vect
     return out;
 }
 
+/// What is missing at one joint stands where the specimen's other joints are: their common part may be far from the
+/// mean, and is no contrast.
+void stand_in_for_missing(const std::vector<std::vector<Eigen::Index>>& alike, Eigen::MatrixXd& off)
+{
+    for (const std::vector<Eigen::Index>& group : alike)
+        for (Eigen::Index i = 0; i < off.rows(); ++i) {
+            const FiniteMoments others = finite_moments(off(i, group).transpose());
+            for (const Eigen::Index j : group)
+                if (!std::isfinite(off(i, j)))
+                    off(i, j) = others.mean; // 0 of none
+        }
+    off = off.array().isFinite().select(off, 0).eval(); // columns that are not used
+}
+
 } // namespace
 
 std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixXd& rows,
@@ -271,20 +285,19 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> healthy_scatter(const Eigen::MatrixX
         const FiniteMoments m = finite_moments(rows.col(j));
         mean(j) = m.mean;
         seen(j) = m.count;
-        for (Eigen::Index i = 0; i < n; ++i)
-            off(i, j) = std::isfinite(rows(i, j)) ? rows(i, j) - m.mean : 0;
+        off.col(j) = rows.col(j).array() - m.mean;
     }
+    stand_in_for_missing(alike, off);
     const Eigen::MatrixXd basis = joint_contrasts(p, alike);
     Eigen::MatrixXd contrasts = off * basis.transpose();
-    const Eigen::VectorXd sd = (contrasts.colwise().squaredNorm().transpose() / static_cast<double>(n - 1)).cwiseSqrt();
-    for (Eigen::Index j = 0; j < p; ++j)
+    Eigen::VectorXd sd(p);
+    for (Eigen::Index j = 0; j < p; ++j) {
+        sd(j) = contrasts.col(j).norm() / std::sqrt(std::max(seen(j) - 1, 1.0)); // by those that were seen
         contrasts.col(j) /= std::max(sd(j), 1e-300);
+    }
     const Eigen::MatrixXd correlation = correlation_of(contrasts, alike);
     const Eigen::MatrixXd back = basis.transpose() * sd.asDiagonal();
-    Eigen::MatrixXd covariance = back * correlation * back.transpose();
-    for (Eigen::Index j = 0; j < p; ++j) // missing values stood at the mean
-        covariance(j, j) *= static_cast<double>(n) / std::max(seen(j), 1.0);
-    return {mean, covariance};
+    return {mean, back * correlation * back.transpose()};
 }
 
 Eigen::MatrixXd Signatures::covariance_of(const std::vector<Eigen::Index>& of) const

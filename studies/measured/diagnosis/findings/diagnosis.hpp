@@ -156,23 +156,6 @@ struct ModelGain {
     friend bool operator==(const ModelGain&, const ModelGain&) = default;
 };
 
-/// A motion that was considered for the next test.
-struct MotionChoice {
-    std::string motion;
-    MaybeReal separation; ///< of the two closest candidates, in standard deviations
-    std::string text;     ///< remarks: expected to fall, beyond the table's stroke, ...
-    friend bool operator==(const MotionChoice&, const MotionChoice&) = default;
-};
-
-/// The test that would distinguish the causes that these data do not.
-struct NextTest {
-    std::string excitation; ///< in one line
-    std::string text;       ///< why this one
-    std::vector<std::string> separates;
-    std::vector<MotionChoice> motions; ///< best first
-    friend bool operator==(const NextTest&, const NextTest&) = default;
-};
-
 /// Something that could not be judged.
 struct Missing {
     std::string what;
@@ -191,7 +174,7 @@ struct DiagnosisCost {
 };
 
 /// To which part of the page a figure belongs.
-enum class FigurePlace { verdict, data, baseline, wrong, candidates, unexplained, gain, next_test };
+enum class FigurePlace { verdict, data, baseline, wrong, candidates, unexplained, gain };
 
 struct DiagnosisFigure : Figure {
     FigurePlace place = FigurePlace::wrong;
@@ -229,7 +212,6 @@ struct Diagnosis {
     std::optional<std::string> extended_study;      ///< the baseline with the cause in it (TOML); nullopt: none
     std::optional<std::string> extended_study_file; ///< where it was written; nullopt: not written
     std::optional<ModelGain> gain;
-    std::optional<NextTest> next_test;
     std::vector<Missing> missing;
     std::vector<std::string> method; ///< in short: one paragraph each
     DiagnosisCost cost;

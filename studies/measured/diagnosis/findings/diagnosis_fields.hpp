@@ -27,7 +27,7 @@ struct FieldWords<SeriesKind> {
 template <>
 struct FieldWords<FigurePlace> {
     static constexpr const char* words[] = {"verdict",    "data",        "baseline", "wrong",
-                                            "candidates", "unexplained", "gain",     "next_test"};
+                                            "candidates", "unexplained", "gain"};
 };
 template <class F>
 void visit_fields(std::type_identity<DataTest>, F&& f)
@@ -145,23 +145,6 @@ void visit_fields(std::type_identity<ModelGain>, F&& f)
 }
 
 template <class F>
-void visit_fields(std::type_identity<MotionChoice>, F&& f)
-{
-    f("motion", &MotionChoice::motion);
-    f("separation", &MotionChoice::separation);
-    f("text", &MotionChoice::text);
-}
-
-template <class F>
-void visit_fields(std::type_identity<NextTest>, F&& f)
-{
-    f("excitation", &NextTest::excitation);
-    f("separates", &NextTest::separates);
-    f("text", &NextTest::text);
-    f("motions", &NextTest::motions);
-}
-
-template <class F>
 void visit_fields(std::type_identity<Missing>, F&& f)
 {
     f("what", &Missing::what);
@@ -231,7 +214,6 @@ void visit_fields(std::type_identity<Diagnosis>, F&& f)
     f("extended_study", &Diagnosis::extended_study);
     f("extended_study_file", &Diagnosis::extended_study_file);
     f("gain", &Diagnosis::gain);
-    f("next_test", &Diagnosis::next_test);
     f("missing", &Diagnosis::missing);
     f("method", &Diagnosis::method);
     f("cost", &Diagnosis::cost);

@@ -64,7 +64,6 @@ public:
         gain();
         if (!tested)
             tests();
-        next_test();
         data();
         baseline();
         missing();
@@ -112,8 +111,8 @@ private:
         if (d_.gain)
             if (const std::optional<std::string> words = gain_words(*d_.gain))
                 facts.emplace_back("Gain", *words);
-        if (d_.next_test)
-            facts.emplace_back("Next test", d_.next_test->excitation);
+        if (d_.tests && !d_.tests->next.empty())
+            facts.emplace_back("Next test", d_.tests->next.front());
         if (!d_.missing.empty())
             facts.emplace_back("Not judged", not_judged());
         if (!facts.empty())
@@ -296,25 +295,6 @@ private:
         page_.section("Tests of single joints");
         add_story(*d_.tests, page_);
         add_story_figures(*d_.tests, page_);
-    }
-
-    void next_test()
-    {
-        if (!d_.next_test)
-            return;
-        const NextTest& n = *d_.next_test;
-        page_.section("The next test");
-        page_.box("", n.excitation, n.text);
-        if (!n.separates.empty())
-            page_.paragraph("It separates " + list_words(n.separates) + ".");
-        if (!n.motions.empty()) {
-            HtmlTable table{"lrl", {"motion considered", "separation [sd]", "remarks"}, {}, ""};
-            for (const MotionChoice& m : n.motions)
-                table.rows.push_back({m.motion, cell(m.separation), m.text});
-            page_.table(table);
-            page_.note("Separation: of the two closest candidates, in standard deviations of what they predict.");
-        }
-        figures(FigurePlace::next_test);
     }
 
     void tests(const std::string& title, const std::vector<DataTest>& tests)

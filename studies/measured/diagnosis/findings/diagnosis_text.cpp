@@ -189,18 +189,6 @@ std::string tests_part(const Diagnosis& d)
     return heading("Tests of single joints") + console_text(document);
 }
 
-std::string next_test_part(const Diagnosis& d)
-{
-    if (!d.next_test)
-        return "";
-    std::string out = heading("The next test") + wrapped(d.next_test->excitation, 2);
-    if (!d.next_test->separates.empty())
-        out += wrapped("It separates " + list_words(d.next_test->separates) + ".", 2);
-    if (!d.next_test->text.empty())
-        out += wrapped(d.next_test->text, 2);
-    return out;
-}
-
 std::string baseline_part(const Diagnosis& d)
 {
     if (d.baseline.empty())
@@ -234,7 +222,7 @@ std::string diagnosis_text(const Diagnosis& d)
     out += unexplained_part(d) + gain_part(d);
     if (d.extended_study_file)
         out += wrapped("The extended study: " + *d.extended_study_file, 2);
-    out += (tested ? "" : tests_part(d)) + next_test_part(d) + data_part(d) + baseline_part(d);
+    out += (tested ? "" : tests_part(d)) + data_part(d) + baseline_part(d);
     if (!d.missing.empty()) {
         out += heading("Tests that were not possible");
         for (const Missing& missing : d.missing)

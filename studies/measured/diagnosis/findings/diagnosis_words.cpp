@@ -228,7 +228,13 @@ Json diagnosis_json(const Diagnosis& d)
 {
     Json json = json_of(d, {"verdict"});
     json.member("causes", json_list(named_causes(d), cause));
-    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain", "next_test"});
+    add_members(json, d, {"indistinguishable", "unexplained", "wrong", "gain"});
+    if (d.tests && !d.tests->next.empty())
+        json.member("next_test", Json::object()
+                                     .member("excitation", d.tests->next.front())
+                                     .member("separates", Json::list(d.indistinguishable)));
+    else
+        json.member_as_is("next_test", "null");
     if (d.extended_study_file)
         json.member("extended_study", *d.extended_study_file);
     else

@@ -197,10 +197,6 @@ inline Diagnosis filled_diagnosis()
     story.simulations = 5000;
     story.seconds = 62.5;
     d.tests = story;
-    d.next_test = NextTest{"harmonic, 3 Hz, 2.5 m/s2, then 5 m/s2",
-                           "Slow and fast slip in one test.",
-                           {"joint_friction", "stribeck"},
-                           {{"harmonic, 3 Hz, 2.5 m/s2", 6.2, ""}, {"sweep, 1 to 8 Hz", {}, "expected to fall"}}};
     d.missing = {{"vertical_motion", "the table was not seen by the cameras"}};
     d.method = {"The baseline was calibrated first, then each mechanism was fitted beside it."};
     d.cost = {61234, 450000, 1234567890123, 212.5, 2, 6.8};

@@ -51,7 +51,9 @@ TEST(DiagnosisJson, HasTheKeysOfTheContractInTheirOrder)
               (std::vector<std::string>{"run", "block", "coordinate", "from_s", "to_s", "excess"}));
     expect_first_keys(json["gain"], {"error_before", "error_after", "low", "high", "runs_left_out"});
     EXPECT_EQ(json["gain"]["runs_left_out"].items[1].text, "005");
-    expect_first_keys(json["next_test"], {"excitation", "separates"});
+    EXPECT_EQ(keys_of(json["next_test"]), (std::vector<std::string>{"excitation", "separates"}));
+    EXPECT_EQ(json["next_test"]["excitation"].text, "push");
+    EXPECT_EQ(json["next_test"]["separates"].items.size(), 2U);
     EXPECT_EQ(json["extended_study"].text, "diagnosis_extended.toml");
     EXPECT_EQ(json["simulations"].number, 61234);
     EXPECT_EQ(json["seconds"].number, 212.5);

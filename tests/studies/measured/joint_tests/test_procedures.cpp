@@ -98,7 +98,17 @@ TEST(Procedures, TiltPushAndDropAsPlanned)
     const MeasuredRun& first = drop.front();
     EXPECT_EQ(first.released_s, 0.2);
     EXPECT_NEAR(first.time_s.back(), 1.2, 1e-9);
-    EXPECT_NEAR(first.blocks.y_m.values[3 * 100 + 1], 3 * half_height + 0.003, 1e-15) << "held until then";
+    for (const int r : {0, 1}) { // the lower corner 3 mm above the joint, held until then
+        const SeenMotion& held = drop[static_cast<std::size_t>(r)].blocks;
+        const double turn = held.theta_rad.values[3 * 100 + 1], side = r == 0 ? -1 : 1;
+        EXPECT_NEAR(turn, -side * 0.1, 1e-15) << "counter-clockwise: the left corner is below";
+        const double corner =
+            held.y_m.values[3 * 100 + 1] + side * half_width * std::sin(turn) - half_height * std::cos(turn);
+        EXPECT_NEAR(corner, 2 * half_height + 0.003, 1e-15);
+        const double inside = held.x_m.values[3 * 100 + 1] - column().rest_x_m[1] + side * half_width * std::cos(turn) +
+                              half_height * std::sin(turn);
+        EXPECT_LT(side * inside, half_width) << "on the block below";
+    }
     EXPECT_NEAR(first.blocks.y_m.values[3 * 100 + 0], half_height, 1e-15);
     EXPECT_TRUE(std::isnan(first.blocks.y_m.values[3 * 101 + 1]));
     EXPECT_TRUE(std::isnan(first.blocks.y_m.values[2])) << "not present";

@@ -296,8 +296,8 @@ TEST(SimulatedTest, NoHealthyLawGivesAFallEnergy)
     int estimated = 0;
     for (std::size_t s = 0; s < on.size(); ++s)
         for (const Estimate& e : estimates(four_blocks(), runs[s]))
-            if (e.name == "drop.early") {
-                EXPECT_LT(e.value, 0.1) << s << " " << to_string(on[s].law->kind);
+            if (e.name == "drop.bounce") {
+                EXPECT_LT(e.value, std::log(2 / 3.0 + 0.01) + 0.1) << s << " " << to_string(on[s].law->kind);
                 ++estimated;
             }
     EXPECT_GE(estimated, 46);

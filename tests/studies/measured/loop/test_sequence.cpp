@@ -228,6 +228,27 @@ TEST(Sequence, SizeIsStudentsPosteriorInClosedForm)
     EXPECT_FALSE(size_of(model, std::vector<SeenEstimate>{{0, 12}}, {"dowel", "joint 0"}));
 }
 
+TEST(Sequence, QuietEstimatesDoNotNarrowTheSize)
+{
+    // as above, with forty estimates beside it that are all where healthy specimens have them
+    constexpr Eigen::Index p = 41;
+    std::vector<TestColumn> columns(p, {RunKind::slide, 0, "slide.drag"});
+    std::vector<SeenEstimate> seen = {{0, 12}};
+    for (Eigen::Index k = 1; k < p; ++k) {
+        columns[static_cast<std::size_t>(k)].name += std::to_string(k);
+        seen.push_back({k, 0});
+    }
+    const SequenceModel model(gaussian::signatures(columns, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Identity(p, p),
+                                                   0,
+                                                   {gaussian::cause("drag", "all", 1, p, {{0, 10}}),
+                                                    gaussian::cause("drag", "all", 2, p, {{0, 20}})}),
+                              {});
+    const std::optional<SizeInterval> size = size_of(model, seen, {"drag", "all"});
+    ASSERT_TRUE(size);
+    EXPECT_GT(size->high - size->low, 1.7 * 1.6449 / 10) << "that of a normal number is 2 x 1.6449 / 10";
+    EXPECT_LT(size->high - size->low, 2 * 1.8595 / 10);
+}
+
 TEST(Sequence, LimitsAreOfCausesThatWereTested)
 {
     const SequenceModel model(gaussian::laboratory(), {});

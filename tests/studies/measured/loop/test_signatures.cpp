@@ -74,6 +74,23 @@ TEST(Signatures, OneQuantityThatTwoTestsSeeStaysOne)
     }
 }
 
+TEST(Signatures, AJointThatGaveNoEstimateMakesNoContrast)
+{
+    // the joints have a common part of 5 and own ones of 0.5; each tenth estimate is missing
+    constexpr Eigen::Index specimens = 80, tested = 4;
+    std::mt19937_64 random(6);
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd rows(specimens, tested);
+    for (Eigen::Index i = 0; i < specimens; ++i) {
+        const double common = 5 * normal(random);
+        for (Eigen::Index j = 0; j < tested; ++j)
+            rows(i, j) = (tested * i + j) % 10 == 0 ? std::nan("") : common + 0.5 * normal(random);
+    }
+    const Eigen::MatrixXd inverse = healthy_scatter(rows, {{0, 1, 2, 3}}).second.inverse();
+    for (Eigen::Index j = 0; j < tested; ++j)
+        EXPECT_NEAR(1 / std::sqrt(inverse(j, j)), 0.5 * std::sqrt(4 / 3.0), 0.12) << "given the three others";
+}
+
 TEST(Signatures, HaveShiftsOfTwoDeviationsAndMore)
 {
     for (const bool paired : {true, false}) {
