@@ -144,8 +144,7 @@ public:
         story.verdict = now.verdict;
         story.log_evidence = now.log_evidence;
         story.share = now.share;
-        if (now.verdict == SequenceVerdict::named)
-            tell_cause(now, story);
+        tell_causes(now, story);
         for (const SizeLimit& limit : limits_of(model_, known_.seen()))
             if (now.verdict != SequenceVerdict::named || !now.cause || !(limit.cause == *now.cause))
                 story.limits.push_back({limit.cause.label() + (limit.below_neutral ? ", downwards" : ""),
@@ -255,19 +254,34 @@ private:
         return text;
     }
 
-    void tell_cause(const SequenceJudgement& now, TestStory& story) const
+    /// The named cause, then one after the other those at other places that the tests name with it given.
+    void tell_causes(SequenceJudgement now, TestStory& story) const
     {
-        const Cause& cause = cause_of(*now.cause);
-        story.mechanism = now.cause->mechanism;
-        story.place = now.cause->place_words();
-        story.parameter = cause.parameter;
-        story.unit = cause.unit;
-        story.size = parameter_of(cause, now.size);
-        if (const std::optional<SizeInterval> sizes = size_of(model_, known_.seen(), *now.cause)) {
-            story.size = parameter_of(cause, sizes->mean);
-            const double at_low = parameter_of(cause, sizes->low), at_high = parameter_of(cause, sizes->high);
-            story.low = std::min(at_low, at_high);
-            story.high = std::max(at_low, at_high);
+        for (SequenceModel model = model_; now.verdict == SequenceVerdict::named;) {
+            const Cause& cause = cause_of(*now.cause);
+            StoryCause told{now.cause->mechanism,
+                            now.cause->place_words(),
+                            cause.parameter,
+                            cause.unit,
+                            parameter_of(cause, now.size),
+                            {},
+                            {},
+                            now.share,
+                            now.log_evidence};
+            const std::optional<SizeInterval> sizes = size_of(model, known_.seen(), *now.cause);
+            if (sizes) {
+                told.size = parameter_of(cause, sizes->mean);
+                const double at_low = parameter_of(cause, sizes->low), at_high = parameter_of(cause, sizes->high);
+                told.low = std::min(at_low, at_high);
+                told.high = std::max(at_low, at_high);
+            }
+            story.named.push_back(std::move(told));
+            if (!sizes)
+                return;
+            model = given(model, *now.cause, *sizes);
+            if (model.signatures.causes.empty())
+                return;
+            now = judgement_of(model, known_.seen());
         }
     }
 
@@ -302,17 +316,24 @@ private:
             story.sheet = sheet_of(campaign_.specimen, campaign_.laboratory, next.front().option.test, joints);
     }
 
+    static std::string named_in_words(const TestStory& story)
+    {
+        std::vector<std::string> words;
+        for (const StoryCause& c : story.named)
+            words.push_back(fmt::format("{} at {}, {} = {:.3g}{}{}{} (belief {:.2f}, evidence e^{:.1f})", c.mechanism,
+                                        c.place, c.parameter, c.size, c.unit.empty() ? "" : " ", c.unit,
+                                        c.low ? fmt::format(" ({:.3g} to {:.3g}, 90 %)", *c.low, *c.high) : "", c.share,
+                                        c.log_evidence));
+        return fmt::format("The tests name {}.", fmt::join(words, "; beside it "));
+    }
+
     std::string answer(const SequenceJudgement& now, const TestStory& story) const
     {
         const std::string next =
             story.next.empty() ? std::string() : fmt::format(" Next test: {}.", story.next.front());
         switch (now.verdict) {
         case SequenceVerdict::named:
-            return fmt::format(
-                "The tests name {}, {}{} (belief {:.2f}, evidence e^{:.1f}).", now.cause->label(),
-                fmt::format("{} = {:.3g}{}{}", story.parameter, *story.size, story.unit.empty() ? "" : " ", story.unit),
-                story.low ? fmt::format(" ({:.3g} to {:.3g}, 90 %)", *story.low, *story.high) : "", now.share,
-                now.log_evidence);
+            return named_in_words(story);
         case SequenceVerdict::unexplained: {
             const TestColumn& off = model_.signatures.columns[static_cast<std::size_t>(now.off.front())];
             return fmt::format("The tests show what no listed cause gives: {} at {}{}.", words_of(off.name),

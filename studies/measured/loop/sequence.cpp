@@ -409,6 +409,25 @@ std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const 
     return out;
 }
 
+SequenceModel given(const SequenceModel& model, const CausePlace& cause, const SizeInterval& sizes)
+{
+    constexpr double half_width90 = 1.6449; // of a normal interval, in standard deviations
+    Signatures s = model.signatures;
+    for (const ShiftOfSize& of : shifts_of(model.signatures, cause))
+        if (of.sizes.front() * sizes.mean > 0) {
+            const Eigen::MatrixXd spread = of.spread(sizes.mean);
+            const Eigen::VectorXd of_size = (of.shift(sizes.high) - of.shift(sizes.low)) / (2 * half_width90);
+            s.mean += of.shift(sizes.mean);
+            s.covariance += spread * spread.transpose() + of_size * of_size.transpose();
+        }
+    std::erase_if(s.causes, [&](const CauseSignature& c) {
+        return cause.place == "all" || c.cause.place == cause.place || c.cause.place == "all";
+    });
+    SequencePrior prior = model.prior;
+    prior.shares.clear(); // what the first diagnosis believed was of one cause
+    return {std::move(s), std::move(prior)};
+}
+
 std::vector<SizeLimit> limits_of(const SequenceModel& model, std::span<const SeenEstimate> seen)
 {
     std::vector<SizeLimit> out;

@@ -104,6 +104,10 @@ struct SizeInterval {
 std::optional<SizeInterval> size_of(const SequenceModel& model, std::span<const SeenEstimate> seen,
                                     const CausePlace& cause, double level = 0.9);
 
+/// What is expected where a cause acts: its shift at the mean of its sizes, with the scatter of these beside its own.
+/// Left to judge are the causes at other places: what the cause leaves at its own may be its law's.
+SequenceModel given(const SequenceModel& model, const CausePlace& cause, const SizeInterval& sizes);
+
 /// The largest size of a cause that the tests leave possible, for one sign of the size.
 struct SizeLimit {
     CausePlace cause;

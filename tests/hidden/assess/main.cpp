@@ -124,19 +124,24 @@ std::string judged(const VirtualCampaign& made, const TestStory& story)
         return named ? "wrong name" : story.verdict == SequenceVerdict::unexplained ? "right" : "missed";
     if (!named)
         return story.verdict == SequenceVerdict::unexplained ? "unexplained" : "missed";
-    if (story.mechanism != loop_mechanism(e.name))
+    const StoryCause& first = story.named.front();
+    if (first.mechanism != loop_mechanism(e.name))
         return "wrong name";
-    return story.place == e.place || story.place.starts_with(e.place + " ") ? "right" : "wrong place";
+    if (first.place != e.place && !first.place.starts_with(e.place + " "))
+        return "wrong place";
+    return story.named.size() > 1 ? "right, and a wrong one beside it" : "right";
 }
 
 /// Whether the interval has the size; empty: the two are not the same quantity.
 std::string size_within(const VirtualCampaign& made, const TestStory& story)
 {
-    if (made.effects.empty() || !story.low || !made.effects.front().size_comparable ||
-        story.parameter != made.effects.front().parameter || judged(made, story) != "right")
+    if (made.effects.empty() || story.named.empty() || !judged(made, story).starts_with("right"))
         return "";
-    const double size = made.effects.front().size;
-    return size >= *story.low && size <= *story.high ? "within" : "outside";
+    const StoryCause& first = story.named.front();
+    const HiddenEffect& effect = made.effects.front();
+    if (!first.low || !effect.size_comparable || first.parameter != effect.parameter)
+        return "";
+    return effect.size >= *first.low && effect.size <= *first.high ? "within" : "outside";
 }
 
 void assess(const Assessment& how, std::uint64_t seed)
@@ -193,6 +198,7 @@ void assess(const Assessment& how, std::uint64_t seed)
         plan.tests = plans;
         campaign = tested(made, plan);
     }
+    const StoryCause named = story->named.empty() ? StoryCause{} : story->named.front();
     std::string hidden = "nothing\t\t";
     if (!made.effects.empty()) {
         const HiddenEffect& e = made.effects.front();
@@ -200,9 +206,9 @@ void assess(const Assessment& how, std::uint64_t seed)
     }
     fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}\t{}\n", seed,
                made.model.law == hidden::Law::nonsmooth ? "A" : "B", made.planned.specimen.name, hidden,
-               to_string(story->verdict), story->mechanism, story->place,
-               story->size ? fmt::format("{:.4g}", *story->size) : "",
-               story->low ? fmt::format("{:.4g}..{:.4g}", *story->low, *story->high) : "", story->share,
+               to_string(story->verdict), named.mechanism, named.place,
+               story->named.empty() ? "" : fmt::format("{:.4g}", named.size),
+               named.low ? fmt::format("{:.4g}..{:.4g}", *named.low, *named.high) : "", story->share,
                story->log_evidence, done, judged(made, *story), size_within(made, *story));
     for (const StoryStep& step : story->steps) {
         std::vector<const StoryEstimate*> order;

@@ -127,9 +127,10 @@ std::vector<CandidateCause> candidate_causes(const Specimen& specimen, const Cam
             sum += m;
         return sum / static_cast<double>(specimen.mass_kg.size());
     }();
-    all.push_back(
-        {{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"},
-         drag_at_one * mass * specimen.gravity_m_s2 / std::pow(std::max(paths.speed_m_s, least_speed * speed), 2)});
+    const double drag = drag_at_one * mass * specimen.gravity_m_s2,
+                 fast = std::max(paths.speed_m_s, least_speed * speed);
+    all.push_back({{"drag", "all", "coefficient_n_s2_m2", "N s2/m2"}, drag / (fast * fast)});
+    all.push_back({{"drag", "all", "linear_n_s_m", "N s/m"}, drag / fast});
     for (int b = 0; b < specimen.blocks(); ++b) {
         CandidateCause centre{at_block("eccentricity", b, "offset_m", "m"),
                               largest_eccentricity * 2 * specimen.half_width_m[static_cast<std::size_t>(b)]};

@@ -232,8 +232,9 @@ BalanceFit::Column BalanceFit::column(const Cause& cause) const
         if (cause.mechanism == "drag")
             return over_blocks(s, cause.block, [&](int b) {
                 const auto k = static_cast<std::size_t>(b);
-                const double vx = s.motion[1][in_x][k], vy = s.motion[1][in_y][k], speed = std::hypot(vx, vy);
-                return pushed(s, b, -speed * vx, -speed * vy, 0);
+                const double vx = s.motion[1][in_x][k], vy = s.motion[1][in_y][k];
+                const double per_speed = cause.parameter == "linear_n_s_m" ? 1 : std::hypot(vx, vy);
+                return pushed(s, b, -per_speed * vx, -per_speed * vy, 0);
             });
         if (cause.mechanism == "eccentricity")
             return over_blocks(s, cause.block, [&](int b) { return off_centre(*specimen_, s, b); });
@@ -526,6 +527,7 @@ std::vector<Cause> balance_causes(const Specimen& specimen, const CampaignScales
         }
     }
     causes.push_back({"drag", "all", "coefficient_n_s2_m2", "N s2/m2", 0});
+    causes.push_back({"drag", "all", "linear_n_s_m", "N s/m", 0});
     for (int b = 0; b < specimen.blocks(); ++b) {
         Cause drag{"drag", fmt::format("block {}", b), "coefficient_n_s2_m2", "N s2/m2", 0};
         drag.block = b;

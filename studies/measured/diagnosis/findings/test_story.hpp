@@ -71,14 +71,23 @@ struct StoryOption {
     friend bool operator==(const StoryOption&, const StoryOption&) = default;
 };
 
+/// A cause that the tests name.
+struct StoryCause {
+    std::string mechanism, place, parameter, unit;
+    double size = 0;                 ///< of its parameter
+    std::optional<double> low, high; ///< 90 %
+    double share = 0;                ///< of belief
+    double log_evidence = 0;         ///< ln E; of a further cause with those before it given
+    friend bool operator==(const StoryCause&, const StoryCause&) = default;
+};
+
 struct TestStory {
     SequenceVerdict verdict = SequenceVerdict::open;
-    std::string text;                              ///< the answer in one to three sentences
-    std::string mechanism, place, parameter, unit; ///< of what is named; empty: nothing is
-    std::optional<double> size, low, high;         ///< of its parameter, with a 90 % interval
-    double share = 0;                              ///< of belief
-    double log_evidence = 0;                       ///< ln E
-    std::vector<StoryBelief> prior;                ///< before the first test: `before` and `after` are equal
+    std::string text;               ///< the answer in one to three sentences
+    std::vector<StoryCause> named;  ///< the strongest first, then those at other places beside it
+    double share = 0;               ///< of belief
+    double log_evidence = 0;        ///< ln E
+    std::vector<StoryBelief> prior; ///< before the first test: `before` and `after` are equal
     std::vector<StoryStep> steps;
     std::vector<StoryLimit> limits;
     std::vector<StoryOption> options; ///< best first
@@ -148,17 +157,25 @@ void visit_fields(std::type_identity<StoryOption>, F&& f)
 }
 
 template <class F>
+void visit_fields(std::type_identity<StoryCause>, F&& f)
+{
+    f("mechanism", &StoryCause::mechanism);
+    f("place", &StoryCause::place);
+    f("parameter", &StoryCause::parameter);
+    f("unit", &StoryCause::unit);
+    f("size", &StoryCause::size);
+    f("low", &StoryCause::low);
+    f("high", &StoryCause::high);
+    f("share", &StoryCause::share);
+    f("log_evidence", &StoryCause::log_evidence);
+}
+
+template <class F>
 void visit_fields(std::type_identity<TestStory>, F&& f)
 {
     f("verdict", &TestStory::verdict);
     f("text", &TestStory::text);
-    f("mechanism", &TestStory::mechanism);
-    f("place", &TestStory::place);
-    f("parameter", &TestStory::parameter);
-    f("unit", &TestStory::unit);
-    f("size", &TestStory::size);
-    f("low", &TestStory::low);
-    f("high", &TestStory::high);
+    f("named", &TestStory::named);
     f("share", &TestStory::share);
     f("log_evidence", &TestStory::log_evidence);
     f("prior", &TestStory::prior);

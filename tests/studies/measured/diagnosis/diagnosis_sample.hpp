@@ -171,12 +171,8 @@ inline Diagnosis filled_diagnosis()
     TestStory story;
     story.verdict = SequenceVerdict::named;
     story.text = "The tests name stribeck at all, dynamic_ratio = 0.72 (0.68 to 0.77, 90 %).";
-    story.mechanism = "stribeck";
-    story.place = "all";
-    story.parameter = "dynamic_ratio";
-    story.size = 0.72;
-    story.low = 0.68;
-    story.high = 0.77;
+    story.named = {{"stribeck", "all", "dynamic_ratio", "", 0.72, 0.68, 0.77, 0.97, 11.5},
+                   {"dowel", "joint 1", "yield_n", "N", 3, {}, {}, 0.95, 6}};
     story.share = 0.97;
     story.log_evidence = 11.5;
     story.prior = {{"nothing", 0.5, 0.5}, {"stribeck at all", 0.2, 0.2}};

@@ -59,8 +59,9 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
         // less friction, and more; slow slip, and fast
         by_label[(cause.cause.mechanism == "stribeck" ? fmt::format("{:.3f} ", cause.cause.fixed / speed)
                   : cause.at_one > 1 && cause.ratio   ? "more "
-                  : stands_for_unknown(cause.cause)   ? (cause.at_one < 0 ? "away " : "") + cause.cause.parameter + " "
-                                                      : "") +
+                  : cause.cause.unit == "N s/m" && cause.cause.mechanism == "drag" ? "linear "
+                  : stands_for_unknown(cause.cause) ? (cause.at_one < 0 ? "away " : "") + cause.cause.parameter + " "
+                                                    : "") +
                  cause.cause.label()] = &cause;
         EXPECT_DOUBLE_EQ(cause.size_of(0), cause.cause.neutral) << cause.cause.label();
         for (const double z : {cause.least, 0.3 * cause.most, cause.most})
@@ -85,6 +86,7 @@ TEST(CandidateCauses, SizesAreThoseOfTheSpecimen)
     EXPECT_NEAR(by_label.at("dowel at joint 0")->size_of(1), 0.6 * 2 * 0.1355 * 9.81, 1e-9);
     EXPECT_NEAR(by_label.at("drag at all")->size_of(1) * 0.4 * 0.4, 0.3 * 0.1355 * 9.81, 1e-9)
         << "a part of the weight at the speeds that occur";
+    EXPECT_NEAR(by_label.at("linear drag at all")->size_of(1) * 0.4, 0.3 * 0.1355 * 9.81, 1e-9);
     EXPECT_EQ(by_label.at("eccentricity at block 1")->least, -1) << "to either side";
     // half of the critical damping 2 sqrt(K_N B m) of a drum on its bed
     EXPECT_NEAR(by_label.at("face_damping at joint 1")->size_of(1), std::sqrt(1e8 * 0.048 * 0.1355), 1e-6);

@@ -83,12 +83,14 @@ TEST_F(LaboratoryLoop, NamesAShiftedCentreByCallipersAloneAndNothingOfAHealthySp
     const std::optional<TestStory> shifted = told(campaign);
     ASSERT_TRUE(shifted);
     EXPECT_EQ(shifted->verdict, SequenceVerdict::named) << shifted->text;
-    EXPECT_EQ(shifted->mechanism, "eccentricity");
-    EXPECT_EQ(shifted->place, "block 1");
-    ASSERT_TRUE(shifted->size && shifted->low && shifted->high);
-    EXPECT_NEAR(*shifted->size, 0.003, 0.0004);
-    EXPECT_LT(*shifted->low, 0.003);
-    EXPECT_GT(*shifted->high, 0.003);
+    ASSERT_EQ(shifted->named.size(), 1U);
+    const StoryCause& named = shifted->named.front();
+    EXPECT_EQ(named.mechanism, "eccentricity");
+    EXPECT_EQ(named.place, "block 1");
+    ASSERT_TRUE(named.low && named.high);
+    EXPECT_NEAR(named.size, 0.003, 0.0004);
+    EXPECT_LT(*named.low, 0.003);
+    EXPECT_GT(*named.high, 0.003);
     EXPECT_TRUE(shifted->next.empty());
 
     Document document;

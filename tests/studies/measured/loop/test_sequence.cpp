@@ -249,6 +249,40 @@ TEST(Sequence, QuietEstimatesDoNotNarrowTheSize)
     EXPECT_LT(size->high - size->low, 2 * 1.8595 / 10);
 }
 
+TEST(Sequence, ASecondCauseIsJudgedWithTheFirstOneGiven)
+{
+    const SequenceModel model(gaussian::laboratory(), {});
+    gaussian::Specimens specimens(gaussian::covariance(), 31);
+    const auto seconds = [&](double second, int count) {
+        int named = 0;
+        for (int i = 0; i < count; ++i) {
+            const Eigen::VectorXd values = specimens.draw().array() + 10;
+            std::vector<SeenEstimate> seen;
+            for (Eigen::Index k = 0; k < 6; ++k) // pull and slide: friction of joint 0, and of joint 2
+                seen.push_back({k, values(k) + (k % 3 == 0 ? 12 : k % 3 == 2 ? 6 * second : 0)});
+            const SequenceJudgement first = judgement_of(model, seen);
+            EXPECT_EQ(first.verdict, SequenceVerdict::named);
+            EXPECT_EQ(first.cause->label(), "joint_friction at joint 0");
+            const std::optional<SizeInterval> sizes = size_of(model, seen, *first.cause);
+            const SequenceModel rest = given(model, *first.cause, *sizes);
+            const SequenceJudgement then = judgement_of(rest, seen);
+            if (then.verdict != SequenceVerdict::named)
+                continue;
+            ++named;
+            if (second > 0) {
+                EXPECT_EQ(then.cause->label(), "joint_friction at joint 2");
+                EXPECT_NEAR(size_of(rest, seen, *then.cause)->mean, second, 0.5);
+            }
+        }
+        return named;
+    };
+    EXPECT_GE(seconds(1, 40), 38);
+    EXPECT_LE(seconds(0, 400), 400 / 40);
+    const SequenceModel none = given(model, {"joint_friction", "joint 0"}, {1, 0.9, 1.1});
+    for (const CausePlace& left : none.hypotheses.causes)
+        EXPECT_NE(left.place, "joint 0") << "what is left there may be the first one's law";
+}
+
 TEST(Sequence, LimitsAreOfCausesThatWereTested)
 {
     const SequenceModel model(gaussian::laboratory(), {});
