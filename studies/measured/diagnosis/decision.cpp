@@ -198,9 +198,7 @@ bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict
     const bool probable = verdict.named && verdict.set_probability >= least_probability;
     if (verdict.named)
         best.probability = verdict.probability;
-    if (verdict.no_nearer)
-        best.why_not = "campaigns with it are no nearer to the measured one than healthy ones";
-    else if (!verdict.named)
+    if (!verdict.named)
         best.why_not = fmt::format("the p-value of the gain is {:.2g}", verdict.p_value);
     else if (!probable)
         best.why_not = fmt::format("possible, with a probability of {:.2f}", verdict.probability);
@@ -222,11 +220,6 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     JudgedCause best = judged(ensemble, static_cast<std::size_t>(verdict.best),
                               verdict.causes[static_cast<std::size_t>(verdict.best)]);
     const bool named = may_be_named(balance, verdict, best);
-    if (const NearestCause& nearest = ensemble.by_nearness; nearest.named && nearest.best == verdict.best) {
-        const NearnessEvidence& near = ensemble.ensemble.nearness;
-        best.nearer = near.distance[static_cast<std::size_t>(nearest.best)] / near.healthy;
-        best.chance = nearest.healthy_p;
-    }
     std::vector<std::size_t> order(ensemble.causes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -437,13 +430,6 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
                                     statistics.p_value, statistics.probability, statistics.left_p_value,
                                     ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
-    const NearestCause& nearest = ensemble.by_nearness;
-    if (nearest.best >= 0)
-        lines.push_back(
-            fmt::format("nearest campaigns: {} at {:.2f}, healthy ones at {:.2f} (p = {:.2g}), {:.1f} nats apart",
-                        ensemble.causes[static_cast<std::size_t>(nearest.best)].cause.label(),
-                        ensemble.ensemble.nearness.distance[static_cast<std::size_t>(nearest.best)],
-                        ensemble.ensemble.nearness.healthy, nearest.healthy_p, nearest.gain));
     return lines;
 }
 

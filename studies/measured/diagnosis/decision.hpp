@@ -62,9 +62,6 @@ struct JudgedCause {
     double chance = 1;                 ///< probability of such a gain where nothing is hidden
     std::optional<double> probability; ///< nothing: not computed
     bool considered = false;           ///< named, or in a set with what is named
-    /// Named by nearness: how far its campaigns are from the measured one, over healthy ones; `chance` is then that of
-    /// these being so far. 0: not by it.
-    double nearer = 0;
     /// Named by the statistics and by the balance of forces: the p-value of the latter. `fit` has its place and size,
     /// and the gain of the statistics.
     std::optional<double> forces_too;

@@ -55,10 +55,6 @@ std::string reason(const JudgedCause& j, Decision decision, const Decided& decid
     if (j.channel == Channel::forces)
         return fmt::format("by the balance of forces: {:.1f} nats; the p-value of all its scores is {:.2g}", j.fit.gain,
                            j.chance);
-    if (j.nearer > 0)
-        return fmt::format("by its nearest campaigns: {:.2f} times as far from the measured one as healthy ones, none "
-                           "of which is like it (p = {:.2g})",
-                           j.nearer, j.chance);
     if (decision != Decision::not_shown)
         return fmt::format("by the statistics of the campaign: {:.1f} nats; null distribution {:.1f} (95 %)",
                            j.fit.gain, j.chance95);

@@ -167,10 +167,6 @@ std::string key_of(const Campaign& measured, const Study& study, const std::vect
     std::string key = std::string(head) + campaign_key(measured, study, plan.seed) +
                       fmt::format(" {} {} {} {} {} {} {}", plan.wide, plan.pairs, plan.rounds, plan.of_each_round,
                                   plan.parents, plan.nulls, plan.of_each_cause);
-    key += fmt::format(" far {:g}", plan.far);
-    for (const OwnRound& round : plan.own)
-        key += fmt::format(" own {} {} {} {:g} {:g}", round.causes, round.of_each, round.parents, round.spread,
-                           round.size_spread);
     for (const ContactForm form : plan.family.forms)
         key += fmt::format(" form {}", static_cast<int>(form));
     for (const DampingKind kind : plan.family.kinds)
@@ -245,8 +241,6 @@ EnsemblePlan EnsemblePlan::with(std::uint64_t nulls)
     plan.of_each_round = part(all.of_each_round, 12);
     plan.of_each_cause = part(all.of_each_cause, 3);
     plan.nulls = nulls;
-    for (OwnRound& round : plan.own)
-        round.of_each = part(round.of_each, 2);
     return plan;
 }
 
@@ -324,15 +318,11 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
              text += line + "\n")
             out.campaigns.push_back(campaign);
     out.cached = out.campaigns.size();
-    const EvidenceRows evidence(labels, scored);
-    Proposals proposals(plan, causes, labels, evidence, shown);
+    Proposals proposals(plan, causes, labels, shown);
     const VirtualLaboratory laboratory(measured);
-    const auto tell = [&](std::uint64_t end) {
-        progress(out.campaigns.size(), std::max(end, plan.total(causes.size())));
-    };
     for (;;) {
-        const std::uint64_t first = out.campaigns.size(), end = proposals.end_of_round(first, out.campaigns);
-        tell(end);
+        const std::uint64_t first = out.campaigns.size(), end = proposals.end_of_round(first);
+        progress(first, plan.total(causes.size()));
         if (first >= end)
             break;
         const Portion portion(options.ranks, first, end);
@@ -376,7 +366,6 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     if (options.ranks)
         add_costs(*options.ranks, out);
     out.distance = proposals.law_distances(out.campaigns);
-    proposals.find_nearness(out);
     out.complete = true;
     return out;
 }

@@ -5,7 +5,6 @@
 /// How unlike the healthy laws of two campaigns are, by what they do to all joints.
 
 #include "studies/measured/diagnosis/campaigns/candidate_causes.hpp"
-#include "studies/measured/diagnosis/campaigns/nearest_cause.hpp"
 #include "studies/measured/diagnosis/campaigns/virtual_campaign.hpp"
 #include "studies/measured/diagnosis/evidence/campaign_statistics.hpp"
 
@@ -65,15 +64,6 @@ struct SimulatedCampaign {
     std::vector<double> scores; ///< (score_plan)
 };
 
-/// A round in which causes have laws and sizes of their own (`Proposals`): near those of their nearest campaigns.
-struct OwnRound {
-    std::uint64_t causes = 0;  ///< the nearest ones; healthy campaigns are drawn beside them
-    std::uint64_t of_each = 0; ///< campaigns
-    std::uint64_t parents = 0; ///< so many of its nearest campaigns are those near which is drawn
-    double spread = 0;         ///< of the laws (`draw_near`)
-    double size_spread = 0;    ///< of ln z
-};
-
 /// How many campaigns are simulated; `Proposals` chooses which.
 ///
 /// Healthy laws come nearer to the measured one round by round: scouts of the whole family, then campaigns near the
@@ -89,16 +79,12 @@ struct EnsemblePlan {
     std::uint64_t nulls = 192;        ///< healthy ones near the likest laws of all
     std::uint64_t of_each_cause = 12; ///< near these too, at sizes spread evenly over the range of z
     LawFamily family;
-    /// Where a healthy law does not give the measured campaign as well as nulls give each other, with this p-value.
-    double far = 0.1;
-    std::vector<OwnRound> own = {{24, 6, 3, 1.0 / 6, 0.25}, {8, 12, 3, 1.0 / 6, 0.2}, {4, 24, 4, 1.0 / 12, 0.1}};
 
     /// With so many nulls, and of all others in proportion as many as the default plan has.
     static EnsemblePlan with(std::uint64_t nulls);
 
     std::uint64_t scouts() const { return wide + pairs; }
     std::uint64_t healthy() const { return scouts() + rounds * of_each_round + nulls; }
-    /// Without the rounds of the causes' own.
     std::uint64_t total(std::size_t causes) const { return healthy() + causes * of_each_cause; }
     /// Of a campaign: 0 scouts, then the rounds, then all others.
     std::uint64_t round(std::uint64_t number) const;
@@ -113,8 +99,6 @@ struct EnsemblePlan {
 struct CampaignEnsemble {
     std::vector<SimulatedCampaign> campaigns; ///< in the order of their numbers
     std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
-    std::vector<double> apart;                ///< (campaigns) from the measured one, by all numbers (`EvidenceRows`)
-    NearnessEvidence nearness;                ///< from these; without the mechanisms and the likelihood
     SimulationCount cost;
     std::uint64_t cached = 0; ///< campaigns that the file had
     bool complete = false;    ///< false: the observer stopped it
@@ -132,7 +116,7 @@ void refuse_foreign_cache(const std::filesystem::path& cache);
 /// @param known    causes that act in every campaign: what direct tests found and no correction takes away
 /// @param shown    numbers and scores of the measured campaign
 /// @param cache    file that keeps the rows; nullopt: none
-/// @param progress called with (campaigns done, campaigns in all, as far as is known)
+/// @param progress called with (campaigns done, campaigns in all)
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
                                    const EnsemblePlan& plan, const SimulatedCampaign& shown,

@@ -173,7 +173,7 @@ ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const s
     return force_test(evidence);
 }
 
-/// By the likelihood: where the shift of the best cause and what is measured agree most.
+/// Where the shift of the best cause and what is measured agree most.
 Eigen::Index carrying_column(const EnsembleVerdict& verdict)
 {
     Eigen::Index most = 0;
@@ -181,43 +181,12 @@ Eigen::Index carrying_column(const EnsembleVerdict& verdict)
     return verdict.used[static_cast<std::size_t>(most)];
 }
 
-/// By nearness: of which the nearest campaigns with the cause are nearer to the measured one than the nearest healthy
-/// ones, in units of the scatter of these.
-Eigen::Index carrying_column(const EnsembleDiagnosis& diagnosis, const EvidenceRows& rows,
-                             const EnsembleEvidence& evidence)
-{
-    constexpr std::size_t counted = 12;
-    const std::vector<SimulatedCampaign>& campaigns = diagnosis.ensemble.campaigns;
-    const auto near = nearness(campaigns, diagnosis.ensemble.apart, diagnosis.causes.size(), counted);
-    const auto table_of = [&](int cause) {
-        const auto at = std::find_if(near.begin(), near.end(), [&](const Nearness& n) { return n.cause == cause; });
-        std::vector<const SimulatedCampaign*> chosen;
-        for (const std::size_t i : at->rows)
-            chosen.push_back(&campaigns[i]);
-        return rows.table(chosen).statistics;
-    };
-    const Eigen::MatrixXd healthy = table_of(-1), with_cause = table_of(diagnosis.by_nearness.best);
-    Eigen::Index best = 0;
-    double most = -HUGE_VAL;
-    for (Eigen::Index k = 0; k < healthy.cols(); ++k) {
-        const double scatter = std::sqrt((healthy.col(k).array() - healthy.col(k).mean()).square().mean()) +
-                               rows.least_scatter[static_cast<std::size_t>(k)];
-        const double before = (healthy.col(k).mean() - evidence.statistics(k)) / scatter,
-                     after = (with_cause.col(k).mean() - evidence.statistics(k)) / scatter;
-        if (const double nearer = before * before - after * after; nearer > most) { // false of what is missing
-            most = nearer;
-            best = k;
-        }
-    }
-    return best;
-}
-
-void find_carrying_number(const EvidenceRows& rows, const EnsembleEvidence& evidence, EnsembleDiagnosis& out)
+void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& out)
 {
     const EnsembleVerdict& verdict = out.by_statistics;
     if (verdict.best < 0)
         return;
-    const Eigen::Index column = out.by_nearness.named ? carrying_column(out, rows, evidence) : carrying_column(verdict);
+    const Eigen::Index column = carrying_column(verdict);
     const Cause& best = out.causes[static_cast<std::size_t>(verdict.best)].cause;
     out.carrying.measured = evidence.statistics(column);
     for (const double value : evidence.nulls.statistics.col(column))
@@ -234,60 +203,6 @@ void find_carrying_number(const EvidenceRows& rows, const EnsembleEvidence& evid
     out.carrying.text = label.name + (label.block >= 0   ? fmt::format(" of block {}", label.block)
                                       : label.joint >= 0 ? fmt::format(" of joint {}", label.joint)
                                                          : "");
-}
-
-/// Size of a cause, by those of its campaigns that are nearest to the measured one.
-CauseLikelihood size_by_nearest(const EnsembleDiagnosis& diagnosis, int cause)
-{
-    constexpr std::size_t counted = 8;
-    constexpr double least_sd = 0.03, half_width90 = 1.6449; // of z; of a normal interval of 90 %
-    std::vector<std::pair<double, double>> near;             // distance, z
-    for (std::size_t i = 0; i < diagnosis.ensemble.campaigns.size(); ++i)
-        if (const SimulatedCampaign& row = diagnosis.ensemble.campaigns[i]; row.cause == cause)
-            near.emplace_back(diagnosis.ensemble.apart[i], row.z);
-    std::sort(near.begin(), near.end());
-    near.resize(std::min(near.size(), counted));
-    double weight = 0, mean = 0, square = 0;
-    for (const auto& [distance, z] : near) {
-        const double w = std::pow(near.front().first / distance, 4); // the nearest half counts most
-        weight += w;
-        mean += w * z;
-        square += w * z * z;
-    }
-    CauseLikelihood out;
-    out.size = mean / weight;
-    const double sd = std::max(std::sqrt(std::max(square / weight - out.size * out.size, 0.0)), least_sd);
-    out.low = out.size - half_width90 * sd;
-    out.high = out.size + half_width90 * sd;
-    out.gain = std::max(diagnosis.by_statistics.causes[static_cast<std::size_t>(cause)].gain,
-                        diagnosis.by_nearness.gain); // in a list with the gains of others by the likelihood
-    return out;
-}
-
-// A likelihood that needs no campaigns nearby [nats]: where no law of the family is like the measured one, those of the
-// right cause are hardly nearer.
-constexpr double beyond_doubt = 30;
-
-/// Where no healthy law gives the measured campaign, and a cause does, the likelihood is that of shifts beside laws
-/// that the cause has bent: the nearest cause takes its place. And what has had rounds of its own, but comes no nearer
-/// than healthy campaigns, is not named.
-void judge_by_nearness(const EnsemblePlan& plan, EnsembleDiagnosis& out, const std::vector<int>& mechanism)
-{
-    EnsembleVerdict& verdict = out.by_statistics;
-    NearnessEvidence evidence = out.ensemble.nearness;
-    evidence.mechanism = mechanism;
-    evidence.gain_p_value = verdict.p_value;
-    out.by_nearness = nearest_cause(evidence, static_cast<std::size_t>(EnsembleRule{}.rivals));
-    if (out.by_nearness.named) {
-        name_nearest(out.by_nearness, mechanism, verdict);
-        verdict.causes[static_cast<std::size_t>(verdict.best)] = size_by_nearest(out, verdict.best);
-        return;
-    }
-    const bool rounds = out.ensemble.campaigns.size() > plan.total(out.causes.size());
-    const auto best = static_cast<std::size_t>(std::max(verdict.best, 0));
-    verdict.no_nearer = verdict.named && rounds && verdict.causes[best].gain < beyond_doubt &&
-                        !nearer_than_healthy(evidence, mechanism[best]);
-    verdict.named = verdict.named && !verdict.no_nearer;
 }
 
 // Of the numbers of a law: a cause moves some of them.
@@ -331,7 +246,7 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     EnsembleEvidence evidence;
     for (std::size_t i = 0; i < out.ensemble.campaigns.size(); ++i) {
         const SimulatedCampaign& row = out.ensemble.campaigns[i];
-        if (row.number < plan.scouts() || row.number >= plan.total(out.causes.size()))
+        if (row.number < plan.scouts())
             continue;
         // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
         const auto fold = static_cast<int>(plan.parent(row.number));
@@ -360,12 +275,11 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
-    judge_by_nearness(plan, out, evidence.mechanism);
 
     const std::size_t causes = out.scored.causes.size(), structures = out.scored.structures.size();
     out.listed = score_test(nulls, evidence.likeness, out.scores, 0, causes);
     out.forces = score_test(nulls, evidence.likeness, out.scores, causes, structures);
-    find_carrying_number(rows, evidence, out);
+    find_carrying_number(evidence, out);
 }
 
 } // namespace
@@ -383,8 +297,6 @@ std::optional<double> EnsembleDiagnosis::power(int mechanism, double least_z) co
     for (const SimulatedCampaign& row : ensemble.campaigns) {
         if (row.cause < 0)
             continue;
-        if (i == by_statistics.labelled_right.size())
-            break; // what follows are the rounds of the causes' own
         if (mechanism_of(causes[static_cast<std::size_t>(row.cause)].cause) == mechanism &&
             std::fabs(row.z) >= least_z) {
             all += 1;

@@ -79,8 +79,7 @@ struct EnsembleDiagnosis {
     CampaignEnsemble ensemble;
     double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
-    EnsembleVerdict by_statistics; ///< with the cause that is named by nearness, where one is
-    NearestCause by_nearness;
+    EnsembleVerdict by_statistics;
     ForceTest listed, forces; ///< of the scores of the causes, and of those of forces of no known kind
 
     /// Share of labelled campaigns of a mechanism, with z of at least this, that are named rightly: what these data can

@@ -50,7 +50,6 @@ struct EnsembleVerdict {
     int best = -1;                       ///< the candidate of the largest gain; -1: none can be judged
     double p_value = 1;                  ///< of that gain where nothing is hidden
     bool named = false;
-    bool no_nearer = false; ///< not named, because its campaigns are no nearer to the measured one than healthy ones
     double probability = 0; ///< that the mechanism named is right
     /// A second cause of another mechanism, judged with the best one given; -1: none is named.
     int second = -1;

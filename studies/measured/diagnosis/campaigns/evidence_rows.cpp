@@ -77,24 +77,6 @@ std::vector<double> EvidenceRows::statistics(const CampaignStatistics& campaign,
     return row;
 }
 
-std::vector<double> EvidenceRows::all(const SimulatedCampaign& campaign) const
-{
-    std::vector<double> numbers = campaign.numbers.descriptors;
-    const std::vector<double> others = statistics(campaign.numbers, campaign.scores);
-    numbers.insert(numbers.end(), others.begin(), others.end());
-    return numbers;
-}
-
-LawLikeness EvidenceRows::likeness(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows) const
-{
-    // Of all numbers, these are the part that counts: a campaign may have some that no simulated one has.
-    constexpr double kept = 0.9;
-    std::vector<double> least(rows.front().numbers.descriptors.size(), 0);
-    least.insert(least.end(), least_scatter.begin(), least_scatter.end());
-    return likeness_of(
-        plan, rows, [this](const SimulatedCampaign& row) { return all(row); }, kept, least);
-}
-
 CampaignTable EvidenceRows::table(const std::vector<const SimulatedCampaign*>& rows) const
 {
     CampaignTable out;

@@ -25,11 +25,6 @@ public:
     std::vector<double> statistics(const CampaignStatistics& campaign, const std::vector<double>& scores) const;
     std::vector<double> descriptors(const CampaignStatistics& campaign) const { return medians(law_, campaign.values); }
     CampaignTable table(const std::vector<const SimulatedCampaign*>& rows) const;
-    /// The campaign's descriptors and `statistics`: by these numbers campaigns are near each other or not.
-    std::vector<double> all(const SimulatedCampaign& campaign) const;
-    /// In units of the scatter among specimens of one law.
-    /// @param rows all scouts, at least
-    LawLikeness likeness(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows) const;
 
     std::vector<StatisticLabel> labels;
     std::vector<double> least_scatter; ///< (labels)

@@ -172,32 +172,6 @@ TEST(Decision, AnotherCauseIsSaidToBeBetterOnlyWhereOneIsNamed)
     EXPECT_EQ(why(possible, 1), "the candidate of the largest gain is not named, and this one gains less");
 }
 
-TEST(Decision, WhatComesNoNearerThanHealthyCampaignsIsNotNamed)
-{
-    EnsembleDiagnosis e = ensemble_of(20, 1, 1);
-    ASSERT_EQ(decide({}, {}, &e, {}).verdict, Verdict::named);
-    e.by_statistics.named = false;
-    e.by_statistics.no_nearer = true;
-    const Decided decided = decide({}, {}, &e, {});
-    EXPECT_EQ(decided.verdict, Verdict::none);
-    EXPECT_EQ(decided.judged.front().why_not, "campaigns with it are no nearer to the measured one than healthy ones");
-}
-
-TEST(Decision, TheNearestCauseHasItsOwnChance)
-{
-    EnsembleDiagnosis e = ensemble_of(20, 1, 1);
-    e.by_nearness.named = true;
-    e.by_nearness.best = e.by_statistics.best;
-    e.by_nearness.healthy_p = 0.0125;
-    e.ensemble.nearness.healthy = 2;
-    e.ensemble.nearness.distance.assign(e.causes.size(), 3);
-    e.ensemble.nearness.distance[static_cast<std::size_t>(e.by_nearness.best)] = 1;
-    const Decided decided = decide({}, {}, &e, {});
-    ASSERT_EQ(decided.verdict, Verdict::named);
-    EXPECT_EQ(decided.named.front().nearer, 0.5);
-    EXPECT_EQ(decided.named.front().chance, 0.0125);
-}
-
 TEST(Decision, AClearCauseIsNamedWithItsSize)
 {
     const EnsembleDiagnosis e = ensemble_of(30, 1, 1);
