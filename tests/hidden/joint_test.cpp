@@ -398,6 +398,7 @@ Campaign tested(const VirtualCampaign& made, const Campaign& planned)
                                      made.planned.specimen.name, made.planned.specimen.blocks(),
                                      made.planned.specimen.joints.size()));
     Campaign done = planned;
+    std::ranges::stable_sort(done.tests, {}, [](const MeasuredRun& run) { return run.run_order.value_or(0); });
     const bool persists = made.model.effects.persists;
     State state;
     const State* worn = nullptr;

@@ -425,12 +425,14 @@ Campaign planned_campaign(const Campaign& campaign, const std::vector<std::strin
     plan.source = campaign.source;
     plan.specimen = campaign.specimen;
     plan.laboratory = campaign.laboratory;
-    for (const RunKind kind : joint_test_kinds) {
-        if (std::ranges::find(tests, to_string(kind)) == tests.end())
-            continue;
+    for (const std::string& test : tests) {
+        const auto kind =
+            std::ranges::find(joint_test_kinds, test, [](RunKind k) { return std::string(to_string(k)); });
         for (const int joint : joints_alone(campaign.specimen))
-            for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, kind, joint))
+            for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, *kind, joint)) {
+                run.run_order = static_cast<int>(plan.tests.size());
                 plan.tests.push_back(std::move(run));
+            }
     }
     return plan;
 }

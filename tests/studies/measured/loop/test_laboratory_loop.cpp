@@ -189,6 +189,7 @@ TEST(LaboratorySheet, SaysWhatIsDone)
     EXPECT_EQ(plan.tests[5].joint, 2);
     EXPECT_TRUE(plan.tests[0].blocks.empty()) << "nothing is measured yet";
     EXPECT_EQ(plan.tests[8].test, RunKind::rest);
+    EXPECT_EQ(plan.tests[8].run_order, 8) << "in the order in which they are proposed";
     const std::vector<std::string> lines = sheet_of(campaign.specimen, {}, RunKind::push, {0, 1, 2});
     ASSERT_EQ(lines.size(), 5U);
     EXPECT_NE(lines[0].find("joints 0, 1, 2"), std::string::npos);
