@@ -90,13 +90,13 @@ TEST(Evidence, OfOneRunAloneIsNone)
 TEST(Power, IsTheShareOfTheLabelledCampaignsThatIsNamed)
 {
     EnsembleDiagnosis e = ensemble_of(1, 1, 1);
-    for (const auto& [cause, z] : {std::pair{0, 0.3}, {-1, 0.0}, {0, 0.6}, {1, 0.9}, {0, -0.9}, {0, 0.9}}) {
+    for (const auto& [cause, z] : {std::pair{0, 0.3}, {-1, 0.0}, {0, 0.6}, {1, 0.9}, {0, -0.9}}) {
         SimulatedCampaign row;
         row.cause = cause;
         row.z = z;
         e.ensemble.campaigns.push_back(row);
     }
-    e.by_statistics.labelled_right = {true, true, false, false}; // of the first four labelled ones
+    e.by_statistics.labelled_right = {true, true, false, false};
     EXPECT_EQ(e.power(0, 0), 2.0 / 3);
     EXPECT_EQ(e.power(0, 0.5), 0.5) << "of strong ones, to either side";
     EXPECT_EQ(e.power(1, 0), 0);
