@@ -428,9 +428,10 @@ void Pipeline::tell_method_and_cost()
             "of speed, friction of each joint, scores of the balance of forces) have a likelihood under each cause. "
             "The largest gain over all causes is compared with the same of the healthy campaigns. A cause is named if "
             "its p-value is at most 0.015, and if such names are right in more than half of the campaigns with a known "
-            "cause. The "
-            "scores of the balance of forces are a test of their own, because contact laws move them little: where "
-            "they are beyond those of the healthy campaigns (p of 0.015), the cause that explains the forces best is "
+            "cause. The scores of the balance of forces are a test of their own, because contact laws move them "
+            "little: "
+            "where they are beyond those of the healthy campaigns (p of 0.015), the cause that explains the forces "
+            "best is "
             "named, unless a force of no known kind is left beside it.");
     d_.cost.simulations = count_.simulations;
     d_.cost.window_simulations = count_.window_simulations;

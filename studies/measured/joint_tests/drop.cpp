@@ -3,11 +3,11 @@
 ///
 ///   z = y - y_rest + x sin theta + h (1 - cos theta)      height of the corner, x = -b or b
 ///
-///   bounce    logarithm of the mean of z over the time of the fall, from the first impact on, over the height H of the
-///             fall; 0.01 H, the noise of the cameras, is added. Of the mean of the medians of either side. Error: 1.25
-///             of the scatter of the repeats over sqrt(n), at least 1 %
+///   bounce    ln(Z / H + 0.01)      Z: mean of z over the time of the fall, from the first impact on; H: height of the
+///             fall; 0.01: the noise of the cameras. The median of each side, and the mean of both. Error: 1.25 of the
+///             scatter of the repeats over sqrt(n), at least 1 %
 ///
-/// A corner that leaves with the part e of its speed, e up to one half, has risen by 2/3 e^3 H in the mean. The lean is
+/// Where a corner leaves with the part e of its speed, e up to one half, Z is 4/3 e^3 H. The lean is
 /// so large that the other corner lands later. With a level body it is chance which corner lands first, and what a
 /// corner takes is divided among several impacts: the energy that is left tells of the body's shape.
 ///

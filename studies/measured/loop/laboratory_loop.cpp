@@ -428,6 +428,8 @@ Campaign planned_campaign(const Campaign& campaign, const std::vector<std::strin
     for (const std::string& test : tests) {
         const auto kind =
             std::ranges::find(joint_test_kinds, test, [](RunKind k) { return std::string(to_string(k)); });
+        if (kind == std::end(joint_test_kinds))
+            continue;
         for (const int joint : joints_alone(campaign.specimen))
             for (MeasuredRun& run : planned_runs(campaign.specimen, campaign.laboratory, *kind, joint)) {
                 run.run_order = static_cast<int>(plan.tests.size());

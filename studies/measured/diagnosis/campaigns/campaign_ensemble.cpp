@@ -56,8 +56,7 @@ std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, con
     return with_descriptors(campaign, means(over_motions(labels), campaign.values));
 }
 
-LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept,
-                         const std::vector<double>& least)
+LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept)
     : kept_(kept)
 {
     const std::size_t count = pairs.empty() ? 0 : pairs.front().first.size();
@@ -68,8 +67,6 @@ LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::v
                 apart.push_back(d);
         // of a difference of two
         scatter_.push_back(apart.size() < least_pairs ? 0 : 1.4826 * upper_median(std::move(apart)) / std::sqrt(2.0));
-        if (!least.empty())
-            scatter_.back() = std::max(scatter_.back(), least[k]);
     }
 }
 
@@ -284,12 +281,12 @@ void refuse_foreign_cache(const std::filesystem::path& cache)
 }
 
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
-                        double kept, const std::vector<double>& least)
+                        double kept)
 {
     std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
     for (std::uint64_t i = 0; i < plan.pairs; ++i)
         pairs.emplace_back(numbers(rows[i]), numbers(rows[plan.wide + i]));
-    return {pairs, kept, least};
+    return {pairs, kept};
 }
 
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,

@@ -30,9 +30,7 @@ class LawLikeness {
 public:
     /// @param pairs numbers of campaigns of one law each, whose specimens differ
     /// @param kept  part of the numbers that count, the nearest ones
-    /// @param least (numbers) scatter that each has at least; empty: 0
-    LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept,
-                const std::vector<double>& least = {});
+    LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept);
 
     /// Root mean square over the numbers that `of` has, the largest ones left out: a cause moves some of them. What the
     /// other one does not have counts as far.
@@ -108,7 +106,7 @@ struct CampaignEnsemble {
 using NumbersOf = std::function<std::vector<double>(const SimulatedCampaign&)>;
 /// From the pairs of campaigns of one law; arguments as those of `LawLikeness`.
 LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
-                        double kept, const std::vector<double>& least = {});
+                        double kept);
 
 /// @throws InputError if there is a file that keeps something else: it would be overwritten
 void refuse_foreign_cache(const std::filesystem::path& cache);

@@ -13,16 +13,6 @@ constexpr double first_spread = 1.0 / 3, narrower = 0.5;
 // Of the numbers of joints by which laws are found that are like the measured one.
 constexpr double numbers_kept = 0.9;
 
-std::vector<double> from(const SimulatedCampaign& shown, const LawLikeness& likeness, const NumbersOf& numbers,
-                         const std::vector<SimulatedCampaign>& rows)
-{
-    const std::vector<double> of = numbers(shown);
-    std::vector<double> out;
-    for (const SimulatedCampaign& row : rows)
-        out.push_back(likeness.distance(of, numbers(row)));
-    return out;
-}
-
 } // namespace
 
 Proposals::Proposals(const EnsemblePlan& plan, const std::vector<CandidateCause>& causes,
@@ -56,7 +46,12 @@ Proposal Proposals::of(std::uint64_t number, const std::vector<SimulatedCampaign
 std::vector<double> Proposals::law_distances(const std::vector<SimulatedCampaign>& rows) const
 {
     const NumbersOf of_joints = [this](const SimulatedCampaign& row) { return joint_numbers(labels_, row.numbers); };
-    return from(shown_, likeness_of(plan_, rows, of_joints, numbers_kept), of_joints, rows);
+    const LawLikeness likeness = likeness_of(plan_, rows, of_joints, numbers_kept);
+    const std::vector<double> shown = of_joints(shown_);
+    std::vector<double> out;
+    for (const SimulatedCampaign& row : rows)
+        out.push_back(likeness.distance(shown, of_joints(row)));
+    return out;
 }
 
 /// The laws of those healthy campaigns before a round that are nearest.
