@@ -38,11 +38,11 @@ Study rigid_surface()
 }
 
 /// A surface on all devices. slots = 0: the device's own choice.
-void on_devices(benchmark::State& state, const Study& study, int slots)
+void on_devices(benchmark::State& state, const Study& study, int slots, ColumnStep step)
 {
     const Experiment experiment(study);
     RunOptions options{best_isa(), static_cast<int>(std::thread::hardware_concurrency())};
-    options.devices = open_cuda_devices();
+    options.devices = open_cuda_devices(0, 1, step);
     options.slots = slots;
     RunPlan plan;
     plan.total = study.total();
@@ -65,11 +65,14 @@ void on_devices(benchmark::State& state, const Study& study, int slots)
 }
 
 /// The step alone: columns that rock without an end, in one queue of the first device.
-void steps(benchmark::State& state, const Study& study, int slots)
+/// @param slots 0: as many as both queues have by the device's own choice
+void steps(benchmark::State& state, const Study& study, int slots, ColumnStep step)
 {
     constexpr int launches = 20;
     const Sampler sampler(study, nullptr);
-    const std::vector<std::shared_ptr<Device>> devices = open_cuda_devices();
+    const std::vector<std::shared_ptr<Device>> devices = open_cuda_devices(0, 1, step);
+    if (slots == 0)
+        slots = 2 * SlotSet(study, nullptr, sampler.realization(0), *devices.front(), 0, 1 << 20).lanes();
     SlotSet set(study, nullptr, sampler.realization(0), *devices.front(), slots, slots);
     in_parallel(0, slots, [&](int slot) { set.load(slot, sampler.realization(static_cast<std::uint64_t>(slot))); });
     set.advance();
@@ -124,16 +127,20 @@ const bool registered = [] {
         return true;
     }
     benchmark::RegisterBenchmark("BM_CudaPeakFma", peak_fma)->Unit(benchmark::kMillisecond);
-    for (const int slots : {1024, 4096, 16384, 33792, 50688, 67584, 135168})
-        benchmark::RegisterBenchmark(("BM_CudaStep/" + std::to_string(slots)).c_str(), steps, rocking_column(7), slots)
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(1);
-    for (const int slots : {0, 16384, 50688})
-        benchmark::RegisterBenchmark(("BM_Cuda/" + std::to_string(slots)).c_str(), on_devices,
-                                     small_surface(realizations), slots)
-            ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("BM_Cuda/single", on_devices, single_surface(), 0)->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark("BM_Cuda/rigid", on_devices, rigid_surface(), 0)->Unit(benchmark::kMillisecond);
+    const auto add = [](const std::string& name, const auto& run, const Study& study, int slots, ColumnStep step) {
+        return benchmark::RegisterBenchmark(name.c_str(), run, study, slots, step)->Unit(benchmark::kMillisecond);
+    };
+    using enum ColumnStep;
+    for (const int slots :
+         {0, 2640, 5280, 7920, 15840}) // one to three warps a scheduler of 132 multiprocessors, and more
+        add("BM_CudaStep/lanes/" + std::to_string(slots), steps, rocking_column(7), slots, by_lanes)->Iterations(1);
+    for (const int slots : {1024, 4096, 16384, 33792})
+        add("BM_CudaStep/threads/" + std::to_string(slots), steps, rocking_column(7), slots, by_threads)->Iterations(1);
+    for (const int slots : {0, 15840})
+        add("BM_Cuda/" + std::to_string(slots), on_devices, small_surface(realizations), slots, by_lanes);
+    add("BM_Cuda/threads", on_devices, small_surface(realizations), 0, by_threads);
+    add("BM_Cuda/single", on_devices, single_surface(), 0, by_threads);
+    add("BM_Cuda/rigid", on_devices, rigid_surface(), 0, by_threads);
     return true;
 }();
 

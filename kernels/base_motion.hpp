@@ -76,6 +76,23 @@ STYLOBATE_INLINE Real base_displacement(MotionFormula formula, const FormulaPara
     return L::load(p.amplitude_m) * ramp * (sine_of_cycles(turn) - L::load(p.offset));
 }
 
+/// The step at which the motion is over. @return of a base at rest 0
+template <class Real>
+STYLOBATE_INLINE Real motion_end(MotionFormula formula, const FormulaParameters& p)
+{
+    using L = Lanes<Real>;
+    return formula == MotionFormula::still ? Real(0.0) : L::load(p.cycles) / L::load(p.cycles_per_step);
+}
+
+/// U(n+1) - 2 U(n) + U(n-1) [m]. Once the motion is over for the whole of a step's reach, nothing but rounding is left
+/// of the difference, and it is 0.
+/// @param n the step;  @param end what `motion_end` gives
+template <class Real>
+STYLOBATE_INLINE Real second_difference(Real before, Real now, Real next, Real n, Real end)
+{
+    return select(n - Real(1.0) >= end, Real(0.0), (next - now) - (now - before));
+}
+
 /// Second differences for `chunk_steps` steps from `first` on, into table[k * stride].
 template <class Real>
 STYLOBATE_INLINE void fill_base_rows(MotionFormula formula, const FormulaParameters& p, Real first, double* table,
@@ -84,13 +101,11 @@ STYLOBATE_INLINE void fill_base_rows(MotionFormula formula, const FormulaParamet
     using L = Lanes<Real>;
     Real before = base_displacement(formula, p, first - Real(1.0));
     Real now = base_displacement(formula, p, first);
-    // once the motion is over for the whole of a step's reach, nothing but rounding is left of the difference
-    const Real over = formula == MotionFormula::still ? Real(0.0) : L::load(p.cycles) / L::load(p.cycles_per_step);
+    const Real end = motion_end<Real>(formula, p);
     for (int k = 0; k < chunk_steps; ++k) {
         const Real n = first + Real(static_cast<double>(k));
         const Real next = base_displacement(formula, p, n + Real(1.0));
-        const Real difference = (next - now) - (now - before);
-        L::store(table + k * stride, select(n - Real(1.0) >= over, Real(0.0), difference));
+        L::store(table + k * stride, second_difference(before, now, next, n, end));
         before = now;
         now = next;
     }

@@ -38,7 +38,7 @@ sources() { git ls-files --cached --others --exclude-standard -- "$@"; }
 # Runs commands from standard input, a line each, in parallel; fails if one does.
 in_parallel() { xargs -P "$jobs" -d '\n' -I{} bash -c '{}'; }
 
-gate_format() { sources '*.cpp' '*.hpp' '*.cu' | xargs -P "$jobs" -n 40 clang-format --dry-run --Werror; }
+gate_format() { sources '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs -P "$jobs" -n 40 clang-format --dry-run --Werror; }
 
 gate_clang() {
     configure

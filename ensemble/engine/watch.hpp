@@ -95,11 +95,10 @@ STYLOBATE_INLINE bool at_rest(const Watch& w)
 }
 
 /// Sees whether the realization lies still.
+/// @param now after the last step of a chunk
 /// @return whether it has for so long, or is out of time, that it is over
-template <class Topology, class Bundle>
-STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int lane, bool undecided, Watch& w)
+STYLOBATE_INLINE bool watch_rest(const RestSigns& now, bool undecided, Watch& w)
 {
-    const RestSigns now = rest_signs(topology, b, lane);
     const double kinetic = 0.5 * now.kinetic_2dt2 / (w.step_s * w.step_s);
     const double potential = now.potential_dt2 / (w.step_s * w.step_s) - w.start_potential_j;
     const double time = static_cast<double>(w.steps) * w.step_s;
@@ -120,6 +119,12 @@ STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int 
         w.quiet = 0;
     }
     return (w.may_rest != 0 && at_rest(w)) || w.steps >= w.last_step;
+}
+
+template <class Topology, class Bundle>
+STYLOBATE_INLINE bool watch_rest(const Topology& topology, const Bundle& b, int lane, bool undecided, Watch& w)
+{
+    return watch_rest(rest_signs(topology, b, lane), undecided, w);
 }
 
 } // namespace stylobate

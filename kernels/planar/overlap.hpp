@@ -30,6 +30,18 @@ struct Overlap {
     Real elastic; ///< elastic energy over K_N [m3]: of the Winkler bed that the area law represents
 };
 
+/// Lane by lane, one of two overlaps.
+template <class Mask, class Real>
+STYLOBATE_INLINE Overlap<Real> select(Mask mask, const Overlap<Real>& yes, const Overlap<Real>& no)
+{
+    return {select(mask, yes.area, no.area),
+            select(mask, yes.moment_x, no.moment_x),
+            select(mask, yes.moment_depth, no.moment_depth),
+            select(mask, yes.normal_x, no.normal_x),
+            select(mask, yes.normal_y, no.normal_y),
+            select(mask, yes.elastic, no.elastic)};
+}
+
 /// Of a bed, from relative displacements and versines, without cancellation of large numbers.
 /// @param x, rise upper centre - lower centre, frame of the base; upwards less the height at rest [m]
 /// @param height of the centres at rest: the sum of the half heights [m]

@@ -1,17 +1,13 @@
 #pragma once
 /// Intermediate values between the phases of a step (`step.hpp`), and their common constants.
 
+#include "kernels/planar/bed.hpp"
 #include "kernels/planar/mechanisms/points.hpp"
-#include "kernels/planar/overlap.hpp"
 
 namespace stylobate::detail {
 
 /// Joints that go through the phases together.
 inline constexpr int joint_group = 8;
-
-/// Area and contact length below which two blocks do not touch.
-inline constexpr double least_area = 1e-18;  // m2
-inline constexpr double least_chord = 1e-12; // m
 
 /// The two kinds of joints, as types for the phases.
 struct Bed {
@@ -32,15 +28,11 @@ struct PointScratch<Real, 0> {
 
 /// The intermediate values of one joint.
 template <class Real, int points>
-struct JointScratch : PointScratch<Real, points> {
-    PentagonFrame<Real> frame; // geometry -> overlap: of a bed of the baseline
-    Placement<Real> place;     // geometry -> overlap: of the others
-    Real apart_x, apart_y;     // geometry -> forces: upper centre - lower centre, frame of the base
-    Overlap<Real> met;         // overlap -> faces
-    Real area, chord;          // faces -> forces: 0 where the blocks do not touch
-    Real normal_x, normal_y;   // faces -> forces: frame of the base
-    Real arm_x, arm_y;         // faces -> forces: centroid from the lower block's centre, frame of the base
-    Real closing, sliding;     // faces -> forces
+struct JointScratch : PointScratch<Real, points>, Touch<Real> { // (what touches: faces -> forces)
+    PentagonFrame<Real> frame;                                  // geometry -> overlap: of a bed of the baseline
+    Placement<Real> place;                                      // geometry -> overlap: of the others
+    Real apart_x, apart_y; // geometry -> forces: upper centre - lower centre, frame of the base
+    Overlap<Real> met;     // overlap -> faces
 };
 
 } // namespace stylobate::detail

@@ -18,7 +18,7 @@
 /// What is not inlined gets a copy of the stepper: if its address were known elsewhere, the compiler would read its
 /// pointers again after every store.
 
-#include "kernels/planar/contact.hpp"
+#include "kernels/planar/bed.hpp"
 #include "kernels/planar/mechanism.hpp"
 #include "kernels/planar/mechanisms/mechanisms.hpp"
 #include "kernels/planar/neighbours.hpp"
@@ -105,10 +105,7 @@ private:
             return topology_.joint[joint];
     }
 
-    struct Pose {
-        Real sine, versine, theta;
-        Real x, y; ///< of the geometric centre
-    };
+    using Pose = stylobate::Pose<Real>;
     STYLOBATE_INLINE Pose pose(int i) const
     {
         return {get(OfBlock::sine, i), get(OfBlock::versine, i), get(OfBlock::theta, i), centre_x(i), centre_y(i)};
@@ -124,6 +121,11 @@ private:
         for (int j = 0; j < count; ++j)
             faces<Kind>(joint(j), scratch[j], audit);
         forces<Kind>(count, joint, scratch);
+    }
+
+    STYLOBATE_INLINE Planar<Real> motion(int i) const
+    {
+        return {get(OfBlock::dx, i), get(OfBlock::dy, i), get(OfBlock::dtheta, i)};
     }
 
     STYLOBATE_INLINE void turn(int i, Real theta) const
@@ -279,14 +281,9 @@ private:
     {
         Real x, y;
         const auto [lower, upper] = self.topology_.joint[joint];
-        const Overlap<Real> g =
-            self.general(joint, self.template placement<detail::Bed>(joint, self.pose(lower), self.pose(upper), x, y));
-        o.area = select(fits, o.area, g.area);
-        o.moment_x = select(fits, o.moment_x, g.moment_x);
-        o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
-        o.normal_x = select(fits, o.normal_x, g.normal_x);
-        o.normal_y = select(fits, o.normal_y, g.normal_y);
-        o.elastic = select(fits, o.elastic, g.elastic);
+        o = select(
+            fits, o,
+            self.general(joint, self.template placement<detail::Bed>(joint, self.pose(lower), self.pose(upper), x, y)));
     }
 
     template <class Kind>
@@ -294,52 +291,24 @@ private:
     {
         const auto [lower, upper] = ends<Kind>(joint);
         const Overlap<Real>& o = s.met;
-        const Real zero(0.0), one(1.0);
-        // the root and the two divisions are independent of each other
-        const Real square = fma(o.normal_x, o.normal_x, o.normal_y * o.normal_y);
-        const auto pressed =
-            (o.area > Real(detail::least_area)) & (square > Real(detail::least_chord * detail::least_chord));
-        const Real area = select(pressed, o.area, zero);
-        const Real per_area = one / select(pressed, o.area, one);
-        const Real chord = sqrt_of(square);
-        const Real per_chord = chord * (one / select(pressed, square, one));
-
-        // centroid and unit normal, in the lower block's frame
-        Real arm_x = o.moment_x * per_area;
-        const Real arm_y = fnma(o.moment_depth, per_area, get(OfBlock::half_height, lower));
+        const ContactSize<Real> size = contact_size(o);
+        // centroid in the lower block's frame
+        Real arm_x = o.moment_x * size.per_area;
+        const Real arm_y = fnma(o.moment_depth, size.per_area, get(OfBlock::half_height, lower));
         if constexpr (Mechanism::mechanisms)
             arm_x = arm_x - get(OfBlockMechanisms::eccentricity, lower);
         if constexpr (Mechanism::points > 0 && Kind::at_rest) {
-            const Real middle = s.points.moment * per_area;
+            const Real middle = s.points.moment * size.per_area;
             for (int i = 0; i < Mechanism::points; ++i) {
                 s.points.x[i] = s.points.x[i] - middle;
-                s.points.area[i] = s.points.area[i] * per_area;
+                s.points.area[i] = s.points.area[i] * size.per_area;
             }
         }
-        const Real normal_x = o.normal_x * per_chord, normal_y = o.normal_y * per_chord;
-
-        // in the base's
-        const Real sine = get(OfBlock::sine, lower), cosine = one - get(OfBlock::versine, lower);
-        const Real nx = fms(normal_x, cosine, normal_y * sine);
-        const Real ny = fma(normal_x, sine, normal_y * cosine);
-        const Real lx = fms(arm_x, cosine, arm_y * sine);
-        const Real ly = fma(arm_x, sine, arm_y * cosine);
-        const Real ux = lx - s.apart_x;
-        const Real uy = ly - s.apart_y;
-        const Real wl = get(OfBlock::dtheta, lower), wu = get(OfBlock::dtheta, upper);
-        const Real vx = fma(wl, ly, fnma(wu, uy, get(OfBlock::dx, upper) - get(OfBlock::dx, lower)));
-        const Real vy = fnma(wl, lx, fma(wu, ux, get(OfBlock::dy, upper) - get(OfBlock::dy, lower)));
-        s.area = area;
-        s.chord = chord;
-        s.normal_x = nx;
-        s.normal_y = ny;
-        s.arm_x = lx;
-        s.arm_y = ly;
-        // blocks that do not touch neither close nor slide
-        s.closing = select(pressed, fnma(vx, nx, zero - vy * ny), zero);
-        s.sliding = select(pressed, fms(vx, ny, vy * nx), zero);
+        static_cast<Touch<Real>&>(s) =
+            touch(size, o, arm_x, arm_y, get(OfBlock::sine, lower), get(OfBlock::versine, lower), s.apart_x, s.apart_y,
+                  motion(lower), motion(upper));
         if (audit)
-            put(OfJoint::elastic, joint, select(pressed, get(OfJoint::K_n, joint) * o.elastic, zero));
+            put(OfJoint::elastic, joint, select(size.pressed, get(OfJoint::K_n, joint) * o.elastic, Real(0.0)));
     }
 
     /// A bed's force is stored with it until its blocks sum theirs up. A pair adds to them at once, and only where it
@@ -388,32 +357,28 @@ private:
             }
             put(OfJoint::spring, joint, f.spring);
 
-            const Real fx = fms(f.normal, s.normal_x, f.tangential * s.normal_y);
-            const Real fy = fma(f.normal, s.normal_y, f.tangential * s.normal_x);
-            const Real upper_arm_x = s.arm_x - s.apart_x, upper_arm_y = s.arm_y - s.apart_y;
-            Real upper_moment = fms(upper_arm_x, fy, upper_arm_y * fx);
-            Real lower_moment = fms(s.arm_x, fy, s.arm_y * fx);
+            BedLoad<Real> load = bed_load(f, s, s.apart_x, s.apart_y);
             if constexpr (coupled) {
-                upper_moment = upper_moment + couple;
-                lower_moment = lower_moment + couple;
+                load.upper_moment = load.upper_moment + couple;
+                load.lower_moment = load.lower_moment + couple;
             }
             if constexpr (Kind::at_rest) {
-                put(OfJoint::force_x, joint, fx);
-                put(OfJoint::force_y, joint, fy);
-                put(OfJoint::upper_moment, joint, upper_moment);
-                put(OfJoint::lower_moment, joint, lower_moment);
+                put(OfJoint::force_x, joint, load.x);
+                put(OfJoint::force_y, joint, load.y);
+                put(OfJoint::upper_moment, joint, load.upper_moment);
+                put(OfJoint::lower_moment, joint, load.lower_moment);
             } else {
                 const auto pressed = s.area > Real(0.0);
                 const auto sum = [&](OfBlock::Field field, int block, Real with) {
                     put(field, block, select(pressed, get(field, block) + with, get(field, block)));
                 };
                 const Real zero(0.0);
-                sum(OfBlock::force_x, upper, fx);
-                sum(OfBlock::force_y, upper, fy);
-                sum(OfBlock::moment, upper, upper_moment);
-                sum(OfBlock::force_x, lower, zero - fx);
-                sum(OfBlock::force_y, lower, zero - fy);
-                sum(OfBlock::moment, lower, zero - lower_moment);
+                sum(OfBlock::force_x, upper, load.x);
+                sum(OfBlock::force_y, upper, load.y);
+                sum(OfBlock::moment, upper, load.upper_moment);
+                sum(OfBlock::force_x, lower, zero - load.x);
+                sum(OfBlock::force_y, lower, zero - load.y);
+                sum(OfBlock::moment, lower, zero - load.lower_moment);
             }
 
             // energy: the work of this step is its displacement times the mean of the forces at its two ends
@@ -539,9 +504,8 @@ private:
                 e.y = add(OfRemainder::dy, i, dy, fma(per_mass, force.y, gy));
                 e.theta = add(OfRemainder::dtheta, i, dtheta, get(OfBlock::dt2_per_inertia, i) * force.theta);
             } else {
-                e.x = fma(per_mass, force.x, dx + push);
-                e.y = fma(per_mass, force.y, dy + gy);
-                e.theta = fma(get(OfBlock::dt2_per_inertia, i), force.theta, dtheta);
+                e = next_motion(force, Planar<Real>{dx, dy, dtheta}, per_mass, get(OfBlock::dt2_per_inertia, i), push,
+                                gy);
             }
             momentum = fma(mass, dx, momentum);
             if (audit) {

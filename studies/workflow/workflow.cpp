@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace stylobate {
 
@@ -33,8 +34,12 @@ int Machine::thread_count() const
 RunOptions Machine::run_options() const
 {
     RunOptions options{isa(), thread_count()};
-    if (backend == "cuda")
-        options.devices = ranks ? open_cuda_devices(ranks->local_rank(), ranks->local_size()) : open_cuda_devices();
+    if (backend == "cuda") {
+        const char* const step = std::getenv("STYLOBATE_COLUMN_STEP"); // to compare the two (scripts/gpu.sh)
+        const bool threads = step != nullptr && std::string_view(step) == "threads";
+        options.devices = open_cuda_devices(ranks ? ranks->local_rank() : 0, ranks ? ranks->local_size() : 1,
+                                            threads ? ColumnStep::by_threads : ColumnStep::by_lanes);
+    }
     options.ranks = ranks;
     return options;
 }

@@ -1,6 +1,7 @@
 #pragma once
-/// A device that steps many realizations at once, one by each of its threads: memory, copies, and launches of the
-/// tasks of `slot_tasks.hpp`. All else about it is ordinary code (`slots.hpp`), the same for every device.
+/// A device that steps many realizations at once, with a lane for every block (`column_warp.hpp`) or a thread for every
+/// realization (`slot_tasks.hpp`): memory, copies, and launches. All else about it is ordinary code (`slots.hpp`), the
+/// same for every device.
 
 #include <cstddef>
 #include <memory>
@@ -37,6 +38,12 @@ public:
     virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
     virtual void download(void* to, const void* from, std::size_t bytes) = 0;
 
+    /// Why these slots are not stepped as fast as the device can, for people; empty where they are.
+    virtual std::string why_slow(const SlotMemory& memory) const
+    {
+        static_cast<void>(memory);
+        return {};
+    }
     /// `AdvanceSlot` for slots 0 .. count - 1.
     virtual void advance(const SlotMemory& memory, int chunks, int count) = 0;
     virtual void run(const MoveColumnsOf<double>& task, int count) = 0;
@@ -56,8 +63,15 @@ CudaDevices cuda_devices();
 /// @param local_rank of the process, 0 .. local_size - 1
 std::vector<int> devices_of_rank(int devices, int local_rank, int local_size);
 
+/// How a device steps columns.
+enum class ColumnStep {
+    by_lanes, ///< where lanes serve them
+    by_threads
+};
+
 /// Queues of those that this process takes: two for each, so that one computes while the host serves the other.
 /// @throws InputError if there is no device
-std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank = 0, int local_size = 1);
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank = 0, int local_size = 1,
+                                                       ColumnStep step = ColumnStep::by_lanes);
 
 } // namespace stylobate

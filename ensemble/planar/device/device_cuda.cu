@@ -2,6 +2,7 @@
 // what is to be fused is written as fma, so that a step has the bits of the processor's.
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/planar/device/column_kernel.cuh"
 #include "ensemble/planar/device/device.hpp"
 #include "ensemble/planar/device/slot_tasks.hpp"
 
@@ -21,7 +22,8 @@ namespace {
 constexpr int block_threads = 128;
 // Number of threads of a multiprocessor for which registers must suffice.
 constexpr int resident_threads = 256;
-// Slots for each multiprocessor, of both queues together: their states stay in its first-level cache (`docs/gpu.md`).
+// Slots for each multiprocessor, of both queues together, where a thread steps a realization: their states stay in its
+// first-level cache (`docs/gpu.md`).
 constexpr int cached_slots = 128;
 
 void check(cudaError_t status, const char* what)
@@ -47,7 +49,7 @@ namespace {
 
 class CudaQueue : public Device {
 public:
-    explicit CudaQueue(int device) : device_(device)
+    CudaQueue(int device, ColumnStep step) : device_(device), step_(step)
     {
         use();
         check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a queue cannot be made");
@@ -71,19 +73,30 @@ public:
     int best_slots(const SlotMemory& memory, std::size_t bytes) const override
     {
         use();
-        int processors = 0, blocks = 0;
+        int processors = 0;
         check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_),
               "its properties cannot be read");
-        with_model<OnCuda>(memory, 1, [&](const auto& task) {
-            using Task = std::decay_t<decltype(task)>;
-            check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_task<Task>, block_threads, 0),
-                  "the kernel does not fit");
-        });
-        const int threads = std::min(cached_slots, blocks * block_threads) / 2; // the other queue computes meanwhile
+        int slots = column_slots(memory);
+        if (slots == 0)
+            with_model<OnCuda>(memory, 1, [&](const auto& task) {
+                using Task = std::decay_t<decltype(task)>;
+                int blocks = 0;
+                check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_task<Task>, block_threads, 0),
+                      "the kernel does not fit");
+                slots = std::min(cached_slots, blocks * block_threads);
+            });
         std::size_t free = 0, total = 0;
         check(cudaMemGetInfo(&free, &total), "its memory cannot be read");
         const std::size_t fit = free / 4 / std::max<std::size_t>(bytes, 1); // of two queues, half of the memory
-        return static_cast<int>(std::clamp<std::size_t>(fit, 1, static_cast<std::size_t>(processors * threads)));
+        // half of the slots: the other queue computes meanwhile
+        return static_cast<int>(std::clamp<std::size_t>(fit, 1, static_cast<std::size_t>(processors * slots / 2)));
+    }
+
+    std::string why_slow(const SlotMemory& memory) const override
+    {
+        if (const char* const why = why_no_lanes(memory))
+            return why;
+        return column_slots(memory) > 0 ? "" : "its multiprocessors have too little shared memory for lanes";
     }
 
     void* allocate(std::size_t bytes) override
@@ -122,7 +135,17 @@ public:
 
     void advance(const SlotMemory& memory, int chunks, int count) override
     {
-        with_model<OnCuda>(memory, chunks, [&](const auto& task) { launch(task, count); });
+        if (column_slots(memory) == 0)
+            return with_model<OnCuda>(memory, chunks, [&](const auto& task) { launch(task, count); });
+        if (count <= 0)
+            return;
+        use();
+        with_lane_blocks(memory, [&]<int blocks>() {
+            constexpr int slots = column_warps * WarpMemory<blocks>::groups; // of a block of threads
+            step_columns<blocks><<<static_cast<unsigned>((count + slots - 1) / slots), warp_lanes * column_warps,
+                                   column_shared_bytes<blocks>, stream_>>>(memory, chunks, count);
+        });
+        check(cudaGetLastError(), "a kernel does not start");
     }
     void run(const MoveColumns& task, int count) override { launch(task, count); }
     void run(const MoveSingleColumns& task, int count) override { launch(task, count); }
@@ -131,6 +154,34 @@ public:
 
 private:
     void use() const { check(cudaSetDevice(device_), "it cannot be used"); }
+
+    /// Slots for each multiprocessor where lanes step the blocks; 0 where they do not serve, or where the
+    /// multiprocessor has too little shared memory for a block of threads.
+    int column_slots(const SlotMemory& memory) const
+    {
+        if (!lanes_serve(memory) || step_ == ColumnStep::by_threads)
+            return 0;
+        if (column_slots_ < 0 || column_blocks_ != memory.topology.free_blocks()) {
+            use();
+            column_blocks_ = memory.topology.free_blocks();
+            with_lane_blocks(memory, [&]<int blocks>() {
+                constexpr int bytes = static_cast<int>(column_shared_bytes<blocks>);
+                const auto kernel = step_columns<blocks>;
+                int most = 0, residents = 0;
+                check(cudaDeviceGetAttribute(&most, cudaDevAttrMaxSharedMemoryPerBlockOptin, device_),
+                      "its properties cannot be read");
+                if (bytes <= most) {
+                    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, bytes),
+                          "the kernel does not fit");
+                    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&residents, kernel, warp_lanes * column_warps,
+                                                                        column_shared_bytes<blocks>),
+                          "the kernel does not fit");
+                }
+                column_slots_ = residents * column_warps * WarpMemory<blocks>::groups;
+            });
+        }
+        return column_slots_;
+    }
 
     template <class Task>
     void launch(const Task& task, int count)
@@ -144,10 +195,13 @@ private:
     }
 
     int device_ = 0;
+    ColumnStep step_ = ColumnStep::by_lanes;
     cudaStream_t stream_ = nullptr;
+    mutable int column_slots_ = -1, column_blocks_ = 0; ///< of `column_slots`, and the free blocks that it is for
 };
 
-int count_devices(std::string& reason)
+/// Devices that this program has code for. @param reason why there are none, if so
+std::vector<int> usable_devices(std::string& reason)
 {
     int count = 0;
     const cudaError_t status = cudaGetDeviceCount(&count);
@@ -155,9 +209,19 @@ int count_devices(std::string& reason)
         reason = status == cudaSuccess || status == cudaErrorNoDevice
                      ? std::string("no CUDA device is found")
                      : std::string("no CUDA device can be used: ") + cudaGetErrorString(status);
-        return 0;
+        return {};
     }
-    return count;
+    std::vector<int> usable;
+    for (int device = 0; device < count; ++device) {
+        cudaFuncAttributes attributes{};
+        if (cudaSetDevice(device) == cudaSuccess &&
+            cudaFuncGetAttributes(&attributes, run_task<MarkSlots>) == cudaSuccess)
+            usable.push_back(device);
+        else
+            reason = "this program has no code for " + CudaQueue(device, ColumnStep::by_threads).name() +
+                     ". Build it with -DCMAKE_CUDA_ARCHITECTURES of its compute capability, without the point";
+    }
+    return usable;
 }
 
 } // namespace
@@ -165,22 +229,21 @@ int count_devices(std::string& reason)
 CudaDevices cuda_devices()
 {
     CudaDevices found;
-    const int count = count_devices(found.reason);
-    for (int device = 0; device < count; ++device)
-        found.names.push_back(CudaQueue(device).name());
+    for (const int device : usable_devices(found.reason))
+        found.names.push_back(CudaQueue(device, ColumnStep::by_lanes).name());
     return found;
 }
 
-std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank, int local_size)
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank, int local_size, ColumnStep step)
 {
     std::string reason;
-    const int count = count_devices(reason);
-    if (count == 0)
+    const std::vector<int> usable = usable_devices(reason);
+    if (usable.empty())
         throw InputError("--backend cuda: " + reason);
     std::vector<std::shared_ptr<Device>> queues;
     for (int half = 0; half < 2; ++half)
-        for (const int device : devices_of_rank(count, local_rank, local_size))
-            queues.push_back(std::make_shared<CudaQueue>(device));
+        for (const int i : devices_of_rank(static_cast<int>(usable.size()), local_rank, local_size))
+            queues.push_back(std::make_shared<CudaQueue>(usable[static_cast<std::size_t>(i)], step));
     return queues;
 }
 

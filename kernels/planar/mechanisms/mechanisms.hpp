@@ -74,12 +74,7 @@ STYLOBATE_INLINE void take_general(const Placement<Real>& place, const PairSizes
                                    Overlap<Real>& o, FormPoints<Real, count>& points)
 {
     const Overlap<Real> g = general_overlap(place, sizes);
-    o.area = select(fits, o.area, g.area);
-    o.moment_x = select(fits, o.moment_x, g.moment_x);
-    o.moment_depth = select(fits, o.moment_depth, g.moment_depth);
-    o.normal_x = select(fits, o.normal_x, g.normal_x);
-    o.normal_y = select(fits, o.normal_y, g.normal_y);
-    o.elastic = select(fits, o.elastic, g.elastic);
+    o = select(fits, o, g);
     if constexpr (count > 0) {
         const Real zero(0.0), area = max_of(g.area, Real(1e-300));
         const Real length = sqrt_of(fma(g.normal_x, g.normal_x, g.normal_y * g.normal_y));

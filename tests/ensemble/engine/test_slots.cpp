@@ -1,4 +1,5 @@
-/// The slots of a device, on the device that is the processor and on the devices of CUDA, where there are any: outcomes
+/// The slots of a device, on devices that are the processor (with a thread for every realization, and with lanes for
+/// the blocks of those that they serve) and on the devices of CUDA, where there are any: outcomes
 /// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
 /// realizations are.
 
@@ -9,7 +10,9 @@
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
+#include "tests/ensemble/engine/lanes/warp_device.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
+#include "tests/ensemble/engine/slot_studies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +30,6 @@ using namespace stylobate;
 
 namespace {
 
-const std::string inputs = std::string(STYLOBATE_SOURCE_DIR) + "/studies/inputs/";
-
 RunOptions on_devices(int devices, int slots)
 {
     RunOptions options{Isa::scalar, 2};
@@ -44,7 +45,8 @@ EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
 {
     const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
     EXPECT_EQ(want.outcomes.size(), study.total());
-    std::vector<RunOptions> all{on_devices(1, 5), on_devices(2, 0)};
+    std::vector<RunOptions> all{on_devices(1, 5), on_devices(2, 0), on_devices(0, 40)};
+    all.back().devices = {std::make_shared<WarpDevice>()};
     if (!cuda_devices().names.empty())
         for (const int slots : {5, 0}) {
             all.push_back(on_devices(0, slots));
@@ -59,52 +61,6 @@ EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
         EXPECT_EQ(got.progress.block_steps, want.progress.block_steps);
     }
     return want;
-}
-
-Study column(const std::vector<std::string>& more)
-{
-    std::vector<std::string> settings{"study.realizations=4",
-                                      "surface.frequency_hz={ from = 1.0, to = 4.0, count = 2 }",
-                                      "surface.pga_m_s2={ from = 1.0, to = 9.0, count = 3 }"};
-    settings.insert(settings.end(), more.begin(), more.end());
-    return read_study(inputs + "small_scale_column.toml", settings);
-}
-
-Study colonnade(const std::vector<std::string>& more)
-{
-    std::vector<std::string> settings{"study.realizations=3", "excitation.cycles=5",
-                                      "surface.frequency_hz={ from = 1.5, to = 3.0, count = 2 }",
-                                      "surface.pga_m_s2={ from = 6.0, to = 15.0, count = 2 }"};
-    settings.insert(settings.end(), more.begin(), more.end());
-    return read_study(inputs + "small_scale_colonnade_drums.toml", settings);
-}
-
-/// Two seconds of a chirp of 1 to 5 Hz and up to 1 m/s2, with a jump at its beginning, samples 0.01 s apart.
-Motion chirp()
-{
-    std::vector<double> samples;
-    for (int i = 0; i < 200; ++i) {
-        const double t = 0.01 * i;
-        samples.push_back(std::cos(2 * std::numbers::pi * (1 + t) * t) * std::exp(-t));
-    }
-    Motion motion = motion_of(samples, 0.01);
-    motion.predominant_frequency_hz = 2;
-    return motion;
-}
-
-Study along_chirp(const std::vector<std::string>& more)
-{
-    Study study = column(more);
-    study.excitation.kind = ExcitationKind::record;
-    return study;
-}
-
-/// Fourteen pulses, each of several strengths.
-Study under_pulses()
-{
-    return read_study(inputs + "fragility_column.toml",
-                      {"study.realizations=1", "fragility.contacts=1", "fragility.twins=1", "fragility.motions=14",
-                       "fragility.intensity.count=3"});
 }
 
 /// Another device's deeds, and how many bytes went up to it.

@@ -1,0 +1,48 @@
+#pragma once
+/// The warp of a CUDA device, for `ColumnLanes` (`column_lanes.hpp`). Compiled by nvcc only.
+
+#include "kernels/lanes/column_lanes.hpp"
+
+namespace stylobate {
+
+struct CudaWarp {
+    using Real = double;
+    /// A thread has its own lane's value.
+    template <class T>
+    struct Each {
+        T value;
+        STYLOBATE_LANES T& operator[](int) { return value; }
+        STYLOBATE_LANES const T& operator[](int) const { return value; }
+    };
+    static constexpr unsigned all = ~0U;
+    int lane; ///< of this thread
+
+    template <class F>
+    STYLOBATE_LANES void each(const F& f) const
+    {
+        f(lane);
+    }
+    template <class Value>
+    STYLOBATE_LANES static Value& of(Value& value, int)
+    {
+        return value;
+    }
+    STYLOBATE_LANES void sync() const { __syncwarp(); }
+    STYLOBATE_LANES bool any(const Each<bool>& flags) const { return __any_sync(all, flags.value); }
+    STYLOBATE_LANES Each<bool> any_of_group(const Each<bool>& flags, const Each<int>& groups, int blocks) const
+    {
+        const unsigned votes = __ballot_sync(all, flags.value);
+        return {(votes >> (groups.value * blocks & (warp_lanes - 1)) & ((1U << blocks) - 1)) != 0};
+    }
+    STYLOBATE_LANES Each<bool> first_of_group(const Each<bool>& flags, const Each<int>& groups, int blocks) const
+    {
+        const unsigned votes = __ballot_sync(all, flags.value);
+        return {(votes >> (groups.value * blocks & (warp_lanes - 1)) & 1U) != 0};
+    }
+    STYLOBATE_LANES double from(double value, const Each<int>& lanes) const
+    {
+        return __shfl_sync(all, value, lanes.value);
+    }
+};
+
+} // namespace stylobate

@@ -1,0 +1,83 @@
+#pragma once
+/// Every number of every column, by lanes and by threads.
+
+#include "tests/ensemble/engine/ensemble_run.hpp"
+#include "tests/ensemble/engine/lanes/warp_device.hpp"
+#include "tests/ensemble/engine/slot_studies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace stylobate {
+
+/// Steps everything by lanes, and by threads beforehand, from the same numbers; compares all numbers of the columns,
+/// and what is to be asked, after every launch.
+class BothWays : public WarpDevice {
+public:
+    using WarpDevice::WarpDevice;
+    void advance(const SlotMemory& m, int chunks, int count) override
+    {
+        const auto slots = static_cast<std::size_t>(m.slots);
+        double* const columns = m.bundle.begin[0];
+        const std::vector<double> before(columns, columns + column_rows(m.topology) * slots);
+        const std::vector<SlotState> states_before(m.state, m.state + slots);
+        threads_->advance(m, chunks, count);
+        const std::vector<double> want(columns, columns + before.size());
+        const std::vector<SlotState> states(m.state, m.state + slots);
+        std::copy(before.begin(), before.end(), columns);
+        std::copy(states_before.begin(), states_before.end(), m.state);
+        WarpDevice::advance(m, chunks, count);
+        for (std::size_t slot = 0; slot < slots; ++slot) {
+            EXPECT_EQ(m.state[slot], states[slot]) << "slot " << slot;
+            asked += m.state[slot] == SlotState::asks;
+            if (states_before[slot] != SlotState::busy)
+                continue;
+            for (std::size_t row = 0; row < column_rows(m.topology); ++row) {
+                const std::size_t at = row * slots + slot;
+                ++compared;
+                if (std::bit_cast<std::uint64_t>(columns[at]) != std::bit_cast<std::uint64_t>(want[at]) &&
+                    ++differ <= 20)
+                    ADD_FAILURE() << "slot " << slot << ", row " << row << ": " << columns[at] << ", wanted "
+                                  << want[at];
+            }
+        }
+    }
+    long compared = 0, differ = 0, asked = 0;
+
+private:
+    std::shared_ptr<Device> threads_ = host_device();
+};
+
+/// Runs a study both ways, a few slots at a time, and against the processor's lanes.
+/// @return the device that it ran on
+inline std::shared_ptr<BothWays> same_in_lanes(const Study& study, const Motions& motions = {},
+                                               const WarpDevice::Step& step = advance_columns)
+{
+    const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
+    const auto device = std::make_shared<BothWays>(step);
+    RunOptions options{Isa::scalar, 2};
+    options.devices = {device};
+    options.slots = 23;
+    options.few = 0;
+    EXPECT_EQ(run_all(study, options, motions).outcomes, want.outcomes);
+    EXPECT_EQ(device->differ, 0);
+    EXPECT_GT(device->compared, 0);
+    EXPECT_EQ(device->by_threads(), 0);
+    return device;
+}
+
+/// A column of so many free drums, as slender as one of six.
+inline Study of_blocks(int free, std::vector<std::string> settings)
+{
+    settings.push_back("structure.blocks=" + std::to_string(free + 1));
+    settings.push_back("structure.drum_height_m=" + std::to_string(0.174 / free));
+    return column(settings);
+}
+
+} // namespace stylobate

@@ -1,0 +1,129 @@
+/// Columns with a lane of a warp for every block: every number of every column has the bits of the step by threads, for
+/// all numbers of blocks, and so has every outcome. The warps are emulated in lockstep (`warp_device.hpp`);
+/// `test_ptx_columns` runs the device's own code.
+
+#include "ensemble/planar/device/slots.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
+#include "tests/ensemble/engine/lanes/both_ways.hpp"
+#include "tests/ensemble/engine/rigid_study.hpp"
+#include "tests/ensemble/engine/slot_studies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace stylobate;
+
+class LanesOfBlocks : public testing::TestWithParam<int> {};
+
+TEST_P(LanesOfBlocks, HaveTheBitsOfThreads)
+{
+    const auto device = same_in_lanes(of_blocks(GetParam(), {"study.realizations=2", "excitation.cycles=5"}));
+    EXPECT_GT(device->asked, 10) << "nothing ended";
+}
+
+INSTANTIATE_TEST_SUITE_P(Blocks, LanesOfBlocks, testing::Range(1, most_lane_blocks + 1));
+
+TEST(Lanes, PulsesHaveTheBitsOfThreads)
+{
+    for (const ExcitationKind kind : {ExcitationKind::half_sine, ExcitationKind::full_sine, ExcitationKind::ricker}) {
+        Study study = column({"study.realizations=2"});
+        study.excitation.kind = kind;
+        same_in_lanes(study);
+    }
+}
+
+/// Along samples that the device has, and along tables that the host makes.
+TEST(Lanes, RecordsHaveTheBitsOfThreads)
+{
+    same_in_lanes(along_chirp({"study.realizations=2"}), {.record = chirp()});
+    same_in_lanes(read_study(inputs + "synthetic_earthquake.toml",
+                             {"study.realizations=2", "excitation.rise_s=0.5", "excitation.strong_s=1",
+                              "excitation.decay_s=0.3", "surface.frequency_hz={ from = 1.0, to = 3.0, count = 2 }",
+                              "surface.pga_m_s2={ from = 4.0, to = 12.0, count = 2 }"}));
+}
+
+TEST(Lanes, AFragilityStudyHasTheBitsOfThreads)
+{
+    const Study study = under_pulses();
+    MotionSet pulses = drawn_motions(study);
+    pulses.measures.push_back({"pgv_m_s", 1, {}});
+    for (const auto& motion : pulses.motions)
+        pulses.measures.back().value.push_back(peak(motion->velocity_m_s));
+    same_in_lanes(study, {.drawn = std::make_shared<const MotionSet>(std::move(pulses))});
+}
+
+/// What is not a number, and a balance of energy out of bounds, stop a lane as they stop a thread.
+TEST(Lanes, ABrokenRealizationIsSetAside)
+{
+    const Study study = column({"study.realizations=1"});
+    const Sampler sampler(study, nullptr);
+    BothWays device;
+    SlotSet set(study, nullptr, sampler.realization(0), device, 6, 6);
+    for (int slot = 0; slot < 6; ++slot) {
+        Realization r = sampler.realization(static_cast<std::uint64_t>(slot));
+        if (slot == 1)
+            r.step_s *= 4;
+        if (slot == 4)
+            r.pga_m_s2 = std::numeric_limits<double>::quiet_NaN();
+        set.load(slot, r);
+    }
+    int invalid = 0;
+    while (set.active() > 0) {
+        set.advance();
+        for (int slot = 0; slot < set.lanes(); ++slot)
+            if (!set.free(slot) && set.done(slot)) {
+                invalid += set.outcome(slot)->state == State::invalid;
+                set.clear(slot);
+            }
+    }
+    EXPECT_EQ(invalid, 2);
+    EXPECT_EQ(device.differ, 0);
+}
+
+/// What lanes do not serve is stepped by threads.
+TEST(Lanes, LeaveTheRestToThreads)
+{
+    Study single = column({"study.realizations=1"});
+    single.run.precision = Precision::single;
+    const std::vector<Study> others{single,
+                                    colonnade({"study.realizations=1"}),
+                                    rigid_of(column({"study.realizations=1"})),
+                                    column({"study.realizations=1", "contact.form=\"two_corner\""}),
+                                    column({"study.realizations=1", "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }"}),
+                                    column({"study.realizations=1", "outcome.follow=\"rest\""}),
+                                    of_blocks(most_lane_blocks + 1, {"study.realizations=1", "excitation.cycles=5"})};
+    for (const Study& study : others) {
+        const auto device = std::make_shared<WarpDevice>();
+        RunOptions options{Isa::scalar, 2};
+        options.devices = {device};
+        options.few = 0;
+        EXPECT_EQ(run_all(study, options).outcomes, run_all(study, {best_isa(), 2}).outcomes);
+        EXPECT_EQ(device->by_lanes(), 0);
+        EXPECT_GT(device->by_threads(), 0);
+    }
+}
+
+/// The device's own lanes and threads, on a run that is small enough to look for hazards of its memory in.
+TEST(Cuda, LanesHaveTheBitsOfThreads)
+{
+    const CudaDevices found = cuda_devices();
+    if (found.names.empty())
+        GTEST_SKIP() << "not run: " << found.reason;
+    for (const int free : {1, 6, most_lane_blocks}) {
+        const Study study = of_blocks(free, {"study.realizations=2", "excitation.cycles=6"});
+        RunOptions options{best_isa(), 2};
+        options.few = 0;
+        const auto on = [&](ColumnStep step) {
+            options.devices = open_cuda_devices(0, 1, step);
+            return run_all(study, options).outcomes;
+        };
+        const auto by_lanes = on(ColumnStep::by_lanes);
+        EXPECT_EQ(by_lanes, on(ColumnStep::by_threads));
+        EXPECT_EQ(by_lanes, run_all(study, {best_isa(), 2}).outcomes);
+    }
+}
