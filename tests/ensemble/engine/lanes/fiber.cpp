@@ -28,7 +28,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-#if defined(__x86_64__) && !defined(PTX_UCONTEXT)
+#if defined(__x86_64__) && !defined(PTX_UCONTEXT) // which may be defined to compare the two
 // Keeps the registers that a function must keep on the old stack, and takes them from the new one. (A file of its own:
 // where the compiler saw what is called, it could keep other registers across the call.)
 extern "C" void stylobate_ptx_swap_stacks(void** from, void* to);
@@ -55,8 +55,8 @@ stylobate_ptx_swap_stacks:
 .size stylobate_ptx_swap_stacks, . - stylobate_ptx_swap_stacks
 )");
 #else
-#define PTX_UCONTEXT
 #include <ucontext.h>
+#define PTX_UCONTEXT_USED
 #endif
 
 namespace ptx {
@@ -74,7 +74,7 @@ struct Fiber::Context {
     std::vector<char> stack;
     void (*function)(void*) = nullptr;
     void* argument = nullptr;
-#if defined(PTX_UCONTEXT)
+#if defined(PTX_UCONTEXT_USED)
     ucontext_t place{};
 #else
     void* place = nullptr; ///< the end of its stack, where its registers are
@@ -136,7 +136,7 @@ void Fiber::begin(void (*function)(void*), void* argument)
     c.thread = __tsan_create_fiber(0);
 #endif
     std::memcpy(c.stack.data(), &end_mark, sizeof end_mark);
-#if defined(PTX_UCONTEXT)
+#if defined(PTX_UCONTEXT_USED)
     getcontext(&c.place);
     c.place.uc_stack.ss_sp = c.stack.data();
     c.place.uc_stack.ss_size = c.stack.size();
@@ -164,7 +164,7 @@ void Fiber::change_to(Fiber& other)
 #if defined(PTX_THREAD_SANITIZER)
     __tsan_switch_to_fiber(other.context_->thread, 0);
 #endif
-#if defined(PTX_UCONTEXT)
+#if defined(PTX_UCONTEXT_USED)
     swapcontext(&context_->place, &other.context_->place);
 #else
     stylobate_ptx_swap_stacks(&context_->place, other.context_->place);

@@ -48,12 +48,18 @@ std::string at_line(int line)
     return "line " + std::to_string(line) + " of the PTX";
 }
 
-/// "lanes 0, 3"
+/// "lanes 0 to 3, 5", of numbers in ascending order.
 std::string numbers_of(const std::vector<int>& lanes)
 {
-    std::string text = lanes.size() == 1 ? "lane " : "lanes ";
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-        text += (i == 0 ? "" : ", ") + std::to_string(lanes[i]);
+    std::string text = "lanes";
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        text += (i == 0 ? " " : ", ") + std::to_string(lanes[i]);
+        const std::size_t first = i;
+        while (i + 1 < lanes.size() && lanes[i + 1] == lanes[i] + 1)
+            ++i;
+        if (i > first)
+            text += " to " + std::to_string(lanes[i]);
+    }
     return text;
 }
 
@@ -92,12 +98,12 @@ bool all_wait(const Warp& warp)
         else
             others.push_back(number);
     }
-    const std::string waiting = numbers_of(first) + " wait in " + at_line(warp.lanes[first[0]].line);
+    const std::string waiting = numbers_of(first) + " in " + at_line(warp.lanes[first[0]].line);
     if (!others.empty())
-        fail("lanes meet at different instructions: " + waiting + ", " + numbers_of(others) + " in " +
+        fail("lanes wait at different instructions: " + waiting + ", " + numbers_of(others) + " in " +
              at_line(warp.lanes[others[0]].line));
     if (!ended.empty())
-        fail(waiting + " for " + numbers_of(ended) + ", which ended");
+        fail("some lanes wait: " + waiting + "; others have ended: " + numbers_of(ended));
     return true;
 }
 
