@@ -7,13 +7,8 @@
 
 namespace stylobate {
 
-/// Warps of a block of threads, and blocks of a multiprocessor for which registers must suffice: three warps for each
-/// of its four schedulers.
-inline constexpr int column_warps = 4, column_residents = 3;
-
-/// Dynamic shared memory of a block of threads.
-template <int blocks>
-inline constexpr std::size_t column_shared_bytes = column_warps * sizeof(WarpMemory<blocks>);
+/// Blocks of a multiprocessor for which registers must suffice: three warps for each of its four schedulers.
+inline constexpr int column_residents = 3;
 
 /// Steps slots 0 .. count - 1 by up to `chunks` chunks. @pre lanes_serve(m), with so many free blocks
 template <int blocks>

@@ -46,6 +46,14 @@ void with_lane_blocks(const SlotMemory& m, F&& f)
     (std::make_integer_sequence<int, most_lane_blocks>());
 }
 
+/// Warps of a block of a device's threads: one for each scheduler of a multiprocessor.
+inline constexpr int column_warps = 4;
+/// Slots of such a block, and its shared memory.
+template <int blocks>
+inline constexpr int column_block_slots = column_warps* WarpMemory<blocks>::groups;
+template <int blocks>
+inline constexpr std::size_t column_shared_bytes = column_warps * sizeof(WarpMemory<blocks>);
+
 /// A warp's slots: `first_slot` and those behind it, one for each group of its lanes, as far as they are below `count`.
 template <class W, int blocks>
 class ColumnWarp {

@@ -141,7 +141,7 @@ public:
             return;
         use();
         with_lane_blocks(memory, [&]<int blocks>() {
-            constexpr int slots = column_warps * WarpMemory<blocks>::groups; // of a block of threads
+            constexpr int slots = column_block_slots<blocks>;
             step_columns<blocks><<<static_cast<unsigned>((count + slots - 1) / slots), warp_lanes * column_warps,
                                    column_shared_bytes<blocks>, stream_>>>(memory, chunks, count);
         });
@@ -177,7 +177,7 @@ private:
                                                                         column_shared_bytes<blocks>),
                           "the kernel does not fit");
                 }
-                column_slots_ = residents * column_warps * WarpMemory<blocks>::groups;
+                column_slots_ = residents * column_block_slots<blocks>;
             });
         }
         return column_slots_;

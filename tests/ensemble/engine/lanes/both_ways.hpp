@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -41,8 +42,9 @@ public:
             for (std::size_t row = 0; row < column_rows(m.topology); ++row) {
                 const std::size_t at = row * slots + slot;
                 ++compared;
-                if (std::bit_cast<std::uint64_t>(columns[at]) != std::bit_cast<std::uint64_t>(want[at]) &&
-                    ++differ <= 20)
+                const bool same = std::bit_cast<std::uint64_t>(columns[at]) == std::bit_cast<std::uint64_t>(want[at]) ||
+                                  (std::isnan(columns[at]) && std::isnan(want[at])); // (of either sign)
+                if (!same && ++differ <= 20)
                     ADD_FAILURE() << "slot " << slot << ", row " << row << ": " << columns[at] << ", wanted "
                                   << want[at];
             }

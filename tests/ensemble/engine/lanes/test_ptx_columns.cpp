@@ -1,0 +1,67 @@
+/// The code that nvcc emits for columns with a lane for every block, run on the processor with its lanes in random
+/// order: every number of every column, and every outcome, has the bits of the processor's step.
+
+#include "tests/ensemble/engine/lanes/both_ways.hpp"
+#include "tests/ensemble/engine/lanes/ptx_warp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace columns {
+ptx::Kernels kernels();
+}
+
+using namespace stylobate;
+
+namespace {
+
+/// As the device launches it, with other memory and another order of the lanes every time.
+class PtxStep {
+public:
+    void operator()(const SlotMemory& m, int chunks, int count)
+    {
+        with_lane_blocks(m, [&]<int blocks>() {
+            const ptx::Kernel& kernel =
+                ptx::kernel_named(columns::kernels(), "step_columns<" + std::to_string(blocks) + ">");
+            const std::vector<char> parameters = ptx::packed(m, chunks, count);
+            constexpr int slots = column_block_slots<blocks>;
+            machine_->run(kernel, parameters.data(), parameters.size(), (count + slots - 1) / slots,
+                          warp_lanes * column_warps, column_shared_bytes<blocks>, ++seed_);
+        });
+    }
+
+private:
+    std::shared_ptr<ptx::Machine> machine_ = std::make_shared<ptx::Machine>();
+    unsigned seed_ = 0;
+};
+
+} // namespace
+
+class PtxColumnsOfBlocks : public testing::TestWithParam<int> {};
+
+TEST_P(PtxColumnsOfBlocks, HaveTheBitsOfTheProcessor)
+{
+    const auto device =
+        same_in_lanes(of_blocks(GetParam(), {"study.realizations=1", "excitation.cycles=5"}), {}, PtxStep());
+    EXPECT_GT(device->asked, 5) << "nothing ended";
+    RecordProperty("numbers", std::to_string(device->compared));
+}
+
+INSTANTIATE_TEST_SUITE_P(Blocks, PtxColumnsOfBlocks, testing::Values(1, 4, 6, 12));
+
+TEST(PtxColumns, AlongARecordAndUnderAPulseHaveTheBitsOfTheProcessor)
+{
+    same_in_lanes(along_chirp({"study.realizations=1"}), {.record = chirp()}, PtxStep());
+    Study pulse = column({"study.realizations=1"});
+    pulse.excitation.kind = ExcitationKind::ricker;
+    same_in_lanes(pulse, {}, PtxStep());
+}
+
+/// More columns, to their end.
+TEST(PtxColumnsLong, ASurfaceHasTheBitsOfTheProcessor)
+{
+    const auto device = same_in_lanes(column({"study.realizations=20"}), {}, PtxStep());
+    RecordProperty("numbers", std::to_string(device->compared));
+}
