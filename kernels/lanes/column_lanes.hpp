@@ -138,7 +138,8 @@ public:
         w_.each([&](int lane) { busy_[lane] = busy_[lane] && !lanes[lane]; });
     }
 
-    /// Takes the realizations from the bundle; in place of what is not busy there is one that rests.
+    /// Takes the realizations from the bundle; in place of what is not busy there is one that rests. A `sync` is to
+    /// follow before the next chunk.
     STYLOBATE_LANES void load()
     {
         w_.each([&](int lane) {
@@ -165,7 +166,6 @@ public:
             inside_[lane] = -1;
         });
         turn();
-        w_.sync();
     }
 
     /// Steps all by a chunk, along the base's motion in `base`.

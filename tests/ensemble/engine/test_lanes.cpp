@@ -2,7 +2,6 @@
 /// all numbers of blocks, and so has every outcome. The warps are emulated in lockstep (`warp_device.hpp`);
 /// `test_ptx_columns` runs the device's own code.
 
-#include "ensemble/planar/device/slots.hpp"
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "tests/ensemble/engine/lanes/both_ways.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
@@ -11,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,32 +55,9 @@ TEST(Lanes, AFragilityStudyHasTheBitsOfThreads)
     same_in_lanes(study, {.drawn = std::make_shared<const MotionSet>(std::move(pulses))});
 }
 
-/// What is not a number, and a balance of energy out of bounds, stop a lane as they stop a thread.
 TEST(Lanes, ABrokenRealizationIsSetAside)
 {
-    const Study study = column({"study.realizations=1"});
-    const Sampler sampler(study, nullptr);
-    BothWays device;
-    SlotSet set(study, nullptr, sampler.realization(0), device, 6, 6);
-    for (int slot = 0; slot < 6; ++slot) {
-        Realization r = sampler.realization(static_cast<std::uint64_t>(slot));
-        if (slot == 1)
-            r.step_s *= 4;
-        if (slot == 4)
-            r.pga_m_s2 = std::numeric_limits<double>::quiet_NaN();
-        set.load(slot, r);
-    }
-    int invalid = 0;
-    while (set.active() > 0) {
-        set.advance();
-        for (int slot = 0; slot < set.lanes(); ++slot)
-            if (!set.free(slot) && set.done(slot)) {
-                invalid += set.outcome(slot)->state == State::invalid;
-                set.clear(slot);
-            }
-    }
-    EXPECT_EQ(invalid, 2);
-    EXPECT_EQ(device.differ, 0);
+    broken_are_set_aside();
 }
 
 /// What lanes do not serve is stepped by threads.

@@ -1,6 +1,7 @@
 #pragma once
 /// Every number of every column, by lanes and by threads.
 
+#include "ensemble/planar/device/slots.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/lanes/warp_device.hpp"
 #include "tests/ensemble/engine/slot_studies.hpp"
@@ -11,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -80,6 +82,34 @@ inline Study of_blocks(int free, std::vector<std::string> settings)
     settings.push_back("structure.blocks=" + std::to_string(free + 1));
     settings.push_back("structure.drum_height_m=" + std::to_string(0.174 / free));
     return column(settings);
+}
+
+/// What is not a number, and a balance of energy out of bounds, stop a lane as they stop a thread.
+inline void broken_are_set_aside(const WarpDevice::Step& step = advance_columns)
+{
+    const Study study = column({"study.realizations=1"});
+    const Sampler sampler(study, nullptr);
+    BothWays device(step);
+    SlotSet set(study, nullptr, sampler.realization(0), device, 6, 6);
+    for (int slot = 0; slot < 6; ++slot) {
+        Realization r = sampler.realization(static_cast<std::uint64_t>(slot));
+        if (slot == 1)
+            r.step_s *= 4;
+        if (slot == 4)
+            r.pga_m_s2 = std::numeric_limits<double>::quiet_NaN();
+        set.load(slot, r);
+    }
+    int invalid = 0;
+    while (set.active() > 0) {
+        set.advance();
+        for (int slot = 0; slot < set.lanes(); ++slot)
+            if (!set.free(slot) && set.done(slot)) {
+                invalid += set.outcome(slot)->state == State::invalid;
+                set.clear(slot);
+            }
+    }
+    EXPECT_EQ(invalid, 2);
+    EXPECT_EQ(device.differ, 0);
 }
 
 } // namespace stylobate

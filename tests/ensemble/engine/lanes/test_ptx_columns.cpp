@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,11 @@ TEST(PtxColumns, AlongARecordAndUnderAPulseHaveTheBitsOfTheProcessor)
     Study pulse = column({"study.realizations=1"});
     pulse.excitation.kind = ExcitationKind::ricker;
     same_in_lanes(pulse, {}, PtxStep());
+}
+
+TEST(PtxColumns, ABrokenRealizationIsSetAside)
+{
+    broken_are_set_aside(PtxStep());
 }
 
 /// More columns, to their end.
