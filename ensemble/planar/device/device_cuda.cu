@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -27,7 +26,7 @@ constexpr int cached_slots = 128;
 void check(cudaError_t status, const char* what)
 {
     if (status != cudaSuccess)
-        throw std::runtime_error(std::string("the GPU failed: ") + what + ": " + cudaGetErrorString(status));
+        throw DeviceError(std::string("the GPU failed: ") + what + ": " + cudaGetErrorString(status));
 }
 
 } // namespace
