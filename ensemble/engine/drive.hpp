@@ -11,6 +11,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <string>
 
 namespace stylobate {
 
@@ -58,6 +59,13 @@ public:
     {
         if (error_)
             std::rethrow_exception(error_);
+    }
+
+    /// Tells the observer what the user should know.
+    void warn(const std::string& text)
+    {
+        const std::lock_guard lock(mutex_);
+        observer_.warn(text);
     }
 
     /// Tells the observer how far the run is, and asks it whether to go on: at most ten times a second but for the last

@@ -78,6 +78,7 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
         if (record == nullptr || record->empty())
             throw std::invalid_argument("a study with a record was given no base motion");
         predominant_hz_ = record->predominant_frequency_hz;
+        record_s_ = record->duration_s();
         record_frequency_hz_ = record->predominant_frequency_hz / excitation.time_scale;
         record_pga_m_s2_ = record->pga_m_s2;
         if (excitation.second) {
@@ -119,25 +120,61 @@ Shaking::Shaking(const Study& study, const Motion* record, const Motion* vertica
     }
 }
 
-void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales& scales,
-                    RealizationHeader& realization) const
+std::size_t Shaking::set_cell(const Study& study, const StudyDesign& design, const DrawnShaking& drawn,
+                              RealizationHeader& realization) const
 {
-    const ExcitationSpec& excitation = study.excitation;
     realization.phase_rad = drawn.phase_rad;
     realization.pulse_gamma = drawn.pulse_gamma;
     realization.direction_rad = drawn.direction_rad;
-    const StudyDesign design = study.design();
-    if (design.motions != nullptr)
-        return apply_motion(design, realization);
     const std::uint64_t cell = design.cell(realization.index);
     const auto row = static_cast<std::size_t>(cell / design.columns);
-    set_nominal(excitation, drawn, realization);
+    if (design.motions != nullptr)
+        return row;
+    set_nominal(study.excitation, drawn, realization);
     if (design.frequency_hz)
         realization.frequency_hz = design.frequency_hz->value(static_cast<int>(row));
     if (design.direction_deg)
         realization.direction_rad = design.direction_deg->value(static_cast<int>(row)) * (std::numbers::pi / 180);
     if (design.pga_m_s2)
         realization.pga_m_s2 = design.pga_m_s2->value(static_cast<int>(cell % design.columns));
+    return row;
+}
+
+double Shaking::duration_s(const Study& study, const DrawnShaking& drawn, const Scales& scales,
+                           RealizationHeader& realization) const
+{
+    const ExcitationSpec& excitation = study.excitation;
+    const StudyDesign design = study.design();
+    const std::size_t row = set_cell(study, design, drawn, realization);
+    if (design.motions != nullptr) {
+        realization.frequency_hz = motions_->motions[row]->predominant_frequency_hz;
+        const auto vertical = motions_->vertical(row);
+        return std::max(motions_->motions[row]->duration_s(), vertical ? vertical->duration_s() : 0);
+    }
+    const double stretch = predominant_hz_ > 0 ? predominant_hz_ / realization.frequency_hz : 1;
+    double one_s = 0;
+    if (is_sampled(excitation.kind))
+        one_s = record_s_ * stretch;
+    else if (excitation.kind == ExcitationKind::noise)
+        one_s = excitation.rise_s + excitation.strong_s + noise_decays * excitation.decay_s;
+    else if (SyntheticMotion::covers(excitation.kind))
+        one_s = SyntheticMotion::duration_s(excitation, realization);
+    else
+        one_s = BaseMotion(excitation, realization, nullptr).duration_s();
+    if (vertical_)
+        one_s = std::max(one_s, vertical_->duration_s() * stretch);
+    const int events = design.events_of(realization.index);
+    return events * one_s + (events - 1) * design.event_pause_s.value_or(pause_until_rest(scales));
+}
+
+void Shaking::apply(const Study& study, const DrawnShaking& drawn, const Scales& scales,
+                    RealizationHeader& realization) const
+{
+    const ExcitationSpec& excitation = study.excitation;
+    const StudyDesign design = study.design();
+    const std::size_t row = set_cell(study, design, drawn, realization);
+    if (design.motions != nullptr)
+        return apply_motion(design, realization);
     if (excitation.kind == ExcitationKind::noise)
         shake_by_noise(study, design.motion_index(realization.index), design.frequency_hz ? row : 0, realization);
     else if (second_)

@@ -39,8 +39,15 @@ public:
     /// @param scales of the realization: a pause between several events follows from them
     void apply(const Study& study, const DrawnShaking& drawn, const Scales& scales,
                RealizationHeader& realization) const;
+    /// About how long `apply` would shake it [s], without making its motion. Of its shaking the realization then has
+    /// its frequency, PGA and direction.
+    double duration_s(const Study& study, const DrawnShaking& drawn, const Scales& scales,
+                      RealizationHeader& realization) const;
 
 private:
+    /// What the cell and the drawn parameters give. @return the row of cells
+    std::size_t set_cell(const Study& study, const StudyDesign& design, const DrawnShaking& drawn,
+                         RealizationHeader& realization) const;
     void set_nominal(const ExcitationSpec& excitation, const DrawnShaking& drawn, RealizationHeader& realization) const;
     void apply_motion(const StudyDesign& design, RealizationHeader& realization) const;
     void shake_by_noise(const Study& study, std::uint64_t motion, std::size_t row,
@@ -59,6 +66,7 @@ private:
     std::shared_ptr<const Motion> vertical_;
     std::shared_ptr<const MotionSet> motions_;
     double predominant_hz_ = 0; ///< of the record as it stands; 0: there is none
+    double record_s_ = 0;       ///< its duration
     double record_frequency_hz_ = 0;
     double record_pga_m_s2_ = 0; ///< of a pair by its definition
     double first_share_ = 1;     ///< PGA of its first component over that

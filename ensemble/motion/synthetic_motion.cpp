@@ -64,6 +64,11 @@ SyntheticMotion::Shape SyntheticMotion::shape_of(const ExcitationSpec& e, const 
     }
 }
 
+double SyntheticMotion::duration_s(const ExcitationSpec& excitation, const RealizationHeader& realization)
+{
+    return std::visit([](const auto& shape) { return shape.duration_s(); }, shape_of(excitation, realization));
+}
+
 SyntheticMotion::SyntheticMotion(const ExcitationSpec& e, const RealizationHeader& r) : shape_(shape_of(e, r))
 {
     std::visit(

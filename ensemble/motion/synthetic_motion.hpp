@@ -19,6 +19,8 @@ public:
     SyntheticMotion(const ExcitationSpec& excitation, const RealizationHeader& realization);
 
     static bool covers(ExcitationKind kind);
+    /// That of the motion of a realization, without making it [s].
+    static double duration_s(const ExcitationSpec& excitation, const RealizationHeader& realization);
 
     double duration_s() const { return duration_s_; }
     /// Frequency of its fastest component [Hz].

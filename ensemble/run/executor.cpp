@@ -5,13 +5,19 @@
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/planar/hand_over.hpp"
 #include "ensemble/planar/planar_model.hpp"
+#include "ensemble/run/start_order.hpp"
 #include "ensemble/spatial/spatial_model.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <future>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <unordered_map>
 
@@ -22,6 +28,8 @@ namespace {
 constexpr std::uint64_t most_slots = 1 << 24;
 /// Realizations that a device leaves to the processor are stepped there one by one, not in registers; slower by about:
 constexpr int slower_alone = 4;
+/// One of so many threads, at least one, serves the devices while the others step realizations.
+constexpr int threads_a_server = 4;
 
 /// The sets in which the planar model's realizations are run.
 struct PlanarSets {
@@ -64,9 +72,9 @@ public:
 
     Run(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
         : study_(plan.as ? *plan.as : experiment.study()), sampler_(experiment.sampler()), record_(experiment.record()),
-          kernels_(kernels(options.isa)), threads_(options.threads), few_(options.few * options.threads), plan_(plan),
-          crew_(observer), order_(plan.total), done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done),
-          places_(order_.places(plan.shard)), next_(places_.begin), pattern_(realize(plan.index(0)))
+          kernels_(kernels(options.isa)), options_(options), plan_(plan), crew_(observer), order_(plan.total),
+          done_(plan.done.parts().empty() ? DoneSet(order_) : plan.done), places_(order_.places(plan.shard)),
+          next_(places_.begin), pattern_(realize(plan.index(0)))
     {
         const DoneSet::Part before = done_.all();
         progress_.done = before_ = before.end;
@@ -78,32 +86,70 @@ public:
     /// One worker of the processor: a bundle that is refilled until nothing is left.
     void work()
     {
-        Lanes lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(threads_));
-        run(lanes, [&](int stepped, bool) {
-            count_chunks(lanes.lanes(), stepped);
-            report(false, &lanes);
-        });
+        Lanes lanes(study_, record_, kernels_, pattern_, left() / static_cast<std::uint64_t>(options_.threads));
+        step(lanes, [this] { return start_.next(); });
+    }
+
+    /// One that steps the longest realizations, one after the other and each by itself.
+    void work_apart()
+    {
+        Lanes lanes(study_, record_, kernels(Isa::scalar), pattern_);
+        step(lanes, [this] { return start_.next_apart(); });
     }
 
     /// One worker for a device: many slots. Its thread waits for the device; what a realization takes at its beginning
-    /// is done on several.
-    void work(Device& device, int slots, int share) requires HasDevices<Sets>
+    /// is done on several. Where the device fails, others begin anew what it had begun.
+    /// @param share number of workers that share what is to do
+    /// @param ready once it is known what is to be begun first
+    void work(Device& device, int share, const std::shared_future<void>& ready) requires HasDevices<Sets>
     {
-        // no more slots than this device's share of what is to do
-        const auto most =
-            static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
-        typename Sets::Slots set(study_, record_, pattern_, device, slots, most);
-        run(set, [&](int stepped, bool more) {
-            count_chunks(set.used(), stepped);
-            report(false);
-            if (!more && set.active() <= few_ / slower_alone / share)
-                set.leave_device();
-        });
+        if (device.failed()) { // in a round before
+            failed_ = true;
+            return;
+        }
+        try {
+            // no more slots than this device's share of what is to do
+            const auto most =
+                static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
+            typename Sets::Slots set(study_, record_, pattern_, device, options_.slots, most);
+            ready.wait();
+            step_on_device(set, few_.last * options_.threads / share);
+        } catch (const DeviceError& error) {
+            failed_ = true;
+            device.give_up();
+            warn_once(device.name(), error.what());
+        }
+    }
+
+    /// Finds the longest realizations, which are begun before all others.
+    /// @return the number of threads that step some of them
+    int begin_with_longest()
+    {
+        if (plan_.realize || plan_.next_place)
+            return 0;
+        std::vector<std::uint64_t> longest =
+            longest_places(places_, done_, static_cast<std::size_t>(std::max(options_.longest_first, 0)),
+                           [this](std::uint64_t place) { return sampler_.most_steps(index_of(place)); });
+        const int free = options_.threads - std::max(1, options_.threads / threads_a_server);
+        const int some = std::max(options_.longest_on_host, 0) * options_.threads;
+        const std::size_t most = free > 0 ? static_cast<std::size_t>(some) : 0;
+        const std::size_t apart = std::min(most, longest.size());
+        start_.start_first(std::move(longest), apart);
+        return static_cast<int>(std::min(apart, static_cast<std::size_t>(free)));
     }
 
     Crew& crew() { return crew_; }
     /// Whether the processor ends this sooner than devices would.
-    bool few() const { return left() <= static_cast<std::uint64_t>(few_); }
+    bool few()
+    {
+        if constexpr (HasDevices<Sets>)
+            few_ = Sets::Slots::few_a_thread(study_, record_, pattern_, *options_.devices.front());
+        if (options_.few)
+            few_ = {*options_.few, *options_.few / slower_alone};
+        return left() <= static_cast<std::uint64_t>(few_.run) * static_cast<std::uint64_t>(options_.threads);
+    }
+    /// Whether a device has failed.
+    bool failed() const { return failed_; }
 
     Progress finish()
     {
@@ -113,20 +159,52 @@ public:
     }
 
 private:
-    /// Steps what there is to run in these lanes, and in others what is handed over.
-    /// @param turn as of `drive`
-    template <class Set, class Turn>
-    void run(Set& set, const Turn& turn)
+    /// Steps what there is to run in these lanes.
+    /// @param next () the next place
+    template <class Next>
+    void step(Lanes& lanes, const Next& next)
+    {
+        const auto source = [&](int lane) {
+            std::optional<Realization> realization = begin(next());
+            if (realization)
+                lanes.load(lane, std::move(*realization));
+            return realization.has_value();
+        };
+        run(lanes, source, [&](int stepped, bool) {
+            count_chunks(lanes.lanes(), stepped);
+            report(false, &lanes);
+        });
+    }
+
+    /// @param last once nothing is left to begin, so many are left to the host
+    /// @throws DeviceError if the device fails; what it had begun is then to be begun anew
+    template <class Slots>
+    void step_on_device(Slots& set, int last)
+    {
+        set.prepare_from([this] { return begin(start_.next()); });
+        try {
+            run(
+                set, [&](int slot) { return set.fill(slot); },
+                [&](int stepped, bool more) {
+                    count_chunks(set.used(), stepped);
+                    report(false);
+                    if (!more && set.active() <= last)
+                        set.leave_device();
+                });
+        } catch (const DeviceError&) {
+            give_back(set.unfinished());
+            throw;
+        }
+    }
+
+    /// Steps what there is to run in these lanes or slots, and in others what is handed over.
+    /// @param source, turn as of `drive`
+    template <class Set, class Source, class Turn>
+    void run(Set& set, const Source& source, const Turn& turn)
     {
         std::optional<HandedOver> handed_over;
         if (Sets::hands_over(pattern_))
             handed_over.emplace(study_, record_, kernels_, pattern_);
-        const auto source = [&](int lane) {
-            const std::optional<std::uint64_t> index = next();
-            if (index)
-                set.load(lane, realize(*index));
-            return index.has_value();
-        };
         const auto sink = [&](int lane) {
             if (set.outcome(lane))
                 deliver(set.realization(lane), *set.outcome(lane));
@@ -134,11 +212,16 @@ private:
                 handed_over->take(*set.handed(lane));
             set.clear(lane);
         };
-        drive(set, source, sink, [&](int stepped, bool more) {
-            step(handed_over, set.active() == 0);
-            turn(stepped, more);
-            return !crew_.stopped();
-        });
+        try {
+            drive(set, source, sink, [&](int stepped, bool more) {
+                step(handed_over, set.active() == 0);
+                turn(stepped, more);
+                return !crew_.stopped();
+            });
+        } catch (const DeviceError&) {
+            step(handed_over, true); // it is on the host
+            throw;
+        }
     }
 
     /// Steps what was handed over while there is a register of it.
@@ -171,15 +254,43 @@ private:
         return plan_.realize ? plan_.realize(index) : sampler_.realization(index);
     }
 
-    std::optional<std::uint64_t> next()
+    std::uint64_t index_of(std::uint64_t place) const { return plan_.index(order_.index(place)); }
+
+    /// The realization of a place, which is being run from now on; nothing: there is none, or the run stops.
+    std::optional<Realization> begin(std::optional<std::uint64_t> place)
     {
-        const std::optional<std::uint64_t> place = next_place_(); // it may wait: without the lock
         if (!place || crew_.stopped())
             return std::nullopt;
+        const std::uint64_t index = index_of(*place);
+        {
+            const std::lock_guard lock(crew_.mutex());
+            running_.emplace(index, *place);
+        }
+        return realize(index);
+    }
+
+    /// What is not being run any more, and has not ended.
+    void give_back(const std::vector<std::uint64_t>& indices)
+    {
         const std::lock_guard lock(crew_.mutex());
-        const std::uint64_t index = plan_.index(order_.index(*place));
-        running_.emplace(index, *place);
-        return index;
+        for (const std::uint64_t index : indices) {
+            const auto place = running_.find(index);
+            start_.give_back(place->second);
+            running_.erase(place);
+        }
+    }
+
+    /// That a device has failed; of several queues of one it is said once.
+    void warn_once(const std::string& device, const std::string& error)
+    {
+        {
+            const std::lock_guard lock(crew_.mutex());
+            if (!lost_.insert(device).second)
+                return;
+        }
+        crew_.warn(fmt::format("{} is not used any more: {}. What it had begun is begun anew without it, with the same "
+                               "results.",
+                               device, error));
     }
 
     void deliver(const Realization& realization, const Outcome& outcome)
@@ -217,49 +328,77 @@ private:
     const Sampler& sampler_;
     const Motion* record_;
     const KernelTable& kernels_;
-    const int threads_;
-    const int few_; ///< realizations that the processor ends sooner than a device
+    const RunOptions& options_;
+    FewRealizations few_; ///< that the processor ends sooner than a device
     const RunPlan& plan_;
-    /// The plan's, or the places that are to be done, in their order.
-    const std::function<std::optional<std::uint64_t>()> next_place_ = plan_.next_place ? plan_.next_place : [this] {
-        const std::lock_guard lock(crew_.mutex());
-        return plan_.next_undone(next_, places_.end);
-    };
     Crew crew_; ///< its mutex guards the sink and what follows
     Progress progress_;
     const RunOrder order_;
-    DoneSet done_;                                             ///< places
-    const RunOrder::Places places_;                            ///< of the shard
-    std::uint64_t next_;                                       ///< place
+    DoneSet done_;                  ///< places
+    const RunOrder::Places places_; ///< of the shard
+    std::uint64_t next_;            ///< place
+    /// The plan's, or the places that are to be done.
+    StartOrder start_{plan_.next_place ? plan_.next_place : [this] {
+        const std::lock_guard lock(crew_.mutex());
+        return plan_.next_undone(next_, places_.end);
+    }};
     std::uint64_t before_ = 0;                                 ///< how many had been done
     std::unordered_map<std::uint64_t, std::uint64_t> running_; ///< places of what is being stepped, by index
     std::uint64_t delivered_ = 0;
     std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
-    const Realization pattern_; ///< the topology that all realizations share
+    std::atomic<bool> failed_ = false; ///< a device
+    std::set<std::string> lost_;       ///< devices that the observer was warned of
+    const Realization pattern_;        ///< the topology that all realizations share
 };
+
+/// The threads of a run on devices; `run_ensemble` states how many there are of each kind.
+template <class Sets>
+void work_on_devices(Run<Sets>& run, const RunOptions& options)
+{
+    constexpr auto limit = tbb::global_control::max_allowed_parallelism;
+    const tbb::global_control threads(limit, static_cast<std::size_t>(options.threads));
+    std::promise<void> known; // meanwhile the devices get their memory
+    const std::shared_future<void> ready = known.get_future().share();
+    std::vector<std::thread> steppers, workers;
+    for (const std::shared_ptr<Device>& device : options.devices)
+        workers.emplace_back([&run, &options, &device, ready] {
+            run.crew().guarded([&] { run.work(*device, static_cast<int>(options.devices.size()), ready); });
+        });
+    int apart = 0;
+    run.crew().guarded([&] { apart = run.begin_with_longest(); });
+    std::promise<bool> served; // whether devices have failed
+    const std::shared_future<bool> lost = served.get_future().share();
+    if (apart > 0) { // until the last of them has ended the longest ones, fewer serve the devices
+        auto fewer = std::make_shared<tbb::global_control>(limit, static_cast<std::size_t>(options.threads - apart));
+        for (int i = 0; i < apart; ++i)
+            steppers.emplace_back([&run, fewer, lost]() mutable {
+                run.crew().guarded([&run] { run.work_apart(); });
+                fewer.reset();
+                if (lost.get())
+                    run.crew().guarded([&run] { run.work(); });
+            });
+    }
+    known.set_value();
+    for (std::thread& worker : workers)
+        worker.join();
+    served.set_value(run.failed());
+    if (run.failed())
+        run.crew().guarded([&] { run.crew().run(options.threads - apart, [&run] { run.work(); }); });
+    for (std::thread& stepper : steppers)
+        stepper.join();
+}
 
 template <class Sets>
 Progress execute(const Experiment& experiment, const RunOptions& options, const RunPlan& plan, Observer& observer)
 {
     Run<Sets> run(experiment, options, plan, observer);
-    if (options.devices.empty() || run.few()) {
+    if (options.devices.empty() || run.few())
         run.crew().run(options.threads, [&run] { run.work(); });
-        return run.finish();
-    }
-    if constexpr (HasDevices<Sets>) {
-        const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                          static_cast<std::size_t>(options.threads));
-        std::vector<std::thread> workers;
-        for (const std::shared_ptr<Device>& device : options.devices)
-            workers.emplace_back([&run, &options, &device] {
-                run.crew().guarded([&] { run.work(*device, options.slots, static_cast<int>(options.devices.size())); });
-            });
-        for (std::thread& worker : workers)
-            worker.join();
-        return run.finish();
-    } else {
+    else if constexpr (HasDevices<Sets>)
+        work_on_devices(run, options);
+    else
         throw std::invalid_argument("structures in space are not stepped on a device");
-    }
+    return run.finish();
 }
 
 } // namespace

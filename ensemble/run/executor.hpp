@@ -26,9 +26,14 @@ struct RunOptions {
     /// `threads` threads where realizations begin and end.
     std::vector<std::shared_ptr<Device>> devices{};
     int slots = 0; ///< of each device; 0: its own choice
-    /// So many realizations for each thread are ended sooner by these than by a device, one of whose threads takes many
-    /// times longer for a realization than one of the processor's (`docs/gpu.md`).
-    int few = 64;
+    /// So many realizations for each thread are ended sooner by these than by a device, and a quarter of them once
+    /// nothing is left to begin (`FewRealizations`). None: as the devices say.
+    std::optional<int> few{};
+    /// With devices: so many realizations that may take longest are begun first. 0: the run order is left as it is.
+    int longest_first = 1000;
+    /// With devices: so many of these for each thread are stepped by the host from the beginning, the longest one
+    /// first: a realization by itself takes less time in a lane than on a device.
+    int longest_on_host = 3;
     /// The processes that run the same together; null: this one is alone. `run_ensemble` knows nothing of them: who
     /// calls it shares out what is to be run.
     Ranks* ranks = nullptr;
@@ -84,7 +89,16 @@ void estimate_share(Progress& progress, std::uint64_t valid, std::uint64_t colla
 /// Runs the realizations of an experiment.
 ///
 /// They are begun in the order of `RunOrder`, so that what has been done at any time is spread over all of them; the
-/// progress' share is that of `DoneSet::sample`.
+/// progress' share is that of `DoneSet::sample`. On devices the longest ones are begun first (`StartOrder`), by what
+/// `Sampler::most_steps` says. The order is left as it is where the plan makes its realizations or gives the places
+/// itself (`RunPlan::realize`, `RunPlan::next_place`): of the places of other processes nothing is known here.
+///
+/// With devices, `threads` are shared as follows. A thread for each device waits for it, and is not counted. While
+/// longest realizations are stepped on the host, a quarter of the threads, at least one, serve the devices, and each of
+/// the others steps one of these after the other; later all serve the devices, and in the end step what these leave.
+///
+/// Where a device fails, the observer is warned once for each kind of device, and what the device had begun is begun
+/// anew: by the other devices, or on the processor once none of them goes on.
 ///
 /// The next one comes from one shared counter, so lanes and threads stay busy to the end; a realization's outcome
 /// depends on its index alone (see `LaneSet`), so the same results come out, bit by bit, whatever the instruction set

@@ -147,14 +147,31 @@ void ValueSampler::name(const std::string& quantity, std::optional<std::size_t> 
         input_names_.push_back(fmt::format("{}[{}]", quantity, i));
 }
 
+void ValueSampler::draw(const Drawn& drawn, const PointSet& points, std::uint64_t index, RealizationValues& values)
+{
+    for (std::size_t i = 0; i < drawn.places.size(); ++i)
+        values.all[drawn.slot][drawn.places[i]] =
+            drawn.distributions[i].value(points.uniform(index, drawn.stream, drawn.element(i)));
+}
+
+RealizationValues ValueSampler::rough_values(const PointSet& points, std::uint64_t index) const
+{
+    constexpr std::array quantities = {Quantity::normal_stiffness, Quantity::tangential_stiffness,
+                                       Quantity::damping_ratio, Quantity::pulse_frequency, Quantity::pulse_gamma};
+    RealizationValues values = nominal_;
+    for (const Drawn& drawn : drawn_)
+        if (std::any_of(quantities.begin(), quantities.end(),
+                        [&](Quantity quantity) { return drawn.slot == RealizationValues::slot(quantity); }))
+            draw(drawn, points, index, values);
+    return values;
+}
+
 RealizationValues ValueSampler::values(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const
 {
     RealizationValues values = nominal_;
     for (const Drawn& drawn : drawn_) {
-        std::vector<double>& target = values.all[drawn.slot];
-        for (std::size_t i = 0; i < drawn.places.size(); ++i)
-            target[drawn.places[i]] =
-                drawn.distributions[i].value(points.uniform(index, drawn.stream, drawn.element(i)));
+        draw(drawn, points, index, values);
+        const std::vector<double>& target = values.all[drawn.slot];
         if (drawn.inputs == 1)
             inputs.push_back(target[drawn.places.front()]);
         else

@@ -30,6 +30,10 @@ public:
     /// @param inputs takes those that were drawn, in the order of `input_names()`
     RealizationValues values(const PointSet& points, std::uint64_t index, std::vector<double>& inputs) const;
 
+    /// The nominal values but for those on which its duration and its step mainly depend, which are drawn: stiffness
+    /// and damping of the contacts, frequency and shape of a pulse. It takes a fraction of the time of `values`.
+    RealizationValues rough_values(const PointSet& points, std::uint64_t index) const;
+
     /// "friction[0]", "friction[1]" and so on for each bed (or block) of the layout; the name alone for what is drawn
     /// once for the structure, which is then the value of the first bed or block. In space "drum_offset_z" and "tilt_x"
     /// follow "drum_offset" and "tilt", and stiffnesses are per area: "bed_normal_stiffness". Then the parameters of
@@ -52,6 +56,8 @@ private:
         std::uint64_t element(std::size_t i) const { return once ? 0 : places[i]; }
     };
 
+    /// Draws into its places of the values.
+    static void draw(const Drawn& drawn, const PointSet& points, std::uint64_t index, RealizationValues& values);
     void add(Perturbation perturbation, int factor);
     void add(const Study& study, MechanismPerturbation perturbation, const std::vector<ActingMechanism>& mechanisms);
     void name(const std::string& quantity, std::optional<std::size_t> numbered);

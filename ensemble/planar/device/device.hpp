@@ -3,8 +3,10 @@
 /// realization (`slot_tasks.hpp`): memory, copies, and launches. All else about it is ordinary code (`slots.hpp`), the
 /// same for every device.
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,16 +18,41 @@ struct MoveColumnsOf;
 struct MarkSlots;
 struct MultiplyAdds;
 
+/// A device has failed: what it was stepping is lost, and it can do nothing more.
+class DeviceError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Numbers of realizations, for each thread of the host, that its lanes end sooner than a device, one of whose
+/// realizations takes longer than one in a lane, however few run beside it.
+struct FewRealizations {
+    int run = 64;  ///< a run of no more is not given to the device at all
+    int last = 16; ///< once nothing is left to begin, the host's lanes take over as many from the slots
+};
+
 /// One queue of work. Calls return at once and are done in order; `download` waits for them. Used by one thread at a
-/// time. Every member throws std::runtime_error where the device fails.
+/// time. Every member throws DeviceError where the device fails.
 class Device {
 public:
     virtual ~Device() = default;
-    /// What it is, for people.
+    /// What it is, for people; known of one that has failed, too.
     virtual std::string name() const = 0;
+    /// Whether it has failed: it is then not used any more.
+    bool failed() const { return failed_; }
+    void give_up() { failed_ = true; }
+
     /// How many realizations it steps best at a time.
     /// @param memory its topology, model and precision say which step will run;  @param bytes of memory for each
     virtual int best_slots(const SlotMemory& memory, std::size_t bytes) const = 0;
+    /// How few realizations are better left to the host. The default is measured for devices that step a realization
+    /// by one thread, 11.5 us a step (`docs/gpu.md`).
+    /// @param memory as of `best_slots`, without slots and pointers
+    virtual FewRealizations few_a_thread(const SlotMemory& memory) const
+    {
+        static_cast<void>(memory);
+        return {};
+    }
 
     /// @return memory of the device, all zero
     virtual void* allocate(std::size_t bytes) = 0;
@@ -50,6 +77,9 @@ public:
     virtual void run(const MoveColumnsOf<float>& task, int count) = 0;
     virtual void run(const MarkSlots& task, int count) = 0;
     virtual void run(const MultiplyAdds& task, int count) = 0;
+
+private:
+    std::atomic<bool> failed_ = false;
 };
 
 /// What there is to compute on.

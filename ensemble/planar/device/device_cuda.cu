@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -29,7 +28,7 @@ constexpr int cached_slots = 128;
 void check(cudaError_t status, const char* what)
 {
     if (status != cudaSuccess)
-        throw std::runtime_error(std::string("the GPU failed: ") + what + ": " + cudaGetErrorString(status));
+        throw DeviceError(std::string("the GPU failed: ") + what + ": " + cudaGetErrorString(status));
 }
 
 } // namespace

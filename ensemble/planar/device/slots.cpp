@@ -52,6 +52,28 @@ void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
     in_parallel(std::size_t{0}, count, f);
 }
 
+namespace {
+
+/// Which step the realizations of a study take: without slots and pointers.
+SlotMemory kind_of_step(const Study& study, const Topology& topology)
+{
+    SlotMemory memory;
+    memory.topology = topology;
+    memory.motion = BaseMotion::formula(study.excitation.kind);
+    memory.base = BaseMotion::along_shared_samples(study) ? BaseTables::along_samples : BaseTables::by_formula;
+    memory.in_single = study.run.precision == Precision::single;
+    return memory;
+}
+
+} // namespace
+
+FewRealizations SlotSet::few_a_thread(const Study& study, const Motion* record, const Realization& pattern,
+                                      const Device& device)
+{
+    const LaneSet one(study, record, kernels(Isa::scalar), pattern);
+    return device.few_a_thread(kind_of_step(study, one.model().topology()));
+}
+
 SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots,
                  int most)
     : study_(study), record_(record), pattern_(pattern), device_(device),
@@ -61,10 +83,7 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     const Topology& host = first.topology();
     rows_ = static_cast<int>(column_rows(host));
     tables_ = static_cast<int>(table_registers(host));
-    memory_.topology = host;
-    memory_.motion = BaseMotion::formula(study.excitation.kind);
-    memory_.base = BaseMotion::along_shared_samples(study) ? BaseTables::along_samples : BaseTables::by_formula;
-    memory_.in_single = study.run.precision == Precision::single;
+    memory_ = kind_of_step(study, host);
     if (memory_.in_single)
         single_rows_ = static_cast<int>(bundle_registers<float>(host));
     const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_) +
@@ -139,12 +158,67 @@ void SlotSet::load(int slot, Realization realization)
             s.lane = std::make_unique<LaneSet>(study_, record_, kernels(Isa::scalar), pattern_);
         return s.lane->load(0, std::move(realization));
     }
+    s = made(std::move(realization));
+}
+
+SlotSet::Slot SlotSet::made(Realization realization)
+{
+    Slot slot;
     LaneSet& one = lane();
     one.load(0, std::move(realization));
-    s.column.resize(static_cast<std::size_t>(rows_));
-    write_column(one, s.column.data());
-    s.place = one.take(0);
-    s.steps = 0;
+    slot.column.resize(static_cast<std::size_t>(rows_));
+    write_column(one, slot.column.data());
+    slot.place = one.take(0);
+    return slot;
+}
+
+bool SlotSet::fill(int slot)
+{
+    assert(!on_host_ && "what has left the device is not filled again");
+    {
+        const std::lock_guard lock(preparing_);
+        if (!prepared_.empty()) {
+            slots_[static_cast<std::size_t>(slot)] = std::move(prepared_.front());
+            prepared_.pop_front();
+            return true;
+        }
+    }
+    std::optional<Realization> next = source_();
+    if (!next) {
+        exhausted_ = true;
+        return false;
+    }
+    load(slot, std::move(*next));
+    return true;
+}
+
+/// Called while the device steps.
+void SlotSet::prepare()
+{
+    expected_ = std::max(ended_, expected_ - expected_ / slots_a_prepared); // (the last maximum is forgotten slowly)
+    ended_ = 0;
+    if (!source_ || exhausted_)
+        return;
+    const std::size_t want = std::min(expected_, slots_.size() / slots_a_prepared), have = prepared_.size();
+    each(want - std::min(want, have), [this](std::size_t) {
+        std::optional<Realization> next = source_();
+        if (!next)
+            return;
+        Slot slot = made(std::move(*next));
+        const std::lock_guard lock(preparing_);
+        prepared_.push_back(std::move(slot));
+    });
+}
+
+std::vector<std::uint64_t> SlotSet::unfinished() const
+{
+    std::vector<std::uint64_t> indices;
+    for (int slot = 0; slot < lanes(); ++slot)
+        if (!free(slot))
+            indices.push_back(realization(slot).index);
+    for (const Slot& slot : prepared_)
+        indices.push_back(slot.place.realization.index);
+    return indices;
 }
 
 void SlotSet::clear(int slot)
@@ -154,6 +228,7 @@ void SlotSet::clear(int slot)
         s.lane->clear(0);
     s.place = {};
     s.column.clear();
+    ++ended_;
 }
 
 void SlotSet::advance()
@@ -165,6 +240,7 @@ void SlotSet::advance()
     if (tables_given_)
         upload_tables();
     device_.advance(memory_, chunks_per_launch, used_);
+    prepare();
     check_stopped_slots();
 }
 

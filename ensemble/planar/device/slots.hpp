@@ -14,9 +14,13 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,6 +56,13 @@ private:
 
 class SlotSet {
 public:
+    /// Gives the next realization; nothing: there is none left. Called on several threads at once.
+    using Source = std::function<std::optional<Realization>()>;
+
+    /// How few realizations of a study are better left to the host.
+    static FewRealizations few_a_thread(const Study& study, const Motion* record, const Realization& pattern,
+                                        const Device& device);
+
     /// @param record as in `LaneSet`
     /// @param slots 0: the number that the device chooses;  @param most upper limit
     SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots, int most);
@@ -68,6 +79,15 @@ public:
 
     /// Puts a realization into a slot that is free or has ended. Different slots may be loaded at the same time.
     void load(int slot, Realization realization);
+    /// Makes realizations of a source ahead: while the device steps, as many as slots have recently become free in a
+    /// launch, and at most one for every `slots_a_prepared` slots.
+    void prepare_from(Source source) { source_ = std::move(source); }
+    /// Puts one that was made ahead into a free slot, or else the source's next one. Different slots may be filled at
+    /// the same time.
+    /// @return false: there is none left; none is made ahead any more   @pre `prepare_from`
+    bool fill(int slot);
+    /// Indices of what has been begun here and has not ended; of all that the source gave and no `clear` has taken out.
+    std::vector<std::uint64_t> unfinished() const;
     /// Frees a slot. What is busy may move to other slots in the next `advance`, to close the gaps.
     void clear(int slot);
 
@@ -82,6 +102,7 @@ public:
     /// A slot that has ended waits for the end of the launch: at the most 7 of the hundreds of chunks of a realization.
     static constexpr int chunks_per_launch = 8;
     static constexpr int chunks_on_host = 64;
+    static constexpr int slots_a_prepared = 8;
 
 private:
     struct Slot {
@@ -96,6 +117,9 @@ private:
         const Slot& s = slots_[static_cast<std::size_t>(slot)];
         return s.lane ? s.lane->place(0) : s.place;
     }
+    /// A realization at its static rest, and the column that a device starts from.
+    Slot made(Realization realization);
+    void prepare();
     /// A set of one lane, of the calling thread alone.
     LaneSet& lane() { return lanes_.local(); }
     std::uint64_t steps_of_chunk() const { return static_cast<std::uint64_t>(check_steps(memory_.topology)); }
@@ -127,6 +151,12 @@ private:
     bool on_host_ = false;
     tbb::enumerable_thread_specific<LaneSet> lanes_;
     SlotMemory memory_;
+    Source source_;
+    std::atomic<bool> exhausted_ = false; ///< the source; what it gives later is not for this set
+    std::mutex preparing_;                ///< guards `prepared_`
+    std::deque<Slot> prepared_;           ///< made ahead
+    std::size_t ended_ = 0;               ///< slots that were freed since the last launch
+    std::size_t expected_ = 0;            ///< about as many as the next launch will free
 
     struct Memory; ///< what `memory_` points to, and the host's copies
     std::unique_ptr<Memory> own_;

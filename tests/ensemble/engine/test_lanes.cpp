@@ -77,6 +77,7 @@ TEST(Lanes, LeaveTheRestToThreads)
         RunOptions options{Isa::scalar, 2};
         options.devices = {device};
         options.few = 0;
+        options.longest_on_host = 0;
         EXPECT_EQ(run_all(study, options).outcomes, run_all(study, {best_isa(), 2}).outcomes);
         EXPECT_EQ(device->by_lanes(), 0);
         EXPECT_GT(device->by_threads(), 0);
@@ -93,6 +94,7 @@ TEST(Cuda, LanesHaveTheBitsOfThreads)
         const Study study = of_blocks(free, {"study.realizations=2", "excitation.cycles=6"});
         RunOptions options{best_isa(), 2};
         options.few = 0;
+        options.longest_on_host = 0;
         const auto on = [&](ColumnStep step) {
             options.devices = open_cuda_devices(0, 1, step);
             return run_all(study, options).outcomes;

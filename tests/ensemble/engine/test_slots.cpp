@@ -10,6 +10,7 @@
 #include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
+#include "tests/ensemble/engine/forwarding_device.hpp"
 #include "tests/ensemble/engine/lanes/warp_device.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
 #include "tests/ensemble/engine/slot_studies.hpp"
@@ -37,6 +38,7 @@ RunOptions on_devices(int devices, int slots)
         options.devices.push_back(host_device());
     options.slots = slots;
     options.few = 0; // nothing is left to the processor
+    options.longest_on_host = 0;
     return options;
 }
 
@@ -62,40 +64,6 @@ EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
     }
     return want;
 }
-
-/// Another device's deeds, and how many bytes went up to it.
-class Forwarding : public Device {
-public:
-    std::string name() const override { return inner_->name(); }
-    int best_slots(const SlotMemory&, std::size_t) const override { return 4; }
-    void* allocate(std::size_t bytes) override { return inner_->allocate(bytes); }
-    void release(void* memory) noexcept override { inner_->release(memory); }
-    void* allocate_host(std::size_t bytes) override { return inner_->allocate_host(bytes); }
-    void release_host(void* memory) noexcept override { inner_->release_host(memory); }
-    void upload(void* to, const void* from, std::size_t bytes) override
-    {
-        uploaded_ += bytes;
-        inner_->upload(to, from, bytes);
-    }
-    void download(void* to, const void* from, std::size_t bytes) override { inner_->download(to, from, bytes); }
-    void advance(const SlotMemory& memory, int chunks, int count) override
-    {
-        ++launches_;
-        inner_->advance(memory, chunks, count);
-    }
-    void run(const MoveColumns& task, int count) override { inner_->run(task, count); }
-    void run(const MoveSingleColumns& task, int count) override { inner_->run(task, count); }
-    void run(const MarkSlots& task, int count) override { inner_->run(task, count); }
-    void run(const MultiplyAdds& task, int count) override { inner_->run(task, count); }
-
-    int launches() const { return launches_; }
-    std::size_t uploaded() const { return uploaded_; }
-
-private:
-    std::shared_ptr<Device> inner_ = host_device();
-    int launches_ = 0;
-    std::size_t uploaded_ = 0;
-};
 
 } // namespace
 
@@ -165,7 +133,7 @@ TEST(Slots, AFragilityStudyHasTheBitsOfTheLanes)
 TEST(Slots, SamplesStayOnTheDevice)
 {
     const auto uploaded = [](const Study& study, const Motions& motions) {
-        const auto device = std::make_shared<Forwarding>();
+        const auto device = std::make_shared<test::ForwardingDevice>();
         RunOptions options = on_devices(0, 0);
         options.devices.push_back(device);
         run_all(study, options, motions);
@@ -333,7 +301,7 @@ TEST(Slots, GapsAreClosed)
 TEST(Slots, TheProcessorEndsTheLastOnes)
 {
     const auto launches = [](const Study& study, int few, const Motions& motions) {
-        const auto device = std::make_shared<Forwarding>();
+        const auto device = std::make_shared<test::ForwardingDevice>();
         RunOptions options = on_devices(0, 5);
         options.devices.push_back(device);
         options.few = few;
@@ -374,28 +342,6 @@ TEST(Slots, AColumnHoldsALane)
     for (std::size_t i = 0; i < column.size(); ++i)
         EXPECT_EQ(std::bit_cast<std::uint64_t>(column[i]), std::bit_cast<std::uint64_t>(again[i])) << "row " << i;
     EXPECT_EQ(b.steps(0), 20U * chunk_steps);
-}
-
-/// What the device fails at ends the run with its message, and no thread is left waiting.
-TEST(Slots, AFailureOfADeviceEndsTheRun)
-{
-    class Failing : public Forwarding {
-        void advance(const SlotMemory& memory, int chunks, int count) override
-        {
-            if (launches() > 3)
-                throw std::runtime_error("the GPU failed: it fell off the bus");
-            Forwarding::advance(memory, chunks, count);
-        }
-    };
-    const Study study = column({});
-    RunOptions options = on_devices(1, 0);
-    options.devices.push_back(std::make_shared<Failing>());
-    try {
-        run_all(study, options);
-        FAIL() << "the failure was swallowed";
-    } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("fell off the bus"), std::string::npos);
-    }
 }
 
 /// As many realizations as fill a device's blocks of threads, some of which end, move together and go on; all tests

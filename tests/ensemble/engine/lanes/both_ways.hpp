@@ -69,6 +69,7 @@ inline std::shared_ptr<BothWays> same_in_lanes(const Study& study, const Motions
     options.devices = {device};
     options.slots = 23;
     options.few = 0;
+    options.longest_on_host = 0;
     EXPECT_EQ(run_all(study, options, motions).outcomes, want.outcomes);
     EXPECT_EQ(device->differ, 0);
     EXPECT_GT(device->compared, 0);
