@@ -23,6 +23,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace stylobate {
@@ -69,6 +70,8 @@ public:
     ~SlotSet();
 
     int lanes() const { return memory_.slots; }
+    /// `Device::why_slow` of what is stepped here.
+    std::string why_slow() const { return device_.why_slow(memory_); }
     /// Slots below this number are the ones that the device goes through: those above have been emptied for good.
     int used() const { return used_; }
     int active() const;

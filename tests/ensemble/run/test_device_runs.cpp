@@ -1,6 +1,7 @@
 /// Whole runs on devices that are the processor: which realizations are begun first, which of them the host steps, what
 /// is made while a device steps, and what becomes of a run whose device fails.
 
+#include "ensemble/planar/device/column_warp.hpp"
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"
@@ -457,6 +458,19 @@ TEST(DeviceRuns, AFailureLosesNothingThatOtherProcessesGave)
 }
 
 /// What fails on the host is no failure of a device: it ends the run with its message.
+/// Where a device has a slower way and a faster one, the user hears of the slower one once, not from every queue.
+TEST(DeviceRuns, ASlowerWayIsSaidOnce)
+{
+    class Slow : public ForwardingDevice {
+        std::string why_slow(const SlotMemory& memory) const override { return why_no_lanes(memory); }
+    };
+    const Study study = rigid_of(surface(1));
+    const Told told = run(study, on({std::make_shared<Slow>(), std::make_shared<Slow>()}, 2, 3));
+    ASSERT_EQ(told.warnings.size(), 1U);
+    EXPECT_NE(told.warnings.front().find("leave --backend cuda out"), std::string::npos);
+    EXPECT_EQ(told.outcomes.size(), study.total());
+}
+
 TEST(DeviceRuns, AFailureOfTheSinkEndsTheRun)
 {
     const Study study = surface(3);
