@@ -55,6 +55,10 @@ if [[ -z $built ]]; then
 fi
 stylobate=$built/stylobate
 "$stylobate" info | tee "$results/info.txt"
+"$stylobate" info --json | grep -q '"gpu": true' || {
+    echo "gpu.sh: no GPU can be used here, and nothing is measured; $results/info.txt says why" >&2
+    exit 2
+}
 ! command -v nvidia-smi >/dev/null ||
     nvidia-smi --query-gpu=name,clocks.sm,clocks.max.sm,driver_version --format=csv >"$results/card.txt"
 

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,6 +60,46 @@ TEST(Lanes, AFragilityStudyHasTheBitsOfThreads)
 TEST(Lanes, ABrokenRealizationIsSetAside)
 {
     broken_are_set_aside();
+}
+
+/// All ready studies that lanes serve, columns of 1 to 9 blocks from a small model to a monument: their first thousands
+/// of steps. (Whole outcomes: `LanesLong`, and `scripts/gpu.sh` on a device.)
+TEST(Lanes, ReadyStudiesHaveTheBitsOfThreads)
+{
+    int served = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(inputs))
+        served += entry.path().extension() == ".toml" && begin_in_lanes(entry.path().filename().string(), 6) != nullptr;
+    EXPECT_GE(served, 10);
+}
+
+/// A few realizations of each, to their end.
+TEST(LanesLong, ReadyStudiesHaveTheOutcomesOfTheProcessor)
+{
+    for (const auto& entry : std::filesystem::directory_iterator(inputs)) {
+        const std::string file = entry.path().filename().string();
+        if (entry.path().extension() != ".toml" || begin_in_lanes(file, 1) == nullptr)
+            continue;
+        const LoadedStudy loaded = LoadedStudy::from_file(inputs + file, {});
+        const std::uint64_t total = loaded.study().total();
+        std::vector<std::uint64_t> indices;
+        for (std::uint64_t i = 0; i < 7; ++i)
+            indices.push_back(i * (total - 1) / 6);
+        const auto outcomes = [&](RunOptions options) {
+            std::map<std::uint64_t, Bits> found;
+            RunPlan plan;
+            plan.total = indices.size();
+            plan.indices = indices;
+            plan.sink = [&](const Realization& r, const Outcome& o) { found[r.index] = outcome_bits(o); };
+            options.few = 0;
+            options.longest_on_host = 0;
+            Observer observer;
+            run_ensemble(loaded.experiment(), options, plan, observer);
+            return found;
+        };
+        RunOptions by_lanes{Isa::scalar, 2};
+        by_lanes.devices = {std::make_shared<WarpDevice>()};
+        EXPECT_EQ(outcomes(by_lanes), outcomes({best_isa(), 2})) << file;
+    }
 }
 
 /// What lanes do not serve is stepped by threads.

@@ -2,6 +2,7 @@
 /// Every number of every column, by lanes and by threads.
 
 #include "ensemble/planar/device/slots.hpp"
+#include "studies/experiment/loaded_study.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/lanes/warp_device.hpp"
 #include "tests/ensemble/engine/slot_studies.hpp"
@@ -83,6 +84,31 @@ inline Study of_blocks(int free, std::vector<std::string> settings)
     settings.push_back("structure.blocks=" + std::to_string(free + 1));
     settings.push_back("structure.drum_height_m=" + std::to_string(0.174 / free));
     return column(settings);
+}
+
+/// The first launches of a few realizations from all over a ready study, both ways.
+/// @param file in studies/inputs
+/// @return the device; null: its realizations are not stepped by lanes
+inline std::unique_ptr<BothWays> begin_in_lanes(const std::string& file, int launches,
+                                                const WarpDevice::Step& step = advance_columns)
+{
+    constexpr int slots = 7;
+    const LoadedStudy loaded = LoadedStudy::from_file(inputs + file, {});
+    if (loaded.study().structure.spatial() || loaded.study().kind == StudyKind::single)
+        return nullptr;
+    const Realization pattern = loaded.sampler().realization(0);
+    auto device = std::make_unique<BothWays>(step);
+    SlotSet set(loaded.study(), loaded.record(), pattern, *device, slots, slots);
+    if (!set.why_slow().empty())
+        return nullptr;
+    for (int slot = 0; slot < slots; ++slot)
+        set.load(slot, loaded.sampler().realization(static_cast<std::uint64_t>(slot) * (loaded.study().total() - 1) /
+                                                    (slots - 1)));
+    for (int launch = 0; launch < launches; ++launch)
+        set.advance();
+    EXPECT_EQ(device->differ, 0) << file;
+    EXPECT_EQ(device->by_lanes(), launches) << file;
+    return device;
 }
 
 /// What is not a number, and a balance of energy out of bounds, stop a lane as they stop a thread: steps of up to four

@@ -6,8 +6,10 @@
 namespace stylobate {
 
 template __global__ void step_columns<1>(SlotMemory, int, int);
+template __global__ void step_columns<2>(SlotMemory, int, int);
 template __global__ void step_columns<4>(SlotMemory, int, int);
 template __global__ void step_columns<6>(SlotMemory, int, int);
+template __global__ void step_columns<9>(SlotMemory, int, int);
 template __global__ void step_columns<12>(SlotMemory, int, int);
 
 } // namespace stylobate

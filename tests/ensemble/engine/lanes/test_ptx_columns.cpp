@@ -50,7 +50,7 @@ TEST_P(PtxColumnsOfBlocks, HaveTheBitsOfTheProcessor)
     RecordProperty("numbers", std::to_string(device->compared));
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, PtxColumnsOfBlocks, testing::Values(1, 4, 6, 12));
+INSTANTIATE_TEST_SUITE_P(Blocks, PtxColumnsOfBlocks, testing::Values(1, 2, 4, 6, 9, 12));
 
 TEST(PtxColumns, AlongARecordAndUnderAPulseHaveTheBitsOfTheProcessor)
 {
@@ -63,6 +63,13 @@ TEST(PtxColumns, AlongARecordAndUnderAPulseHaveTheBitsOfTheProcessor)
 TEST(PtxColumns, ABrokenRealizationIsSetAside)
 {
     broken_are_set_aside(PtxStep());
+}
+
+TEST(PtxColumns, ReadyStudiesHaveTheBitsOfTheProcessor)
+{
+    for (const char* file : {"small_scale_column.toml", "rare_collapse.toml", "doric_column.toml",
+                             "fragility_column.toml", "synthetic_earthquake.toml", "record.toml"})
+        EXPECT_NE(begin_in_lanes(file, 4, PtxStep()), nullptr) << file;
 }
 
 /// More columns, to their end.

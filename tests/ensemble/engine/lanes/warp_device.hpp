@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace stylobate {
@@ -30,6 +31,11 @@ public:
     explicit WarpDevice(Step step = advance_columns) : step_(std::move(step)) {}
 
     std::string name() const override { return "the processor, in warps"; }
+    std::string why_slow(const SlotMemory& memory) const override
+    {
+        const char* const why = why_no_lanes(memory);
+        return why == nullptr ? "" : why;
+    }
     void advance(const SlotMemory& memory, int chunks, int count) override
     {
         if (!lanes_serve(memory))
