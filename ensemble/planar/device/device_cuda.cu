@@ -51,6 +51,12 @@ public:
     CudaQueue(int device, ColumnStep step) : device_(device), step_(step)
     {
         use();
+        cudaDeviceProp p{};
+        check(cudaGetDeviceProperties(&p, device_), "its properties cannot be read");
+        char text[400];
+        std::snprintf(text, sizeof text, "%s (compute capability %d.%d, %d multiprocessors, %.0f GiB)", p.name, p.major,
+                      p.minor, p.multiProcessorCount, static_cast<double>(p.totalGlobalMem) / (1 << 30));
+        name_ = text; // now, as it cannot be asked for any more once the device has failed
         check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a queue cannot be made");
     }
     ~CudaQueue() override
@@ -59,15 +65,7 @@ public:
             cudaStreamDestroy(stream_);
     }
 
-    std::string name() const override
-    {
-        cudaDeviceProp p{};
-        check(cudaGetDeviceProperties(&p, device_), "its properties cannot be read");
-        char text[400];
-        std::snprintf(text, sizeof text, "%s (compute capability %d.%d, %d multiprocessors, %.0f GiB)", p.name, p.major,
-                      p.minor, p.multiProcessorCount, static_cast<double>(p.totalGlobalMem) / (1 << 30));
-        return text;
-    }
+    std::string name() const override { return name_; }
 
     int best_slots(const SlotMemory& memory, std::size_t bytes) const override
     {
@@ -200,6 +198,7 @@ private:
     }
 
     int device_ = 0;
+    std::string name_;
     ColumnStep step_ = ColumnStep::by_lanes;
     cudaStream_t stream_ = nullptr;
     mutable int column_slots_ = -1, column_blocks_ = 0; ///< of `column_slots`, and the free blocks that it is for
@@ -219,12 +218,17 @@ std::vector<int> usable_devices(std::string& reason)
     std::vector<int> usable;
     for (int device = 0; device < count; ++device) {
         cudaFuncAttributes attributes{};
-        if (cudaSetDevice(device) == cudaSuccess &&
-            cudaFuncGetAttributes(&attributes, run_task<MarkSlots>) == cudaSuccess)
+        cudaError_t found = cudaSetDevice(device);
+        const bool there = found == cudaSuccess;
+        if (there)
+            found = cudaFuncGetAttributes(&attributes, run_task<MarkSlots>);
+        if (found == cudaSuccess)
             usable.push_back(device);
-        else
+        else if (there && (found == cudaErrorNoKernelImageForDevice || found == cudaErrorInvalidDeviceFunction))
             reason = "this program has no code for " + CudaQueue(device, ColumnStep::by_threads).name() +
                      ". Build it with -DCMAKE_CUDA_ARCHITECTURES of its compute capability, without the point";
+        else
+            reason = std::string("no CUDA device can be used: ") + cudaGetErrorString(found);
     }
     return usable;
 }
