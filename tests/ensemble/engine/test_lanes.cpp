@@ -22,7 +22,7 @@ class LanesOfBlocks : public testing::TestWithParam<int> {};
 
 TEST_P(LanesOfBlocks, HaveTheBitsOfThreads)
 {
-    const auto device = same_in_lanes(of_blocks(GetParam(), {"study.realizations=2", "excitation.cycles=5"}));
+    const auto device = same_in_lanes(of_blocks(GetParam(), {"study.realizations=2"}));
     EXPECT_GT(device->asked, 10) << "nothing ended";
 }
 
@@ -113,7 +113,7 @@ TEST(Lanes, LeaveTheRestToThreads)
                                     column({"study.realizations=1", "contact.form=\"two_corner\""}),
                                     column({"study.realizations=1", "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }"}),
                                     column({"study.realizations=1", "outcome.follow=\"rest\""}),
-                                    of_blocks(most_lane_blocks + 1, {"study.realizations=1", "excitation.cycles=5"})};
+                                    of_blocks(most_lane_blocks + 1, {"study.realizations=1"})};
     for (const Study& study : others) {
         const auto device = std::make_shared<WarpDevice>();
         RunOptions options{Isa::scalar, 2};
@@ -133,7 +133,7 @@ TEST(Cuda, LanesHaveTheBitsOfThreads)
     if (found.names.empty())
         GTEST_SKIP() << "not run: " << found.reason;
     for (const int free : {1, 6, most_lane_blocks}) {
-        const Study study = of_blocks(free, {"study.realizations=2", "excitation.cycles=6"});
+        const Study study = of_blocks(free, {"study.realizations=2"});
         RunOptions options{best_isa(), 2};
         options.few = 0;
         options.longest_on_host = 0;

@@ -1,7 +1,6 @@
-/// The slots of a device, on devices that are the processor (with a thread for every realization, and with lanes for
-/// the blocks of those that they serve) and on the devices of CUDA, where there are any: outcomes
+/// The slots of a device, on the device that is the processor and on the devices of CUDA, where there are any: outcomes
 /// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
-/// realizations are.
+/// realizations are. (`test_lanes`: the same with a lane of a warp for every block.)
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/device/host_device.hpp"
@@ -11,7 +10,6 @@
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/forwarding_device.hpp"
-#include "tests/ensemble/engine/lanes/warp_device.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
 #include "tests/ensemble/engine/slot_studies.hpp"
 
@@ -47,8 +45,7 @@ EnsembleRun same_in_slots(const Study& study, const Motions& motions = {})
 {
     const EnsembleRun want = run_all(study, {best_isa(), 2}, motions);
     EXPECT_EQ(want.outcomes.size(), study.total());
-    std::vector<RunOptions> all{on_devices(1, 5), on_devices(2, 0), on_devices(0, 40)};
-    all.back().devices = {std::make_shared<WarpDevice>()};
+    std::vector<RunOptions> all{on_devices(1, 5), on_devices(2, 0)};
     if (!cuda_devices().names.empty())
         for (const int slots : {5, 0}) {
             all.push_back(on_devices(0, slots));
