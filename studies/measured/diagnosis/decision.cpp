@@ -426,10 +426,9 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
         lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "
-                                    "p = {:.2g}; law p = {:.2g}{}",
+                                    "p = {:.2g}",
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
-                                    statistics.p_value, statistics.probability, statistics.left_p_value,
-                                    ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
+                                    statistics.p_value, statistics.probability, statistics.left_p_value));
     return lines;
 }
 

@@ -108,16 +108,6 @@ ForceTest force_test(const ForceEvidence& evidence)
 
 namespace {
 
-/// Statistics of one kind, of all joints or blocks: what a common law shifts alike.
-std::vector<int> common_groups(const std::vector<StatisticLabel>& labels)
-{
-    std::map<std::pair<std::string, int>, int> number;
-    std::vector<int> groups;
-    for (const StatisticLabel& label : labels)
-        groups.push_back(number.try_emplace({label.name, label.side}, static_cast<int>(number.size())).first->second);
-    return groups;
-}
-
 /// Keeps the descriptors that the measured campaign and most others have; where one is missing it is the median.
 void complete_descriptors(EnsembleEvidence& evidence)
 {
@@ -205,21 +195,6 @@ void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& o
                                                          : "");
 }
 
-// Of the numbers of a law: a cause moves some of them.
-constexpr double law_kept = 0.75;
-
-/// Of the measured law, among those of the healthy campaigns.
-double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
-{
-    const std::vector<StatisticLabel>& labels = diagnosis.statistics;
-    const std::vector<SimulatedCampaign>& rows = diagnosis.ensemble.campaigns;
-    std::vector<std::vector<double>> nulls;
-    for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
-        nulls.push_back(law_numbers(labels, rows[i].numbers));
-    const NumbersOf of_law = [&](const SimulatedCampaign& row) { return law_numbers(labels, row.numbers); };
-    return isolation_p_value(likeness_of(plan, rows, of_law, law_kept), nulls, law_numbers(labels, diagnosis.measured));
-}
-
 /// All but the simulated campaigns and the verdicts.
 EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                    const std::vector<std::vector<double>>& base_m)
@@ -268,11 +243,9 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     evidence.nulls = rows.table(nulls);
     evidence.likeness = weights_of(distance);
     evidence.labelled.table = rows.table(labelled);
-    evidence.common = common_groups(rows.labels);
     evidence.least_scatter = rows.least_scatter;
     evidence.descriptors = vector_of(rows.descriptors(out.measured));
     evidence.statistics = vector_of(rows.statistics(out.measured, out.scores));
-    out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
 

@@ -77,7 +77,6 @@ struct EnsembleDiagnosis {
     std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
     ScorePlan scored;                     ///< of which the scores are
     CampaignEnsemble ensemble;
-    double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
     EnsembleVerdict by_statistics;
     ForceTest listed, forces; ///< of the scores of the causes, and of those of forces of no known kind

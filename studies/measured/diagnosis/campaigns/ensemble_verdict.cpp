@@ -33,7 +33,7 @@ CampaignTable rows_of(const CampaignTable& table, const std::vector<Eigen::Index
 /// A fit without one fold of the healthy and of the labelled campaigns; fold -1: with all.
 class Fit {
 public:
-    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int left_out)
+    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, int left_out)
         : mechanism_(evidence.mechanism)
     {
         std::vector<Eigen::Index> nulls;
@@ -66,8 +66,7 @@ public:
             models_.emplace_back(residuals, sizes);
             causes_.push_back(cause);
         }
-        likelihood_ = std::make_unique<SyntheticLikelihood>(
-            *law_, models_, contrasts ? common_patterns(evidence.common) : Eigen::MatrixXd());
+        likelihood_ = std::make_unique<SyntheticLikelihood>(*law_, models_);
     }
 
     Eigen::VectorXd residual(const CampaignTable& table, Eigen::Index row) const
@@ -141,28 +140,10 @@ public:
     /// Squared distance of what is left beside the best cause.
     double left(const Eigen::VectorXd& residual, const CauseLikelihood& cause, Eigen::Index model) const
     {
-        return likelihood_->distance2(residual - models_[static_cast<std::size_t>(model)].mean(cause.size));
+        return (residual - models_[static_cast<std::size_t>(model)].mean(cause.size)).squaredNorm();
     }
 
 private:
-    /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
-    Eigen::MatrixXd common_patterns(const std::vector<int>& group) const
-    {
-        std::map<int, std::vector<Eigen::Index>> members;
-        for (std::size_t k = 0; k < law_->used().size(); ++k)
-            if (const int g = group[static_cast<std::size_t>(law_->used()[k])]; g >= 0)
-                members[g].push_back(static_cast<Eigen::Index>(k));
-        Eigen::MatrixXd patterns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(members.size()),
-                                                         static_cast<Eigen::Index>(law_->used().size()));
-        Eigen::Index row = 0;
-        for (const auto& [g, columns] : members) {
-            for (const Eigen::Index column : columns)
-                patterns(row, column) = 1 / std::sqrt(static_cast<double>(columns.size()));
-            ++row;
-        }
-        return patterns;
-    }
-
     std::vector<int> mechanism_;
     std::unique_ptr<LawAdjustment> law_;
     std::vector<ShiftModel> models_;
@@ -256,9 +237,8 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
     out.labelled_right.assign(evidence.labelled.cause.size(), false);
-    out.contrasts = evidence.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
-    const Fit fit(evidence, wanted, out.contrasts, -1);
+    const Fit fit(evidence, wanted, -1);
     out.used = fit.law().used();
     out.residual = fit.residual(evidence.descriptors, evidence.statistics);
     if (fit.models().empty())
@@ -277,7 +257,7 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     left_out.right.assign(evidence.labelled.cause.size(), false);
     folds.resize(static_cast<std::size_t>(count));
     in_parallel(0, count, [&](int fold) {
-        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
+        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, fold);
     });
     for (int fold = 0; fold < count; ++fold)
         look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);

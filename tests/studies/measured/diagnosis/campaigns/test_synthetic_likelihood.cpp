@@ -263,26 +263,6 @@ TEST(SyntheticLikelihood, FindsAShiftThatOnlyAContrastShows)
     EXPECT_LT(mean_gain(0), 0);
 }
 
-TEST(SyntheticLikelihood, AShiftCommonToAllIsNoCause)
-{
-    World world(10);
-    const LawAdjustment adjustment(world.nulls(300), Eigen::VectorXd::Ones(300), all_wanted);
-    const std::vector<ShiftModel> models = world.learnt(adjustment);
-    const Eigen::MatrixXd common = Eigen::MatrixXd::Ones(1, statistics) / std::sqrt(double{statistics});
-    const SyntheticLikelihood plain(adjustment, models), contrasts(adjustment, models, common);
-    // a law that the family does not have
-    Eigen::VectorXd residual = adjustment.decorrelated(Eigen::VectorXd::Constant(statistics, 3));
-    EXPECT_GT(plain.distance2(residual), 100);
-    EXPECT_LT(contrasts.distance2(residual), 1);
-    EXPECT_LT(most(contrasts.of(residual)), 2);
-    residual += models[3].mean(1); // and a cause on top of it
-    const auto found = contrasts.of(residual);
-    EXPECT_EQ(
-        std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; }) -
-            found.begin(),
-        3);
-}
-
 TEST(Conformal, RanksByHand)
 {
     const std::vector<double> nulls = {1, 2, 3, 4};
