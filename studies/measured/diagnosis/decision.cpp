@@ -67,7 +67,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     j.fit.sd = std::fabs(cause.size_of(found.high) - cause.size_of(found.low)) / (2 * half_width90);
     j.fit.gain = std::max(found.gain, 0.0);
     j.chance95 = quantile95(verdict.null_gains);
-    j.chance = conformal_p_value(verdict.null_gains, found.gain, verdict.null_weights);
+    j.chance = conformal_p_value(verdict.null_gains, found.gain);
     return j;
 }
 

@@ -304,7 +304,6 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     }
     if (options.ranks)
         add_costs(*options.ranks, out);
-    out.distance = proposals.law_distances(out.campaigns);
     out.complete = true;
     return out;
 }

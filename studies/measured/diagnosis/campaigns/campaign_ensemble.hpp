@@ -80,7 +80,6 @@ struct EnsemblePlan {
 
 struct CampaignEnsemble {
     std::vector<SimulatedCampaign> campaigns; ///< in the order of their numbers
-    std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
     SimulationCount cost;
     std::uint64_t cached = 0; ///< campaigns that the file had
     bool complete = false;    ///< false: the observer stopped it

@@ -37,16 +37,10 @@ public:
         : mechanism_(evidence.mechanism)
     {
         std::vector<Eigen::Index> nulls;
-        std::vector<double> weights;
         for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
-            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out) {
+            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out)
                 nulls.push_back(i);
-                weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
-            }
-        law_ = std::make_unique<LawAdjustment>(
-            rows_of(evidence.nulls, nulls),
-            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted,
-            evidence.least_scatter);
+        law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), wanted, evidence.least_scatter);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
@@ -148,7 +142,7 @@ private:
 
 /// What the campaigns that were left out of a fit were taken for.
 struct LeftOut {
-    std::vector<double> null_gains, null_weights;
+    std::vector<double> null_gains;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::vector<CalibratedProbability::Case>
         near;                ///< lead of the best and its nearest rivals together, and whether right
@@ -165,7 +159,6 @@ void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, L
             continue;
         const auto found = fit.likelihood().of(fit.residual(evidence.nulls, i));
         out.null_gains.push_back(found[static_cast<std::size_t>(largest(found))].gain);
-        out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
     }
 }
 
@@ -251,15 +244,12 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     });
     for (int fold = 0; fold < count; ++fold)
         look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);
-    const auto chance = [&](double gain) {
-        return conformal_p_value(left_out.null_gains, gain, left_out.null_weights);
-    };
+    const auto chance = [&](double gain) { return conformal_p_value(left_out.null_gains, gain); };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
         look_at_labelled(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
-    out.null_weights = left_out.null_weights;
     out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, {fit.mechanism(best)}));

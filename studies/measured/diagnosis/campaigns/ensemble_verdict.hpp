@@ -30,7 +30,6 @@ struct LabelledCampaigns {
 
 struct EnsembleEvidence {
     CampaignTable nulls;
-    std::vector<double> likeness; ///< (nulls) weight of each for the measured campaign, at most 1; empty: 1
     LabelledCampaigns labelled;
     std::vector<int> mechanism;        ///< (causes) candidates of one mechanism at several places have one number
     std::vector<double> least_scatter; ///< (p) as of `LawAdjustment`; empty: 0
@@ -54,9 +53,9 @@ struct EnsembleVerdict {
     double set_probability = 0; ///< that the best or one of the first `EnsembleRule::rivals` of the set is right
     Eigen::VectorXd residual;   ///< (used) of the measured campaign, decorrelated
     Eigen::VectorXd shift;      ///< (used) what the best cause makes of it
-    std::vector<Eigen::Index> used;               ///< columns of the statistics
-    std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
-    std::vector<bool> labelled_right;             ///< (labelled) named with the right mechanism, left out
+    std::vector<Eigen::Index> used;   ///< columns of the statistics
+    std::vector<double> null_gains;   ///< largest gains of healthy campaigns, each left out
+    std::vector<bool> labelled_right; ///< (labelled) named with the right mechanism, left out
 };
 
 EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const EnsembleRule& rule = {});
