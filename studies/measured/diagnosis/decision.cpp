@@ -185,8 +185,8 @@ bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict
     return best.considered;
 }
 
-/// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
-/// considered if they may be named. A tie is never named: it stands for what is not in the list.
+/// Rules 2 and 3: all candidates are listed, the likeliest first; the best one and its rivals are considered if they
+/// may be named. A tie is never named: it stands for what is not in the list.
 void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
 {
     const EnsembleVerdict& verdict = ensemble.by_statistics;
@@ -226,18 +226,6 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     }
     take_size_of_forces(balance, best);
     out.named.push_back(best);
-    if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
-        return;
-    JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
-    if (more_friction_without_forces(balance, second.fit))
-        return;
-    second.considered = true;
-    second.chance = verdict.second_p_value;
-    second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);
-    std::erase_if(out.in_set,
-                  [&](const JudgedCause& j) { return j.fit.cause.mechanism == second.fit.cause.mechanism; });
-    take_size_of_forces(balance, second);
-    out.named.push_back(std::move(second));
 }
 
 std::vector<Cause> named_by_statistics(const Decided& decided)

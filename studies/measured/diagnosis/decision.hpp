@@ -11,8 +11,7 @@
 ///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
 ///      probability of one half, nothing is named: the cause is called possible. More friction of a joint is named
 ///      only where the balance of forces sees it, too.
-///   4  A second cause is judged with the first one given.
-///      The balance of forces is a test of its own (`named_by_forces.cpp`), which other contact laws move little. Where
+///   4  The balance of forces is a test of its own (`named_by_forces.cpp`), which other contact laws move little. Where
 ///      it names what the statistics name too, place and size are its own. Where it alone names something, that is
 ///      named; the statistics choose between causes that explain its forces about as well. Where the statistics name
 ///      another cause, both are in the set.

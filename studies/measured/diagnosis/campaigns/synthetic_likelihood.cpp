@@ -64,16 +64,14 @@ SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::ve
     }
 }
 
-std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual,
-                                                     const Eigen::VectorXd& given) const
+std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual) const
 {
-    const Eigen::VectorXd left = given.size() > 0 ? Eigen::VectorXd(residual - given) : residual;
-    const double nothing = log_density(left, 0, freedom_);
+    const double nothing = log_density(residual, 0, freedom_);
     std::vector<CauseLikelihood> out;
     for (const std::vector<Point>& points : points_) {
         std::vector<double> gain, size, weight;
         for (const Point& point : points) {
-            gain.push_back(log_density(left - point.mean, point.variance, freedom_) - nothing);
+            gain.push_back(log_density(residual - point.mean, point.variance, freedom_) - nothing);
             size.push_back(point.size);
         }
         const double best = *std::max_element(gain.begin(), gain.end());

@@ -59,9 +59,9 @@ public:
     /// @param causes what each cause does
     SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes);
 
-    /// @param residual (used) of the campaign   @param given a shift that is known to be there; empty: none
+    /// @param residual (used) of the campaign
     /// @returns one for each cause
-    std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual, const Eigen::VectorXd& given = {}) const;
+    std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual) const;
 
 private:
     /// One size of one cause.
