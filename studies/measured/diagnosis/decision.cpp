@@ -40,7 +40,7 @@ std::size_t places_tested(const DirectResult& direct, const std::string& name)
                                         std::count_if(direct.sensor_tests.begin(), direct.sensor_tests.end(), at)));
 }
 
-/// What the direct tests of base and sensors found is named (rule 1).
+/// What the direct tests of base and sensors found is named.
 std::vector<JudgedCause> named_directly(const DirectResult& direct)
 {
     std::vector<JudgedCause> named;
@@ -67,7 +67,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     j.fit.sd = std::fabs(cause.size_of(found.high) - cause.size_of(found.low)) / (2 * half_width90);
     j.fit.gain = std::max(found.gain, 0.0);
     j.chance95 = quantile95(verdict.null_gains);
-    j.chance = conformal_p_value(verdict.null_gains, found.gain, verdict.null_weights);
+    j.chance = conformal_p_value(verdict.null_gains, found.gain);
     return j;
 }
 
@@ -105,31 +105,6 @@ bool more_friction_without_forces(const BalanceEvidence& balance, const CauseFit
         return false;
     const CauseFit* seen = seen_by_forces(balance, fit);
     return !seen || seen->size <= 1;
-}
-
-/// What of the residual stands out most beside the best cause, in words.
-StructureFit left_over(const EnsembleDiagnosis& ensemble)
-{
-    const EnsembleVerdict& verdict = ensemble.by_statistics;
-    const Eigen::VectorXd left = verdict.residual - verdict.shift;
-    Eigen::Index most = 0;
-    left.cwiseAbs().maxCoeff(&most);
-    const StatisticLabel& label =
-        ensemble.evidence[static_cast<std::size_t>(verdict.used[static_cast<std::size_t>(most)])];
-    StructureFit fit;
-    fit.structure.block = label.block >= 0 ? label.block : label.joint;
-    const bool turns =
-        label.name.find("rotation") != std::string::npos || label.name.find("open") != std::string::npos ||
-        label.name.find("turning") != std::string::npos || label.name.find("closure") != std::string::npos;
-    fit.structure.coordinate = turns ? "theta" : "x";
-    fit.structure.depends_on = label.name;
-    const std::string where = label.joint >= 0   ? fmt::format("joint {}", label.joint)
-                              : label.block >= 0 ? fmt::format("block {}", label.block)
-                                                 : std::string("the campaign");
-    fit.structure.text = fmt::format("{} of {} is {:.1f} standard deviations from what the best cause gives",
-                                     label.name, where, left(most));
-    fit.gain = left.squaredNorm() / 2;
-    return fit;
 }
 
 /// The force of unknown kind with the largest score, if nothing else explains it.
@@ -210,8 +185,8 @@ bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict
     return best.considered;
 }
 
-/// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
-/// considered if they may be named. A tie is never named: it stands for what is not in the list.
+/// By the statistics: all candidates are listed, the likeliest first; the best one and its rivals are considered if
+/// they may be named. A tie is never named: it stands for what is not in the list.
 void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
 {
     const EnsembleVerdict& verdict = ensemble.by_statistics;
@@ -251,18 +226,6 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     }
     take_size_of_forces(balance, best);
     out.named.push_back(best);
-    if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
-        return;
-    JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
-    if (more_friction_without_forces(balance, second.fit))
-        return;
-    second.considered = true;
-    second.chance = verdict.second_p_value;
-    second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);
-    std::erase_if(out.in_set,
-                  [&](const JudgedCause& j) { return j.fit.cause.mechanism == second.fit.cause.mechanism; });
-    take_size_of_forces(balance, second);
-    out.named.push_back(std::move(second));
 }
 
 std::vector<Cause> named_by_statistics(const Decided& decided)
@@ -323,7 +286,7 @@ void add_rivals(std::vector<JudgedCause> rivals, double named, std::vector<Judge
     }
 }
 
-/// What the forces name beside what the statistics do (rule 4).
+/// What the forces name beside what the statistics do.
 void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
                   Decided& out)
 {
@@ -358,7 +321,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
     add_rivals(std::move(by_forces), most, out.in_set);
 }
 
-/// Rule 5.
+/// What acts and is no cause of the list.
 void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const NamedByForces& forces,
                       const DecisionRule& rule, Decided& out)
 {
@@ -372,9 +335,6 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         out.unexplained_chance = forces.p_value;
     } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
         out.unexplained_chance = ensemble.forces.p_value;
-    } else if (forces.causes.empty() && ensemble.by_statistics.unexplained) {
-        out.unexplained = left_over(ensemble);
-        out.unexplained_chance = ensemble.by_statistics.left_p_value;
     }
     if (out.unexplained) {
         std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
@@ -425,11 +385,9 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
                                     forces.p_value, nats_of_score(forces.score)));
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
-        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "
-                                    "p = {:.2g}; law p = {:.2g}{}",
+        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}",
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
-                                    statistics.p_value, statistics.probability, statistics.left_p_value,
-                                    ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
+                                    statistics.p_value, statistics.probability));
     return lines;
 }
 

@@ -15,9 +15,6 @@ namespace {
 
 /// Fewer labelled campaigns than these do not show a shift.
 constexpr Eigen::Index least_labelled = 3;
-/// Of a second cause, where few labelled campaigns are named.
-constexpr double most_second_p = 0.05;
-
 Eigen::Index largest(const std::vector<CauseLikelihood>& causes)
 {
     const auto at =
@@ -33,20 +30,14 @@ CampaignTable rows_of(const CampaignTable& table, const std::vector<Eigen::Index
 /// A fit without one fold of the healthy and of the labelled campaigns; fold -1: with all.
 class Fit {
 public:
-    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int left_out)
+    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, int left_out)
         : mechanism_(evidence.mechanism)
     {
         std::vector<Eigen::Index> nulls;
-        std::vector<double> weights;
         for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
-            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out) {
+            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out)
                 nulls.push_back(i);
-                weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
-            }
-        law_ = std::make_unique<LawAdjustment>(
-            rows_of(evidence.nulls, nulls),
-            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted,
-            evidence.least_scatter);
+        law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), wanted, evidence.least_scatter);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
@@ -66,8 +57,7 @@ public:
             models_.emplace_back(residuals, sizes);
             causes_.push_back(cause);
         }
-        likelihood_ = std::make_unique<SyntheticLikelihood>(
-            *law_, models_, contrasts ? common_patterns(evidence.common) : Eigen::MatrixXd());
+        likelihood_ = std::make_unique<SyntheticLikelihood>(*law_, models_);
     }
 
     Eigen::VectorXd residual(const CampaignTable& table, Eigen::Index row) const
@@ -122,47 +112,8 @@ public:
                 out.insert(mechanism);
         return out;
     }
-    struct Second {
-        Eigen::Index model = -1; ///< -1: there is no other mechanism
-        CauseLikelihood cause;
-    };
-    /// The best cause of another mechanism, with the best one given.
-    Second second(const Eigen::VectorXd& residual, const CauseLikelihood& best, Eigen::Index model) const
-    {
-        const auto found = likelihood_->of(residual, models_[static_cast<std::size_t>(model)].mean(best.size));
-        Second out;
-        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m) {
-            const CauseLikelihood& cause = found[static_cast<std::size_t>(m)];
-            if (mechanism(m) != mechanism(model) && (out.model < 0 || cause.gain > out.cause.gain))
-                out = {m, cause};
-        }
-        return out;
-    }
-    /// Squared distance of what is left beside the best cause.
-    double left(const Eigen::VectorXd& residual, const CauseLikelihood& cause, Eigen::Index model) const
-    {
-        return likelihood_->distance2(residual - models_[static_cast<std::size_t>(model)].mean(cause.size));
-    }
 
 private:
-    /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
-    Eigen::MatrixXd common_patterns(const std::vector<int>& group) const
-    {
-        std::map<int, std::vector<Eigen::Index>> members;
-        for (std::size_t k = 0; k < law_->used().size(); ++k)
-            if (const int g = group[static_cast<std::size_t>(law_->used()[k])]; g >= 0)
-                members[g].push_back(static_cast<Eigen::Index>(k));
-        Eigen::MatrixXd patterns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(members.size()),
-                                                         static_cast<Eigen::Index>(law_->used().size()));
-        Eigen::Index row = 0;
-        for (const auto& [g, columns] : members) {
-            for (const Eigen::Index column : columns)
-                patterns(row, column) = 1 / std::sqrt(static_cast<double>(columns.size()));
-            ++row;
-        }
-        return patterns;
-    }
-
     std::vector<int> mechanism_;
     std::unique_ptr<LawAdjustment> law_;
     std::vector<ShiftModel> models_;
@@ -172,15 +123,13 @@ private:
 
 /// What the campaigns that were left out of a fit were taken for.
 struct LeftOut {
-    std::vector<double> null_gains, null_left, null_weights;
+    std::vector<double> null_gains;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::vector<CalibratedProbability::Case>
         near;                ///< lead of the best and its nearest rivals together, and whether right
     std::vector<bool> right; ///< (labelled) named, with the right mechanism
     std::map<std::pair<int, int>, double> taken; ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;           ///< mechanism: in all
-    std::vector<double> labelled_left;           ///< distance beside the best cause
-    std::vector<double> second_gains;            ///< of the best other mechanism, with the best cause given
 };
 
 void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out)
@@ -188,12 +137,8 @@ void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, L
     for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i) {
         if (evidence.null_fold[static_cast<std::size_t>(i)] != fold)
             continue;
-        const Eigen::VectorXd residual = fit.residual(evidence.nulls, i);
-        const auto found = fit.likelihood().of(residual);
-        const Eigen::Index best = largest(found);
-        out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
-        out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
-        out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
+        const auto found = fit.likelihood().of(fit.residual(evidence.nulls, i));
+        out.null_gains.push_back(found[static_cast<std::size_t>(largest(found))].gain);
     }
 }
 
@@ -220,25 +165,7 @@ void look_at_labelled(const EnsembleEvidence& evidence, const EnsembleRule& rule
         out.near.push_back({fit.lead(found, near), near.contains(truth)});
         out.taken[{truth, fit.mechanism(best)}] += 1;
         out.labelled_of[truth] += 1;
-        out.labelled_left.push_back(fit.left(residual, cause, best));
-        if (const Fit::Second second = fit.second(residual, cause, best); second.model >= 0)
-            out.second_gains.push_back(second.cause.gain);
     }
-}
-
-/// A second cause beside the best one.
-void find_second(const Fit& fit, Eigen::Index best, const LeftOut& left_out, const EnsembleRule& rule,
-                 EnsembleVerdict& out)
-{
-    const Fit::Second second = fit.second(out.residual, out.causes[static_cast<std::size_t>(out.best)], best);
-    if (second.model < 0)
-        return;
-    out.second_likelihood = second.cause;
-    out.second_p_value = conformal_p_value(left_out.second_gains, second.cause.gain);
-    // fewer labelled campaigns than it takes for the p-value: beyond all of them
-    const double least = 1 / (1 + static_cast<double>(left_out.second_gains.size()));
-    if (out.second_p_value <= std::max(rule.named, std::min(least, most_second_p)))
-        out.second = fit.causes()[static_cast<std::size_t>(second.model)];
 }
 
 std::vector<bool> finite(const Eigen::VectorXd& values)
@@ -256,9 +183,8 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
     out.labelled_right.assign(evidence.labelled.cause.size(), false);
-    out.contrasts = evidence.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
-    const Fit fit(evidence, wanted, out.contrasts, -1);
+    const Fit fit(evidence, wanted, -1);
     out.used = fit.law().used();
     out.residual = fit.residual(evidence.descriptors, evidence.statistics);
     if (fit.models().empty())
@@ -277,28 +203,22 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     left_out.right.assign(evidence.labelled.cause.size(), false);
     folds.resize(static_cast<std::size_t>(count));
     in_parallel(0, count, [&](int fold) {
-        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
+        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, fold);
     });
     for (int fold = 0; fold < count; ++fold)
         look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);
-    const auto chance = [&](double gain) {
-        return conformal_p_value(left_out.null_gains, gain, left_out.null_weights);
-    };
+    const auto chance = [&](double gain) { return conformal_p_value(left_out.null_gains, gain); };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
         look_at_labelled(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
-    out.null_weights = left_out.null_weights;
     out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, {fit.mechanism(best)}));
     out.set_probability =
         std::max(out.probability, CalibratedProbability(left_out.near)(fit.lead(found, fit.nearest(found, rule))));
     out.labelled_right = left_out.right;
-
-    if (out.named)
-        find_second(fit, best, left_out, rule, out);
 
     const int mechanism = fit.mechanism(best);
     for (const auto& [gain, other] : fit.ranking(found)) {
@@ -312,17 +232,6 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
             out.set.push_back(other);
     }
 
-    // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
-    const double left = fit.left(out.residual, cause, best);
-    const auto exceeds = [&](const std::vector<double>& others, const std::vector<double>& weights) {
-        const double p = conformal_p_value(others, left, weights);
-        out.left_p_value = std::max(out.left_p_value, p);
-        return p <= std::max(rule.unexplained, 1 / (1 + static_cast<double>(others.size())));
-    };
-    out.left_p_value = 0;
-    const bool beyond_nulls = exceeds(left_out.null_left, left_out.null_weights),
-               beyond_labelled = exceeds(left_out.labelled_left, {});
-    out.unexplained = beyond_nulls && beyond_labelled;
     return out;
 }
 

@@ -51,14 +51,9 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     v.best = 0;
     for (int i = 1; i <= 100; ++i)
         v.null_gains.push_back(0.1 * i);
-    v.null_weights.assign(100, 1);
-    v.p_value = conformal_p_value(v.null_gains, friction, v.null_weights);
+    v.p_value = conformal_p_value(v.null_gains, friction);
     v.named = v.p_value <= EnsembleRule{}.named;
     v.probability = v.set_probability = 0.8;
-    v.residual = Eigen::Vector3d(0.5, -4, 1);
-    v.shift = Eigen::Vector3d(0.5, 0, 0);
-    v.used = {0, 1, 2};
-    e.evidence = {{"slip_path", 0}, {"rotation_path", 1}, {"open_time", 2}};
     e.scored.structures = {{1, "x", "velocity", "a sideways force"}};
     e.forces.nulls.assign(100, 0.5);
     return e;
@@ -215,13 +210,11 @@ TEST(Decision, ATieIsNeverNamedButStandsForAForceOfNoKnownKind)
     EXPECT_EQ(decide({}, {}, &e, {}).verdict, Verdict::none);
 }
 
-TEST(Decision, ATieBesideACauseIsInItsSetAndNoSecondCause)
+TEST(Decision, ATieBesideACauseIsInItsSet)
 {
     EnsembleDiagnosis e = with_tie_first(28, 30);
     e.by_statistics.best = 1;
     e.by_statistics.set = {0};
-    e.by_statistics.second = 0;
-    e.by_statistics.second_p_value = 0.01;
     const Decided decided = decide({}, {}, &e, {});
     EXPECT_EQ(decided.verdict, Verdict::named);
     EXPECT_EQ(names(decided.named), Names{"drag"});
@@ -290,29 +283,6 @@ TEST(Decision, WhatExplainsAlikeIsInTheSetWithWhatRemains)
     EXPECT_NEAR(decided.in_set[0].probability.value() / decided.in_set[1].probability.value(), std::exp(1), 1e-9);
 }
 
-TEST(Decision, ASecondCauseStandsBehindTheFirst)
-{
-    EnsembleDiagnosis e = ensemble_of(30, 29, 5);
-    e.by_statistics.set = {1};
-    e.by_statistics.second = 1;
-    e.by_statistics.second_likelihood = {12, 0.5, 0.2, 0.8};
-    e.by_statistics.second_p_value = 0.01;
-    const Decided decided = decide({}, {}, &e, {});
-    EXPECT_EQ(names(decided.named), (Names{"joint_friction", "drag"}));
-    EXPECT_TRUE(decided.in_set.empty()) << "what stands by itself is no rival";
-    EXPECT_LE(decided.named[1].probability.value(), decided.named[0].probability.value());
-    EXPECT_EQ(decided.named[1].chance, 0.01);
-    // a second cause that is less sure leaves nothing more to the first one's rivals
-    e.by_statistics.set = {2};
-    e.by_statistics.probability = 0.6;
-    e.by_statistics.set_probability = 0.7;
-    e.by_statistics.second_p_value = 0.6;
-    const Decided unsure = decide({}, {}, &e, {});
-    EXPECT_NEAR(unsure.named[1].probability.value(), 0.4, 1e-12);
-    ASSERT_EQ(names(unsure.in_set), Names{"dowel"});
-    EXPECT_NEAR(unsure.in_set.front().probability.value(), 0.1, 1e-12);
-}
-
 TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
 {
     const auto verdict = [](const std::pair<BalanceEvidence, EnsembleDiagnosis>& seen) {
@@ -336,20 +306,6 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     auto usual = with_force(5, {20, 20, 20});
     usual.second.forces.p_value = 0.05;
     EXPECT_EQ(verdict(usual), Verdict::none);
-}
-
-TEST(Decision, WhatTheBestCauseLeavesIsUnexplained)
-{
-    EnsembleDiagnosis e = ensemble_of(30, 1, 1);
-    e.by_statistics.unexplained = true;
-    e.by_statistics.left_p_value = 0.004;
-    const Decided decided = decide({}, {}, &e, {});
-    EXPECT_EQ(decided.verdict, Verdict::unexplained);
-    EXPECT_TRUE(decided.named.empty());
-    ASSERT_TRUE(decided.unexplained);
-    EXPECT_EQ(decided.unexplained->structure.depends_on, "rotation_path") << "what stands out most";
-    EXPECT_EQ(decided.unexplained->structure.block, 1);
-    EXPECT_EQ(decided.unexplained_chance, 0.004);
 }
 
 /// Forces that are beyond healthy campaigns, and what explains them.
