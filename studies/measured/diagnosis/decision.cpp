@@ -107,31 +107,6 @@ bool more_friction_without_forces(const BalanceEvidence& balance, const CauseFit
     return !seen || seen->size <= 1;
 }
 
-/// What of the residual stands out most beside the best cause, in words.
-StructureFit left_over(const EnsembleDiagnosis& ensemble)
-{
-    const EnsembleVerdict& verdict = ensemble.by_statistics;
-    const Eigen::VectorXd left = verdict.residual - verdict.shift;
-    Eigen::Index most = 0;
-    left.cwiseAbs().maxCoeff(&most);
-    const StatisticLabel& label =
-        ensemble.evidence[static_cast<std::size_t>(verdict.used[static_cast<std::size_t>(most)])];
-    StructureFit fit;
-    fit.structure.block = label.block >= 0 ? label.block : label.joint;
-    const bool turns =
-        label.name.find("rotation") != std::string::npos || label.name.find("open") != std::string::npos ||
-        label.name.find("turning") != std::string::npos || label.name.find("closure") != std::string::npos;
-    fit.structure.coordinate = turns ? "theta" : "x";
-    fit.structure.depends_on = label.name;
-    const std::string where = label.joint >= 0   ? fmt::format("joint {}", label.joint)
-                              : label.block >= 0 ? fmt::format("block {}", label.block)
-                                                 : std::string("the campaign");
-    fit.structure.text = fmt::format("{} of {} is {:.1f} standard deviations from what the best cause gives",
-                                     label.name, where, left(most));
-    fit.gain = left.squaredNorm() / 2;
-    return fit;
-}
-
 /// The force of unknown kind with the largest score, if nothing else explains it.
 std::optional<StructureFit> unknown_force(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble,
                                           const DecisionRule& rule, double named_at)
@@ -372,9 +347,6 @@ void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& e
         out.unexplained_chance = forces.p_value;
     } else if ((out.unexplained = unknown_force(balance, ensemble, rule, EnsembleRule{}.force))) {
         out.unexplained_chance = ensemble.forces.p_value;
-    } else if (forces.causes.empty() && ensemble.by_statistics.unexplained) {
-        out.unexplained = left_over(ensemble);
-        out.unexplained_chance = ensemble.by_statistics.left_p_value;
     }
     if (out.unexplained) {
         std::erase_if(out.named, [](const JudgedCause& j) { return j.channel != Channel::direct; });
@@ -425,11 +397,10 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
                                     forces.p_value, nats_of_score(forces.score)));
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
-        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; what is left has "
-                                    "p = {:.2g}; law p = {:.2g}{}",
+        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; law p = {:.2g}{}",
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
-                                    statistics.p_value, statistics.probability, statistics.left_p_value,
-                                    ensemble.law_p_value, statistics.contrasts ? ", contrasts alone" : ""));
+                                    statistics.p_value, statistics.probability, ensemble.law_p_value,
+                                    statistics.contrasts ? ", contrasts alone" : ""));
     return lines;
 }
 

@@ -22,8 +22,7 @@
 ///      name, which no cause of another kind explains, makes the verdict 'unexplained'. So does one in the place of all
 ///      causes, where a cause of a size that no specimen may have explains the forces clearly better than each of a
 ///      possible size. So does one whose score is far beyond healthy campaigns', that explains much more of the balance
-///      of forces than any cause, and not by one run alone; and, where forces name nothing, what the best cause leaves
-///      of the statistics, beyond 99 % of healthy and of labelled campaigns.
+///      of forces than any cause, and not by one run alone.
 
 #include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
 #include "studies/measured/diagnosis/evidence/balance_evidence.hpp"

@@ -138,11 +138,6 @@ public:
         }
         return out;
     }
-    /// Squared distance of what is left beside the best cause.
-    double left(const Eigen::VectorXd& residual, const CauseLikelihood& cause, Eigen::Index model) const
-    {
-        return likelihood_->distance2(residual - models_[static_cast<std::size_t>(model)].mean(cause.size));
-    }
 
 private:
     /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
@@ -172,14 +167,13 @@ private:
 
 /// What the campaigns that were left out of a fit were taken for.
 struct LeftOut {
-    std::vector<double> null_gains, null_left, null_weights;
+    std::vector<double> null_gains, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::vector<CalibratedProbability::Case>
         near;                ///< lead of the best and its nearest rivals together, and whether right
     std::vector<bool> right; ///< (labelled) named, with the right mechanism
     std::map<std::pair<int, int>, double> taken; ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;           ///< mechanism: in all
-    std::vector<double> labelled_left;           ///< distance beside the best cause
     std::vector<double> second_gains;            ///< of the best other mechanism, with the best cause given
 };
 
@@ -188,11 +182,8 @@ void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, L
     for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i) {
         if (evidence.null_fold[static_cast<std::size_t>(i)] != fold)
             continue;
-        const Eigen::VectorXd residual = fit.residual(evidence.nulls, i);
-        const auto found = fit.likelihood().of(residual);
-        const Eigen::Index best = largest(found);
-        out.null_gains.push_back(found[static_cast<std::size_t>(best)].gain);
-        out.null_left.push_back(fit.left(residual, found[static_cast<std::size_t>(best)], best));
+        const auto found = fit.likelihood().of(fit.residual(evidence.nulls, i));
+        out.null_gains.push_back(found[static_cast<std::size_t>(largest(found))].gain);
         out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
     }
 }
@@ -220,7 +211,6 @@ void look_at_labelled(const EnsembleEvidence& evidence, const EnsembleRule& rule
         out.near.push_back({fit.lead(found, near), near.contains(truth)});
         out.taken[{truth, fit.mechanism(best)}] += 1;
         out.labelled_of[truth] += 1;
-        out.labelled_left.push_back(fit.left(residual, cause, best));
         if (const Fit::Second second = fit.second(residual, cause, best); second.model >= 0)
             out.second_gains.push_back(second.cause.gain);
     }
@@ -312,17 +302,6 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
             out.set.push_back(other);
     }
 
-    // what is left is compared with both: healthy campaigns beside the cause that suits them best, and labelled ones
-    const double left = fit.left(out.residual, cause, best);
-    const auto exceeds = [&](const std::vector<double>& others, const std::vector<double>& weights) {
-        const double p = conformal_p_value(others, left, weights);
-        out.left_p_value = std::max(out.left_p_value, p);
-        return p <= std::max(rule.unexplained, 1 / (1 + static_cast<double>(others.size())));
-    };
-    out.left_p_value = 0;
-    const bool beyond_nulls = exceeds(left_out.null_left, left_out.null_weights),
-               beyond_labelled = exceeds(left_out.labelled_left, {});
-    out.unexplained = beyond_nulls && beyond_labelled;
     return out;
 }
 

@@ -15,13 +15,12 @@ namespace stylobate {
 
 /// The fixed numbers of the rule.
 struct EnsembleRule {
-    double named = 0.015;      ///< largest p-value at which a cause is named
-    double force = 0.0075;     ///< largest p-value at which a force of no known kind is named
-    double outside = 0.01;     ///< p-value of the law below which it is outside the family
-    double apart = 3;          ///< nats within which rivals are in the set with the best
-    int rivals = 2;            ///< most of them that are named with the best: more would be no answer
-    double confused = 0.2;     ///< share of a rival's left-out campaigns that are called by the best's name
-    double unexplained = 0.01; ///< p-value of what is left beside the best cause
+    double named = 0.015;  ///< largest p-value at which a cause is named
+    double force = 0.0075; ///< largest p-value at which a force of no known kind is named
+    double outside = 0.01; ///< p-value of the law below which it is outside the family
+    double apart = 3;      ///< nats within which rivals are in the set with the best
+    int rivals = 2;        ///< most of them that are named with the best: more would be no answer
+    double confused = 0.2; ///< share of a rival's left-out campaigns that are called by the best's name
 };
 
 struct LabelledCampaigns {
@@ -58,10 +57,8 @@ struct EnsembleVerdict {
     std::vector<int> set;       ///< mechanisms that these data do not distinguish from the best, the likeliest first
     double set_probability = 0; ///< that the best or one of the first `EnsembleRule::rivals` of the set is right
     bool contrasts = false;     ///< the law is outside the family: only contrasts between joints were used
-    double left_p_value = 1;    ///< of what is left beside the best cause
-    bool unexplained = false;
-    Eigen::VectorXd residual;                     ///< (used) of the measured campaign, decorrelated
-    Eigen::VectorXd shift;                        ///< (used) what the best cause makes of it
+    Eigen::VectorXd residual;   ///< (used) of the measured campaign, decorrelated
+    Eigen::VectorXd shift;      ///< (used) what the best cause makes of it
     std::vector<Eigen::Index> used;               ///< columns of the statistics
     std::vector<double> null_gains, null_weights; ///< largest gains of healthy campaigns, each left out
     std::vector<bool> labelled_right;             ///< (labelled) named with the right mechanism, left out

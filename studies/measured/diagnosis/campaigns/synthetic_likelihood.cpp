@@ -118,11 +118,6 @@ std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& resi
     return out;
 }
 
-double SyntheticLikelihood::distance2(const Eigen::VectorXd& residual) const
-{
-    return ((axes_.transpose() * residual).array().square() / variances_.array()).sum();
-}
-
 namespace {
 
 // Of chi-squared with one or two degrees of freedom: from no shrinkage to what is left of strong signals alone.

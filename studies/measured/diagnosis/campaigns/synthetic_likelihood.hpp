@@ -67,9 +67,6 @@ public:
     /// @returns one for each cause
     std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual, const Eigen::VectorXd& given = {}) const;
 
-    /// Squared Mahalanobis distance of the campaign.
-    double distance2(const Eigen::VectorXd& residual) const;
-
 private:
     /// One size of one cause. Its covariance is that of healthy campaigns with more on the diagonal: both have the same
     /// principal axes, along which all is counted.

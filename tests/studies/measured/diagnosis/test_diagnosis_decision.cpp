@@ -55,10 +55,6 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     v.p_value = conformal_p_value(v.null_gains, friction, v.null_weights);
     v.named = v.p_value <= EnsembleRule{}.named;
     v.probability = v.set_probability = 0.8;
-    v.residual = Eigen::Vector3d(0.5, -4, 1);
-    v.shift = Eigen::Vector3d(0.5, 0, 0);
-    v.used = {0, 1, 2};
-    e.evidence = {{"slip_path", 0}, {"rotation_path", 1}, {"open_time", 2}};
     e.scored.structures = {{1, "x", "velocity", "a sideways force"}};
     e.forces.nulls.assign(100, 0.5);
     return e;
@@ -336,20 +332,6 @@ TEST(Decision, ForcesOfNoKnownKindAreUnexplained)
     auto usual = with_force(5, {20, 20, 20});
     usual.second.forces.p_value = 0.05;
     EXPECT_EQ(verdict(usual), Verdict::none);
-}
-
-TEST(Decision, WhatTheBestCauseLeavesIsUnexplained)
-{
-    EnsembleDiagnosis e = ensemble_of(30, 1, 1);
-    e.by_statistics.unexplained = true;
-    e.by_statistics.left_p_value = 0.004;
-    const Decided decided = decide({}, {}, &e, {});
-    EXPECT_EQ(decided.verdict, Verdict::unexplained);
-    EXPECT_TRUE(decided.named.empty());
-    ASSERT_TRUE(decided.unexplained);
-    EXPECT_EQ(decided.unexplained->structure.depends_on, "rotation_path") << "what stands out most";
-    EXPECT_EQ(decided.unexplained->structure.block, 1);
-    EXPECT_EQ(decided.unexplained_chance, 0.004);
 }
 
 /// Forces that are beyond healthy campaigns, and what explains them.

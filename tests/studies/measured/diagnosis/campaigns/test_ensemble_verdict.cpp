@@ -55,16 +55,14 @@ protected:
 
 TEST_F(EnsembleVerdictStatistics, HealthyCampaignsAreSeldomNamed)
 {
-    int named = 0, unexplained = 0;
+    int named = 0;
     const int n = 120;
     for (int i = 0; i < n; ++i) {
         const Eigen::VectorXd law = world_.law();
         const EnsembleVerdict verdict = judge(law, world_.campaign(law, -1, 0));
         named += verdict.named ? 1 : 0;
-        unexplained += verdict.unexplained ? 1 : 0;
     }
     EXPECT_LE(named, 6) << "0.9 of 120 are expected";
-    EXPECT_LE(unexplained, 7) << "1.2 are expected";
 }
 
 /// Who knows law, covariance and shifts: the largest likelihood ratio over causes and sizes, by least squares.
@@ -159,38 +157,6 @@ TEST_F(EnsembleVerdictStatistics, TwoCausesAreBothNamed)
     }
     EXPECT_GE(both, 12);
     EXPECT_LE(one_too_many, 3);
-}
-
-TEST_F(EnsembleVerdictStatistics, AShiftOfNoCauseIsUnexplained)
-{
-    int unexplained = 0;
-    for (int i = 0; i < 20; ++i) {
-        const Eigen::VectorXd law = world_.law();
-        Eigen::VectorXd campaign = world_.campaign(law, -1, 0);
-        for (int k = 0; k < 8; ++k)
-            campaign(5 * k + 3) += (k % 2 ? -1 : 1) * 8; // where no cause shifts anything
-        unexplained += judge(law, campaign).unexplained ? 1 : 0;
-    }
-    EXPECT_GE(unexplained, 16);
-}
-
-TEST_F(EnsembleVerdictStatistics, ALawOutsideTheFamilyNamesNothingByItself)
-{
-    int named = 0, contrasts = 0, right = 0;
-    for (int i = 0; i < 20; ++i) {
-        const Eigen::VectorXd law = Eigen::VectorXd::Constant(descriptors, 4.5);
-        // what this law does to all joints is not what the family's does there
-        Eigen::VectorXd campaign = world_.campaign(law, i < 10 ? -1 : i % causes, 1);
-        for (int j = 0; j < statistics; ++j)
-            campaign(j) += (j % 5 - 2) * 2;
-        evidence_.law_p_value = 0.003;
-        const EnsembleVerdict verdict = judge(law, campaign);
-        contrasts += verdict.contrasts ? 1 : 0;
-        (i < 10 ? named : right) += verdict.named && (i < 10 || verdict.best == i % causes) ? 1 : 0;
-    }
-    EXPECT_EQ(contrasts, 20);
-    EXPECT_LE(named, 3);
-    EXPECT_GE(right, 5) << "contrasts between joints remain";
 }
 
 } // namespace

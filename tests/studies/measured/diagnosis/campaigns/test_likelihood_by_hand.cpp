@@ -173,7 +173,6 @@ TEST(SyntheticLikelihoodByHand, IsTheMeanOverTheSizesOfStudentsDensity)
     const CauseLikelihood given =
         likelihood.of(Eigen::VectorXd::Constant(1, seen), Eigen::VectorXd::Constant(1, 3)).front();
     EXPECT_NEAR(given.gain, likelihood.of(Eigen::VectorXd::Constant(1, 1)).front().gain, 1e-12);
-    EXPECT_NEAR(likelihood.distance2(Eigen::VectorXd::Constant(1, seen)), 16, 1e-12);
 }
 
 TEST(ForceTestByHand, AScoreIsInUnitsOfTheNineTenthsOfHealthyCampaigns)
