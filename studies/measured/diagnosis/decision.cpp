@@ -40,7 +40,7 @@ std::size_t places_tested(const DirectResult& direct, const std::string& name)
                                         std::count_if(direct.sensor_tests.begin(), direct.sensor_tests.end(), at)));
 }
 
-/// What the direct tests of base and sensors found is named (rule 1).
+/// What the direct tests of base and sensors found is named.
 std::vector<JudgedCause> named_directly(const DirectResult& direct)
 {
     std::vector<JudgedCause> named;
@@ -185,8 +185,8 @@ bool may_be_named(const BalanceEvidence& balance, const EnsembleVerdict& verdict
     return best.considered;
 }
 
-/// Rules 2 to 4: all candidates are listed, the likeliest first; the best one, its rivals and a second cause are
-/// considered if they may be named. A tie is never named: it stands for what is not in the list.
+/// By the statistics: all candidates are listed, the likeliest first; the best one and its rivals are considered if
+/// they may be named. A tie is never named: it stands for what is not in the list.
 void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, Decided& out)
 {
     const EnsembleVerdict& verdict = ensemble.by_statistics;
@@ -226,18 +226,6 @@ void judge_statistics(const BalanceEvidence& balance, const EnsembleDiagnosis& e
     }
     take_size_of_forces(balance, best);
     out.named.push_back(best);
-    if (verdict.second < 0 || stands_for_unknown(ensemble.causes[static_cast<std::size_t>(verdict.second)].cause))
-        return;
-    JudgedCause second = judged(ensemble, static_cast<std::size_t>(verdict.second), verdict.second_likelihood);
-    if (more_friction_without_forces(balance, second.fit))
-        return;
-    second.considered = true;
-    second.chance = verdict.second_p_value;
-    second.probability = std::min(verdict.probability, 1 - verdict.second_p_value);
-    std::erase_if(out.in_set,
-                  [&](const JudgedCause& j) { return j.fit.cause.mechanism == second.fit.cause.mechanism; });
-    take_size_of_forces(balance, second);
-    out.named.push_back(std::move(second));
 }
 
 std::vector<Cause> named_by_statistics(const Decided& decided)
@@ -298,7 +286,7 @@ void add_rivals(std::vector<JudgedCause> rivals, double named, std::vector<Judge
     }
 }
 
-/// What the forces name beside what the statistics do (rule 4).
+/// What the forces name beside what the statistics do.
 void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble, const DecisionRule& rule,
                   Decided& out)
 {
@@ -333,7 +321,7 @@ void judge_forces(const NamedByForces& forces, const EnsembleDiagnosis& ensemble
     add_rivals(std::move(by_forces), most, out.in_set);
 }
 
-/// Rule 5.
+/// What acts and is no cause of the list.
 void find_unexplained(const BalanceEvidence& balance, const EnsembleDiagnosis& ensemble, const NamedByForces& forces,
                       const DecisionRule& rule, Decided& out)
 {

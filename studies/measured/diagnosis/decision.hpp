@@ -1,28 +1,25 @@
 #pragma once
-/// From evidence to a verdict. The rule stands here, was fixed before it was assessed, and is explained in
-/// `docs/diagnosis.md`:
+/// From evidence to a verdict. The rule is explained in `docs/diagnosis.md`. Four tests, each of one number against
+/// what chance gives; what passes its test is named:
 ///
-///   1  What a direct test of base or sensors finds is named: its thresholds are its rule. If it is something that the
-///      simulated campaigns cannot contain, joints and blocks are not judged.
-///   2  The largest gain of the campaign's statistics over all simulated causes is one number. Its p-value is its rank
-///      among healthy simulated campaigns whose laws are like the measured one. The cause is named at
-///      `EnsembleRule::named` or less.
-///   3  Its probability is calibrated on simulated campaigns with a known cause. Others that explain nearly as much are
-///      in the set with it. If neither the cause nor the set of it and its two nearest rivals is right with a
-///      probability of one half, nothing is named: the cause is called possible. More friction of a joint is named
-///      only where the balance of forces sees it, too.
-///   4  A second cause is judged with the first one given.
-///      The balance of forces is a test of its own (`named_by_forces.cpp`), which other contact laws move little. Where
-///      it names what the statistics name too, place and size are its own. Where it alone names something, that is
-///      named; the statistics choose between causes that explain its forces about as well. Where the statistics name
-///      another cause, both are in the set.
-///      Simulated ties of a block to the base compete with the causes and stand for forces of no known kind: where one
-///      would be named, the verdict is 'unexplained'.
-///   5  A force of no known kind beside the cause that the balance of forces would name and those that the statistics
-///      name, which no cause of another kind explains, makes the verdict 'unexplained'. So does one in the place of all
-///      causes, where a cause of a size that no specimen may have explains the forces clearly better than each of a
-///      possible size. So does one whose score is far beyond healthy campaigns', that explains much more of the balance
-///      of forces than any cause, and not by one run alone.
+///   direct      What a test of base or sensors finds is named: its thresholds are its rule. If it is something that
+///               simulated campaigns cannot contain, the other tests are not made.
+///   statistics  The largest gain of the campaign's statistics over all simulated causes, ranked among healthy
+///               simulated campaigns (`EnsembleRule::named`). Its probability is calibrated on simulated campaigns with
+///               a known cause; others that explain nearly as much are in the set with it. Where neither the cause nor
+///               the set is right with a probability of one half, it is called possible. More friction of a joint is
+///               named only where the balance of forces sees it, too.
+///   forces      The largest score of the balance of forces over all causes, ranked likewise (`named_by_forces.cpp`).
+///               The cause must explain the forces by `DecisionRule::clear`; the statistics choose between causes that
+///               explain them about as well. Other contact laws move this test little.
+///   no cause    What acts and is no cause of the list makes the verdict 'unexplained': a simulated tie of a block to
+///               the base, where it would be named; a force of no known kind beside all that forces and statistics
+///               name, which no cause of another kind explains; one where a cause of a size that no specimen may have
+///               explains the forces clearly better than each of a possible size; one whose score is far beyond healthy
+///               campaigns', that explains much more of the balance of forces than any cause, and not by one run alone.
+///
+/// Where statistics and forces name the same mechanism, place and size are those of the forces. Where they name two,
+/// that of the statistics is named and both are in the set.
 
 #include "studies/measured/diagnosis/campaigns/ensemble_diagnosis.hpp"
 #include "studies/measured/diagnosis/evidence/balance_evidence.hpp"

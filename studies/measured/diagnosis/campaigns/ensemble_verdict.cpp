@@ -15,9 +15,6 @@ namespace {
 
 /// Fewer labelled campaigns than these do not show a shift.
 constexpr Eigen::Index least_labelled = 3;
-/// Of a second cause, where few labelled campaigns are named.
-constexpr double most_second_p = 0.05;
-
 Eigen::Index largest(const std::vector<CauseLikelihood>& causes)
 {
     const auto at =
@@ -122,22 +119,6 @@ public:
                 out.insert(mechanism);
         return out;
     }
-    struct Second {
-        Eigen::Index model = -1; ///< -1: there is no other mechanism
-        CauseLikelihood cause;
-    };
-    /// The best cause of another mechanism, with the best one given.
-    Second second(const Eigen::VectorXd& residual, const CauseLikelihood& best, Eigen::Index model) const
-    {
-        const auto found = likelihood_->of(residual, models_[static_cast<std::size_t>(model)].mean(best.size));
-        Second out;
-        for (Eigen::Index m = 0; m < static_cast<Eigen::Index>(found.size()); ++m) {
-            const CauseLikelihood& cause = found[static_cast<std::size_t>(m)];
-            if (mechanism(m) != mechanism(model) && (out.model < 0 || cause.gain > out.cause.gain))
-                out = {m, cause};
-        }
-        return out;
-    }
 
 private:
     /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
@@ -174,7 +155,6 @@ struct LeftOut {
     std::vector<bool> right; ///< (labelled) named, with the right mechanism
     std::map<std::pair<int, int>, double> taken; ///< (true mechanism, named mechanism)
     std::map<int, double> labelled_of;           ///< mechanism: in all
-    std::vector<double> second_gains;            ///< of the best other mechanism, with the best cause given
 };
 
 void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, LeftOut& out)
@@ -211,24 +191,7 @@ void look_at_labelled(const EnsembleEvidence& evidence, const EnsembleRule& rule
         out.near.push_back({fit.lead(found, near), near.contains(truth)});
         out.taken[{truth, fit.mechanism(best)}] += 1;
         out.labelled_of[truth] += 1;
-        if (const Fit::Second second = fit.second(residual, cause, best); second.model >= 0)
-            out.second_gains.push_back(second.cause.gain);
     }
-}
-
-/// A second cause beside the best one.
-void find_second(const Fit& fit, Eigen::Index best, const LeftOut& left_out, const EnsembleRule& rule,
-                 EnsembleVerdict& out)
-{
-    const Fit::Second second = fit.second(out.residual, out.causes[static_cast<std::size_t>(out.best)], best);
-    if (second.model < 0)
-        return;
-    out.second_likelihood = second.cause;
-    out.second_p_value = conformal_p_value(left_out.second_gains, second.cause.gain);
-    // fewer labelled campaigns than it takes for the p-value: beyond all of them
-    const double least = 1 / (1 + static_cast<double>(left_out.second_gains.size()));
-    if (out.second_p_value <= std::max(rule.named, std::min(least, most_second_p)))
-        out.second = fit.causes()[static_cast<std::size_t>(second.model)];
 }
 
 std::vector<bool> finite(const Eigen::VectorXd& values)
@@ -286,9 +249,6 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     out.set_probability =
         std::max(out.probability, CalibratedProbability(left_out.near)(fit.lead(found, fit.nearest(found, rule))));
     out.labelled_right = left_out.right;
-
-    if (out.named)
-        find_second(fit, best, left_out, rule, out);
 
     const int mechanism = fit.mechanism(best);
     for (const auto& [gain, other] : fit.ranking(found)) {

@@ -49,11 +49,7 @@ struct EnsembleVerdict {
     int best = -1;                       ///< the candidate of the largest gain; -1: none can be judged
     double p_value = 1;                  ///< of that gain where nothing is hidden
     bool named = false;
-    double probability = 0; ///< that the mechanism named is right
-    /// A second cause of another mechanism, judged with the best one given; -1: none is named.
-    int second = -1;
-    CauseLikelihood second_likelihood;
-    double second_p_value = 1;  ///< among labelled campaigns, in which there is one cause alone
+    double probability = 0;     ///< that the mechanism named is right
     std::vector<int> set;       ///< mechanisms that these data do not distinguish from the best, the likeliest first
     double set_probability = 0; ///< that the best or one of the first `EnsembleRule::rivals` of the set is right
     bool contrasts = false;     ///< the law is outside the family: only contrasts between joints were used

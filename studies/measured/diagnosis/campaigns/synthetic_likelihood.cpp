@@ -87,10 +87,9 @@ double SyntheticLikelihood::log_density(double variance, double log_determinant,
     return student_kernel(distance, static_cast<double>(along.size()), freedom_) - log_determinant;
 }
 
-std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual,
-                                                     const Eigen::VectorXd& given) const
+std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual) const
 {
-    const Eigen::VectorXd left = axes_.transpose() * (given.size() > 0 ? Eigen::VectorXd(residual - given) : residual);
+    const Eigen::VectorXd left = axes_.transpose() * residual;
     const double nothing = log_density(0, log_determinant_, left);
     std::vector<CauseLikelihood> out;
     for (const std::vector<Point>& points : points_) {

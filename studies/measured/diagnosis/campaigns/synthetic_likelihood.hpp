@@ -63,9 +63,9 @@ public:
     SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
                         const Eigen::MatrixXd& common = {});
 
-    /// @param residual (used) of the campaign   @param given a shift that is known to be there; empty: none
+    /// @param residual (used) of the campaign
     /// @returns one for each cause
-    std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual, const Eigen::VectorXd& given = {}) const;
+    std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual) const;
 
 private:
     /// One size of one cause. Its covariance is that of healthy campaigns with more on the diagonal: both have the same

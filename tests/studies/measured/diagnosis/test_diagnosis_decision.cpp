@@ -211,13 +211,11 @@ TEST(Decision, ATieIsNeverNamedButStandsForAForceOfNoKnownKind)
     EXPECT_EQ(decide({}, {}, &e, {}).verdict, Verdict::none);
 }
 
-TEST(Decision, ATieBesideACauseIsInItsSetAndNoSecondCause)
+TEST(Decision, ATieBesideACauseIsInItsSet)
 {
     EnsembleDiagnosis e = with_tie_first(28, 30);
     e.by_statistics.best = 1;
     e.by_statistics.set = {0};
-    e.by_statistics.second = 0;
-    e.by_statistics.second_p_value = 0.01;
     const Decided decided = decide({}, {}, &e, {});
     EXPECT_EQ(decided.verdict, Verdict::named);
     EXPECT_EQ(names(decided.named), Names{"drag"});
@@ -284,29 +282,6 @@ TEST(Decision, WhatExplainsAlikeIsInTheSetWithWhatRemains)
     ASSERT_EQ(names(decided.in_set), (Names{"drag", "dowel"}));
     EXPECT_NEAR(decided.in_set[0].probability.value() + decided.in_set[1].probability.value(), 0.2, 1e-12);
     EXPECT_NEAR(decided.in_set[0].probability.value() / decided.in_set[1].probability.value(), std::exp(1), 1e-9);
-}
-
-TEST(Decision, ASecondCauseStandsBehindTheFirst)
-{
-    EnsembleDiagnosis e = ensemble_of(30, 29, 5);
-    e.by_statistics.set = {1};
-    e.by_statistics.second = 1;
-    e.by_statistics.second_likelihood = {12, 0.5, 0.2, 0.8};
-    e.by_statistics.second_p_value = 0.01;
-    const Decided decided = decide({}, {}, &e, {});
-    EXPECT_EQ(names(decided.named), (Names{"joint_friction", "drag"}));
-    EXPECT_TRUE(decided.in_set.empty()) << "what stands by itself is no rival";
-    EXPECT_LE(decided.named[1].probability.value(), decided.named[0].probability.value());
-    EXPECT_EQ(decided.named[1].chance, 0.01);
-    // a second cause that is less sure leaves nothing more to the first one's rivals
-    e.by_statistics.set = {2};
-    e.by_statistics.probability = 0.6;
-    e.by_statistics.set_probability = 0.7;
-    e.by_statistics.second_p_value = 0.6;
-    const Decided unsure = decide({}, {}, &e, {});
-    EXPECT_NEAR(unsure.named[1].probability.value(), 0.4, 1e-12);
-    ASSERT_EQ(names(unsure.in_set), Names{"dowel"});
-    EXPECT_NEAR(unsure.in_set.front().probability.value(), 0.1, 1e-12);
 }
 
 TEST(Decision, ForcesOfNoKnownKindAreUnexplained)

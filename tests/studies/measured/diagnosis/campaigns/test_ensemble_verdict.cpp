@@ -145,19 +145,5 @@ TEST_F(EnsembleVerdictStatistics, PowerIsTheShareThatIsNamed)
     EXPECT_EQ(verdict.null_gains.size(), 300U) << "each is left out once";
 }
 
-TEST_F(EnsembleVerdictStatistics, TwoCausesAreBothNamed)
-{
-    int both = 0, one_too_many = 0;
-    for (int i = 0; i < 20; ++i) {
-        const Eigen::VectorXd law = world_.law();
-        const Eigen::VectorXd one = world_.campaign(law, 1, 1);
-        const EnsembleVerdict two = judge(law, one + world_.shift(6));
-        both += two.named && two.second >= 0 && two.best + two.second == 7 && two.best * two.second == 6 ? 1 : 0;
-        one_too_many += judge(law, one).second >= 0 ? 1 : 0;
-    }
-    EXPECT_GE(both, 12);
-    EXPECT_LE(one_too_many, 3);
-}
-
 } // namespace
 } // namespace stylobate

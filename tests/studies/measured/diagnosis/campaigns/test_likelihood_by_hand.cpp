@@ -169,10 +169,6 @@ TEST(SyntheticLikelihoodByHand, IsTheMeanOverTheSizesOfStudentsDensity)
     };
     EXPECT_NEAR(below(found.low), 0.05, 1e-9);
     EXPECT_NEAR(below(found.high), 0.95, 1e-9);
-    // with a shift of 3 given, what is left is 1
-    const CauseLikelihood given =
-        likelihood.of(Eigen::VectorXd::Constant(1, seen), Eigen::VectorXd::Constant(1, 3)).front();
-    EXPECT_NEAR(given.gain, likelihood.of(Eigen::VectorXd::Constant(1, 1)).front().gain, 1e-12);
 }
 
 TEST(ForceTestByHand, AScoreIsInUnitsOfTheNineTenthsOfHealthyCampaigns)

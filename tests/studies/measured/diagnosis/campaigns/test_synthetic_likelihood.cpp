@@ -174,27 +174,6 @@ TEST(SyntheticLikelihoodStatistics, NamesThePlantedCauseWithItsSize)
     EXPECT_LE(inside, 0.98 * named);
 }
 
-TEST(SyntheticLikelihoodStatistics, FindsASecondCauseBesideAGivenOne)
-{
-    World world(8);
-    const LawAdjustment adjustment(world.nulls(300), Eigen::VectorXd::Ones(300), all_wanted);
-    const std::vector<ShiftModel> models = world.learnt(adjustment);
-    const SyntheticLikelihood likelihood(adjustment, models);
-    int right = 0;
-    for (int i = 0; i < 50; ++i) {
-        const Eigen::VectorXd law = world.law();
-        const Eigen::VectorXd both = world.campaign(law, 2, 0.8) + 0.8 * world.shift(5);
-        const auto found = likelihood.of(seen(adjustment, law, both), models[2].mean(0.8));
-        right +=
-            std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; }) -
-                        found.begin() ==
-                    5
-                ? 1
-                : 0;
-    }
-    EXPECT_GE(right, 40);
-}
-
 TEST(SyntheticLikelihoodStatistics, PValuesOfNullsAreUniform)
 {
     World world(9);
