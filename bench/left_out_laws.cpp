@@ -79,10 +79,10 @@ int main(int argc, char** argv)
                like.specimen.blocks(), campaigns, seed);
     fmt::print(
         "| left out | campaigns | named | unexplained | p of unknown forces at most 0.1 | p of the statistics at most "
-        "0.1 | seconds a diagnosis |\n|---|---:|---:|---:|---:|---:|---:|\n");
+        "0.1 | law outside | seconds a diagnosis |\n|---|---:|---:|---:|---:|---:|---:|---:|\n");
     std::uint64_t number = 0;
     for (const Part& part : parts_of({})) {
-        int named = 0, unexplained = 0, forces = 0, statistics = 0;
+        int named = 0, unexplained = 0, forces = 0, statistics = 0, outside = 0;
         const auto begin = std::chrono::steady_clock::now();
         for (std::uint64_t i = 0; i < campaigns; ++i) {
             std::vector<std::vector<double>> base_m;
@@ -97,13 +97,14 @@ int main(int argc, char** argv)
             unexplained += decided.verdict == Verdict::unexplained ? 1 : 0;
             forces += found.forces.p_value <= 0.1 ? 1 : 0;
             statistics += found.by_statistics.p_value <= 0.1 ? 1 : 0;
+            outside += found.by_statistics.contrasts ? 1 : 0;
             for (const JudgedCause& j : decided.named)
                 fmt::print(stderr, "{}: {}, probability {:.2f}\n", part.name, j.fit.cause.label(),
                            j.probability.value_or(0));
         }
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        fmt::print("| {} | {} | {} | {} | {} | {} | {:.0f} |\n", part.name, campaigns, named, unexplained, forces,
-                   statistics, passed.count() / static_cast<double>(campaigns));
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.0f} |\n", part.name, campaigns, named, unexplained, forces,
+                   statistics, outside, passed.count() / static_cast<double>(campaigns));
         std::fflush(stdout);
     }
     return 0;

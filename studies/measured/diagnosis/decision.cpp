@@ -67,7 +67,7 @@ JudgedCause judged(const EnsembleDiagnosis& ensemble, std::size_t candidate, con
     j.fit.sd = std::fabs(cause.size_of(found.high) - cause.size_of(found.low)) / (2 * half_width90);
     j.fit.gain = std::max(found.gain, 0.0);
     j.chance95 = quantile95(verdict.null_gains);
-    j.chance = conformal_p_value(verdict.null_gains, found.gain);
+    j.chance = conformal_p_value(verdict.null_gains, found.gain, verdict.null_weights);
     return j;
 }
 
@@ -385,9 +385,10 @@ std::vector<std::string> tests_in_words(const EnsembleDiagnosis& ensemble)
                                     forces.p_value, nats_of_score(forces.score)));
     const EnsembleVerdict& statistics = ensemble.by_statistics;
     if (statistics.best >= 0)
-        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}",
+        lines.push_back(fmt::format("statistics of the campaign: {}, p = {:.2g}, probability {:.2f}; law p = {:.2g}{}",
                                     ensemble.causes[static_cast<std::size_t>(statistics.best)].cause.label(),
-                                    statistics.p_value, statistics.probability));
+                                    statistics.p_value, statistics.probability, ensemble.law_p_value,
+                                    statistics.contrasts ? ", contrasts alone" : ""));
     return lines;
 }
 

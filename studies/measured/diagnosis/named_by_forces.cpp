@@ -70,7 +70,7 @@ std::optional<StructureFit> beyond_healthy(const std::vector<StructureFit>& fits
                                      [&](const Structure& s) { return s.text == fit.structure.text; });
         const double score =
             in_units(fit.gain, unlisted.unit[static_cast<std::size_t>(at - scored.structures.begin())]);
-        if (conformal_p_value(unlisted.nulls, score) <= EnsembleRule{}.force &&
+        if (conformal_p_value(unlisted.nulls, score, unlisted.likeness) <= EnsembleRule{}.force &&
             not_by_one_run(fit.gain, fit.gain_by_run, rule.without_best))
             return fit;
     }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -231,7 +232,8 @@ bool Pipeline::simulate_campaigns()
     count_ += ensemble_->ensemble.cost;
     if (!ensemble_->ensemble.complete)
         return false;
-    const double least_p = 1 / (1 + static_cast<double>(ensemble_->by_statistics.null_gains.size()));
+    const std::vector<double>& likeness = ensemble_->by_statistics.null_weights;
+    const double least_p = 1 / (1 + std::accumulate(likeness.begin(), likeness.end(), 0.0));
     if (least_p > EnsembleRule{}.named)
         add_missing(
             d_, "joints and blocks",

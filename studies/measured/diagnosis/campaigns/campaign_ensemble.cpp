@@ -4,6 +4,7 @@
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
+#include "studies/measured/diagnosis/campaigns/conformal.hpp"
 #include "studies/measured/diagnosis/campaigns/evidence_rows.hpp"
 #include "studies/measured/diagnosis/campaigns/number_rows.hpp"
 #include "studies/measured/diagnosis/campaigns/proposals.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 
@@ -27,14 +29,31 @@ namespace {
 constexpr double far = 10;             // a larger distance of one number counts as this one
 constexpr std::size_t least_pairs = 6; // that have a number
 
+std::vector<double> with_descriptors(const CampaignStatistics& campaign, const std::vector<double>& others)
+{
+    std::vector<double> numbers = campaign.descriptors;
+    numbers.insert(numbers.end(), others.begin(), others.end());
+    return numbers;
+}
+
+double nearest_mean(std::vector<double> distances, std::size_t count)
+{
+    std::sort(distances.begin(), distances.end());
+    distances.resize(std::min(distances.size(), count));
+    return std::accumulate(distances.begin(), distances.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(distances.size(), 1));
+}
+
 } // namespace
+
+std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign)
+{
+    return with_descriptors(campaign, medians(over_joints(labels), campaign.values));
+}
 
 std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign)
 {
-    std::vector<double> numbers = campaign.descriptors;
-    const std::vector<double> of_joints = means(over_motions(labels), campaign.values);
-    numbers.insert(numbers.end(), of_joints.begin(), of_joints.end());
-    return numbers;
+    return with_descriptors(campaign, means(over_motions(labels), campaign.values));
 }
 
 LawLikeness::LawLikeness(const std::vector<std::pair<std::vector<double>, std::vector<double>>>& pairs, double kept)
@@ -68,6 +87,36 @@ double LawLikeness::distance(const std::vector<double>& of, const std::vector<do
     for (const double square : squares)
         sum += square;
     return std::sqrt(sum / static_cast<double>(squares.size()));
+}
+
+double isolation(const LawLikeness& likeness, const std::vector<double>& of,
+                 const std::vector<std::vector<double>>& others, std::size_t neighbours)
+{
+    std::vector<double> distance;
+    for (const std::vector<double>& other : others)
+        distance.push_back(likeness.distance(of, other));
+    return nearest_mean(std::move(distance), neighbours);
+}
+
+std::vector<double> isolations(const LawLikeness& likeness, const std::vector<std::vector<double>>& campaigns,
+                               std::size_t neighbours)
+{
+    std::vector<double> out;
+    for (std::size_t own = 0; own < campaigns.size(); ++own) {
+        std::vector<double> distance;
+        for (std::size_t i = 0; i < campaigns.size(); ++i)
+            if (i != own)
+                distance.push_back(likeness.distance(campaigns[own], campaigns[i]));
+        out.push_back(nearest_mean(std::move(distance), neighbours));
+    }
+    return out;
+}
+
+double isolation_p_value(const LawLikeness& likeness, const std::vector<std::vector<double>>& nulls,
+                         const std::vector<double>& law)
+{
+    constexpr std::size_t neighbours = 12;
+    return conformal_p_value(isolations(likeness, nulls, neighbours), isolation(likeness, law, nulls, neighbours));
 }
 
 namespace {
@@ -231,6 +280,15 @@ void refuse_foreign_cache(const std::filesystem::path& cache)
                          "another output.");
 }
 
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
+                        double kept)
+{
+    std::vector<std::pair<std::vector<double>, std::vector<double>>> pairs;
+    for (std::uint64_t i = 0; i < plan.pairs; ++i)
+        pairs.emplace_back(numbers(rows[i]), numbers(rows[plan.wide + i]));
+    return {pairs, kept};
+}
+
 CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
                                    const std::vector<CandidateCause>& causes, const std::vector<SizedCause>& known,
                                    const EnsemblePlan& plan, const SimulatedCampaign& shown,
@@ -304,6 +362,7 @@ CampaignEnsemble simulate_ensemble(const Campaign& measured, const Study& study,
     }
     if (options.ranks)
         add_costs(*options.ranks, out);
+    out.distance = proposals.law_distances(out.campaigns);
     out.complete = true;
     return out;
 }

@@ -17,6 +17,10 @@
 
 namespace stylobate {
 
+/// Numbers of a campaign that show its law and hardly a cause: its descriptors, and the median over the joints of each
+/// kind of statistic.
+std::vector<double> law_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign);
+
 /// Its descriptors, and each kind of statistic of each joint, mean over the motions. A healthy law that makes a joint
 /// behave as a cause would is no reason to name the cause: laws like the measured one are found by these numbers.
 std::vector<double> joint_numbers(const std::vector<StatisticLabel>& labels, const CampaignStatistics& campaign);
@@ -36,6 +40,18 @@ private:
     double kept_;
     std::vector<double> scatter_; ///< 0: not known, or none
 };
+
+/// Mean distance of a campaign from its nearest neighbours among others.
+double isolation(const LawLikeness& likeness, const std::vector<double>& of,
+                 const std::vector<std::vector<double>>& others, std::size_t neighbours);
+/// (campaigns) of each among all others.
+std::vector<double> isolations(const LawLikeness& likeness, const std::vector<std::vector<double>>& campaigns,
+                               std::size_t neighbours);
+
+/// Rank of a law among healthy ones by how far it is from its nearest neighbours: a law that the family does not have
+/// is by itself. Conformal: uniform, or larger, where it is one of them.
+double isolation_p_value(const LawLikeness& likeness, const std::vector<std::vector<double>>& nulls,
+                         const std::vector<double>& law);
 
 /// A campaign that was simulated and measured as the real one was.
 struct SimulatedCampaign {
@@ -80,10 +96,17 @@ struct EnsemblePlan {
 
 struct CampaignEnsemble {
     std::vector<SimulatedCampaign> campaigns; ///< in the order of their numbers
+    std::vector<double> distance;             ///< (campaigns) of their laws from the measured one (`LawLikeness`)
     SimulationCount cost;
     std::uint64_t cached = 0; ///< campaigns that the file had
     bool complete = false;    ///< false: the observer stopped it
 };
+
+/// Numbers of a campaign.
+using NumbersOf = std::function<std::vector<double>(const SimulatedCampaign&)>;
+/// From the pairs of campaigns of one law; arguments as those of `LawLikeness`.
+LawLikeness likeness_of(const EnsemblePlan& plan, const std::vector<SimulatedCampaign>& rows, const NumbersOf& numbers,
+                        double kept);
 
 /// @throws InputError if there is a file that keeps something else: it would be overwritten
 void refuse_foreign_cache(const std::filesystem::path& cache);

@@ -4,12 +4,15 @@
 
 namespace stylobate {
 
-double conformal_p_value(const std::vector<double>& nulls, double score)
+double conformal_p_value(const std::vector<double>& nulls, double score, const std::vector<double>& weights)
 {
-    double as_large = 1;
-    for (const double null : nulls)
-        as_large += null >= score ? 1 : 0;
-    return as_large / (1 + static_cast<double>(nulls.size()));
+    double as_large = 1, all = 1;
+    for (std::size_t i = 0; i < nulls.size(); ++i) {
+        const double weight = weights.empty() ? 1 : weights[i];
+        all += weight;
+        as_large += nulls[i] >= score ? weight : 0;
+    }
+    return as_large / all;
 }
 
 CalibratedProbability::CalibratedProbability(std::vector<Case> cases)

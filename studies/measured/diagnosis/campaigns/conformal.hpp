@@ -10,8 +10,11 @@ namespace stylobate {
 /// Probability, where nothing is hidden, of a score at least as large: (1 + nulls at least as large) / (1 + nulls).
 /// Uniform, or smaller than uniform probabilities never, whatever the distribution of the scores (Vovk, Gammerman and
 /// Shafer, "Algorithmic Learning in a Random World", 2005).
+/// Campaigns may have weights (Tibshirani, Barber, Candes and Ramdas, "Conformal prediction under covariate shift",
+/// Advances in Neural Information Processing Systems 32 (2019)); the one whose score this is weighs 1.
 /// @param nulls scores of campaigns that were not used in the fit
-double conformal_p_value(const std::vector<double>& nulls, double score);
+/// @param weights (nulls) of each, at most 1; empty: 1
+double conformal_p_value(const std::vector<double>& nulls, double score, const std::vector<double>& weights = {});
 
 /// A probability as a non-decreasing function of a score, from cases of which it is known whether the claim was right:
 /// isotonic regression (pool adjacent violators).

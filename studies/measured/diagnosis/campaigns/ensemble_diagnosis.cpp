@@ -28,12 +28,19 @@ constexpr int score_parts = 6;
 // Of a normal score, in standard deviations: what a unit is.
 constexpr double unit_sd = 1.6449;
 
-/// The least value that at least this part does not exceed.
-double quantile_of(std::vector<double> values, double part)
+double weighted_quantile(std::vector<std::pair<double, double>> weighted, double part)
 {
-    const auto at = static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size()))) - 1;
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-    return values[at];
+    std::sort(weighted.begin(), weighted.end());
+    double all = 0;
+    for (const auto& [value, weight] : weighted)
+        all += weight;
+    double below = 0;
+    for (const auto& [value, weight] : weighted) {
+        below += weight;
+        if (below >= part * all)
+            return value;
+    }
+    return weighted.back().first;
 }
 
 class Units {
@@ -42,14 +49,15 @@ public:
     Units(const ForceEvidence& evidence, int left_out)
     {
         for (Eigen::Index v = 0; v < evidence.nulls.cols(); ++v) {
-            std::vector<double> sizes;
+            std::vector<std::pair<double, double>> sizes;
             for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i) {
                 if (left_out >= 0 && i % score_parts == left_out)
                     continue;
+                const double weight = evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)];
                 const double size = std::fabs(evidence.nulls(i, v));
-                sizes.push_back(std::isfinite(size) ? size : 0);
+                sizes.emplace_back(std::isfinite(size) ? size : 0, weight);
             }
-            unit_.push_back(std::hypot(quantile_of(std::move(sizes), unit_quantile), least_unit));
+            unit_.push_back(std::hypot(weighted_quantile(std::move(sizes), unit_quantile), least_unit));
         }
     }
 
@@ -88,16 +96,27 @@ ForceTest force_test(const ForceEvidence& evidence)
     const Units all(evidence, -1);
     ForceTest out = all.largest(evidence.campaign);
     out.unit = all.each();
+    out.likeness = evidence.likeness;
     std::vector<Units> without;
     for (int part = 0; part < score_parts; ++part)
         without.emplace_back(evidence, part);
     for (Eigen::Index i = 0; i < evidence.nulls.rows(); ++i)
         out.nulls.push_back(without[static_cast<std::size_t>(i % score_parts)].largest(evidence.nulls.row(i)).score);
-    out.p_value = conformal_p_value(out.nulls, out.score);
+    out.p_value = conformal_p_value(out.nulls, out.score, evidence.likeness);
     return out;
 }
 
 namespace {
+
+/// Statistics of one kind, of all joints or blocks: what a common law shifts alike.
+std::vector<int> common_groups(const std::vector<StatisticLabel>& labels)
+{
+    std::map<std::pair<std::string, int>, int> number;
+    std::vector<int> groups;
+    for (const StatisticLabel& label : labels)
+        groups.push_back(number.try_emplace({label.name, label.side}, static_cast<int>(number.size())).first->second);
+    return groups;
+}
 
 /// Keeps the descriptors that the measured campaign and most others have; where one is missing it is the median.
 void complete_descriptors(EnsembleEvidence& evidence)
@@ -128,9 +147,19 @@ void complete_descriptors(EnsembleEvidence& evidence)
     evidence.descriptors = evidence.descriptors(kept).eval();
 }
 
+/// Weight of a healthy campaign for the measured one: the nearer half of them count in full.
+std::vector<double> weights_of(const std::vector<double>& distance)
+{
+    const double middle = upper_median(distance);
+    std::vector<double> out;
+    for (const double d : distance)
+        out.push_back(d > middle ? std::pow(middle / d, 2) : 1);
+    return out;
+}
+
 /// Test of the scores of `count` causes or forces, from `first` on.
-ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const std::vector<double>& measured,
-                     std::size_t first, std::size_t count)
+ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const std::vector<double>& likeness,
+                     const std::vector<double>& measured, std::size_t first, std::size_t count)
 {
     const auto part = [&](const std::vector<double>& scores) -> Eigen::VectorXd {
         return vector_of(scores).segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
@@ -139,6 +168,7 @@ ForceTest score_test(const std::vector<const SimulatedCampaign*>& nulls, const s
     evidence.nulls.resize(static_cast<Eigen::Index>(nulls.size()), static_cast<Eigen::Index>(count));
     for (std::size_t i = 0; i < nulls.size(); ++i)
         evidence.nulls.row(static_cast<Eigen::Index>(i)) = part(nulls[i]->scores).transpose();
+    evidence.likeness = likeness;
     evidence.campaign = part(measured);
     return force_test(evidence);
 }
@@ -175,6 +205,21 @@ void find_carrying_number(const EnsembleEvidence& evidence, EnsembleDiagnosis& o
                                                          : "");
 }
 
+// Of the numbers of a law: a cause moves some of them.
+constexpr double law_kept = 0.75;
+
+/// Of the measured law, among those of the healthy campaigns.
+double law_p_value(const EnsembleDiagnosis& diagnosis, const EnsemblePlan& plan)
+{
+    const std::vector<StatisticLabel>& labels = diagnosis.statistics;
+    const std::vector<SimulatedCampaign>& rows = diagnosis.ensemble.campaigns;
+    std::vector<std::vector<double>> nulls;
+    for (std::uint64_t i = plan.scouts(); i < plan.healthy(); ++i)
+        nulls.push_back(law_numbers(labels, rows[i].numbers));
+    const NumbersOf of_law = [&](const SimulatedCampaign& row) { return law_numbers(labels, row.numbers); };
+    return isolation_p_value(likeness_of(plan, rows, of_law, law_kept), nulls, law_numbers(labels, diagnosis.measured));
+}
+
 /// All but the simulated campaigns and the verdicts.
 EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study, const CampaignScales& scales,
                                    const std::vector<std::vector<double>>& base_m)
@@ -197,14 +242,17 @@ EnsembleDiagnosis what_is_measured(const Campaign& campaign, const Study& study,
 void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
 {
     std::vector<const SimulatedCampaign*> nulls, labelled;
+    std::vector<double> distance;
     EnsembleEvidence evidence;
-    for (const SimulatedCampaign& row : out.ensemble.campaigns) {
+    for (std::size_t i = 0; i < out.ensemble.campaigns.size(); ++i) {
+        const SimulatedCampaign& row = out.ensemble.campaigns[i];
         if (row.number < plan.scouts())
             continue;
         // a part is the neighbourhood of one law: what is left out is a law that the fit has not seen
         const auto fold = static_cast<int>(plan.parent(row.number));
         if (row.cause < 0) {
             nulls.push_back(&row);
+            distance.push_back(out.ensemble.distance[i]);
             evidence.null_fold.push_back(fold);
         } else {
             labelled.push_back(&row);
@@ -218,16 +266,19 @@ void judge(const EnsemblePlan& plan, EnsembleDiagnosis& out)
     const EvidenceRows rows(out.statistics, out.scored);
     out.evidence = rows.labels;
     evidence.nulls = rows.table(nulls);
+    evidence.likeness = weights_of(distance);
     evidence.labelled.table = rows.table(labelled);
+    evidence.common = common_groups(rows.labels);
     evidence.least_scatter = rows.least_scatter;
     evidence.descriptors = vector_of(rows.descriptors(out.measured));
     evidence.statistics = vector_of(rows.statistics(out.measured, out.scores));
+    out.law_p_value = evidence.law_p_value = law_p_value(out, plan);
     complete_descriptors(evidence);
     out.by_statistics = ensemble_verdict(evidence);
 
     const std::size_t causes = out.scored.causes.size(), structures = out.scored.structures.size();
-    out.listed = score_test(nulls, out.scores, 0, causes);
-    out.forces = score_test(nulls, out.scores, causes, structures);
+    out.listed = score_test(nulls, evidence.likeness, out.scores, 0, causes);
+    out.forces = score_test(nulls, evidence.likeness, out.scores, causes, structures);
     find_carrying_number(evidence, out);
 }
 

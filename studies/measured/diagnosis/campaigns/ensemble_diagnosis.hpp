@@ -26,8 +26,9 @@ namespace stylobate {
 
 /// Scores of the variants: NaN where a campaign does not show one.
 struct ForceEvidence {
-    Eigen::MatrixXd nulls;    ///< (n x variants)
-    Eigen::VectorXd campaign; ///< (variants)
+    Eigen::MatrixXd nulls;        ///< (n x variants)
+    std::vector<double> likeness; ///< (n) weight of each for the measured campaign, at most 1; empty: 1
+    Eigen::VectorXd campaign;     ///< (variants)
 };
 
 /// The largest score, in units of healthy campaigns.
@@ -35,8 +36,9 @@ struct ForceTest {
     int variant = -1; ///< -1: none is shown
     double score = 0;
     double p_value = 1;
-    std::vector<double> nulls; ///< largest score of each healthy campaign
-    std::vector<double> unit;  ///< (variants) what a score is counted in
+    std::vector<double> nulls;    ///< largest score of each healthy campaign
+    std::vector<double> likeness; ///< (nulls) as of the evidence
+    std::vector<double> unit;     ///< (variants) what a score is counted in
 };
 
 /// A score as nats: a unit is the 90 % quantile of healthy campaigns, 1.64 standard deviations of normal ones.
@@ -75,6 +77,7 @@ struct EnsembleDiagnosis {
     std::vector<StatisticLabel> evidence; ///< what the verdict by statistics sees
     ScorePlan scored;                     ///< of which the scores are
     CampaignEnsemble ensemble;
+    double law_p_value = 1; ///< of the measured law in the family
     // default where the observer stopped it
     EnsembleVerdict by_statistics;
     ForceTest listed, forces; ///< of the scores of the causes, and of those of forces of no known kind

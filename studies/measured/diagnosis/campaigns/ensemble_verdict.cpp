@@ -30,14 +30,20 @@ CampaignTable rows_of(const CampaignTable& table, const std::vector<Eigen::Index
 /// A fit without one fold of the healthy and of the labelled campaigns; fold -1: with all.
 class Fit {
 public:
-    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, int left_out)
+    Fit(const EnsembleEvidence& evidence, const std::vector<bool>& wanted, bool contrasts, int left_out)
         : mechanism_(evidence.mechanism)
     {
         std::vector<Eigen::Index> nulls;
+        std::vector<double> weights;
         for (Eigen::Index i = 0; i < evidence.nulls.statistics.rows(); ++i)
-            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out)
+            if (evidence.null_fold[static_cast<std::size_t>(i)] != left_out) {
                 nulls.push_back(i);
-        law_ = std::make_unique<LawAdjustment>(rows_of(evidence.nulls, nulls), wanted, evidence.least_scatter);
+                weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
+            }
+        law_ = std::make_unique<LawAdjustment>(
+            rows_of(evidence.nulls, nulls),
+            Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())), wanted,
+            evidence.least_scatter);
 
         std::map<int, std::vector<Eigen::Index>> of_cause;
         for (std::size_t i = 0; i < evidence.labelled.cause.size(); ++i)
@@ -57,7 +63,8 @@ public:
             models_.emplace_back(residuals, sizes);
             causes_.push_back(cause);
         }
-        likelihood_ = std::make_unique<SyntheticLikelihood>(*law_, models_);
+        likelihood_ = std::make_unique<SyntheticLikelihood>(
+            *law_, models_, contrasts ? common_patterns(evidence.common) : Eigen::MatrixXd());
     }
 
     Eigen::VectorXd residual(const CampaignTable& table, Eigen::Index row) const
@@ -114,6 +121,24 @@ public:
     }
 
 private:
+    /// Of each group of statistics that a law shifts alike, the direction in which all of them move together.
+    Eigen::MatrixXd common_patterns(const std::vector<int>& group) const
+    {
+        std::map<int, std::vector<Eigen::Index>> members;
+        for (std::size_t k = 0; k < law_->used().size(); ++k)
+            if (const int g = group[static_cast<std::size_t>(law_->used()[k])]; g >= 0)
+                members[g].push_back(static_cast<Eigen::Index>(k));
+        Eigen::MatrixXd patterns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(members.size()),
+                                                         static_cast<Eigen::Index>(law_->used().size()));
+        Eigen::Index row = 0;
+        for (const auto& [g, columns] : members) {
+            for (const Eigen::Index column : columns)
+                patterns(row, column) = 1 / std::sqrt(static_cast<double>(columns.size()));
+            ++row;
+        }
+        return patterns;
+    }
+
     std::vector<int> mechanism_;
     std::unique_ptr<LawAdjustment> law_;
     std::vector<ShiftModel> models_;
@@ -123,7 +148,7 @@ private:
 
 /// What the campaigns that were left out of a fit were taken for.
 struct LeftOut {
-    std::vector<double> null_gains;
+    std::vector<double> null_gains, null_weights;
     std::vector<CalibratedProbability::Case> named; ///< labelled ones: lead, and whether right
     std::vector<CalibratedProbability::Case>
         near;                ///< lead of the best and its nearest rivals together, and whether right
@@ -139,6 +164,7 @@ void look_at_nulls(const EnsembleEvidence& evidence, const Fit& fit, int fold, L
             continue;
         const auto found = fit.likelihood().of(fit.residual(evidence.nulls, i));
         out.null_gains.push_back(found[static_cast<std::size_t>(largest(found))].gain);
+        out.null_weights.push_back(evidence.likeness.empty() ? 1 : evidence.likeness[static_cast<std::size_t>(i)]);
     }
 }
 
@@ -183,8 +209,9 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     EnsembleVerdict out;
     out.causes.resize(evidence.mechanism.size());
     out.labelled_right.assign(evidence.labelled.cause.size(), false);
+    out.contrasts = evidence.law_p_value < rule.outside;
     const std::vector<bool> wanted = finite(evidence.statistics);
-    const Fit fit(evidence, wanted, -1);
+    const Fit fit(evidence, wanted, out.contrasts, -1);
     out.used = fit.law().used();
     out.residual = fit.residual(evidence.descriptors, evidence.statistics);
     if (fit.models().empty())
@@ -203,16 +230,19 @@ EnsembleVerdict ensemble_verdict(const EnsembleEvidence& evidence, const Ensembl
     left_out.right.assign(evidence.labelled.cause.size(), false);
     folds.resize(static_cast<std::size_t>(count));
     in_parallel(0, count, [&](int fold) {
-        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, fold);
+        folds[static_cast<std::size_t>(fold)] = std::make_unique<Fit>(evidence, wanted, out.contrasts, fold);
     });
     for (int fold = 0; fold < count; ++fold)
         look_at_nulls(evidence, *folds[static_cast<std::size_t>(fold)], fold, left_out);
-    const auto chance = [&](double gain) { return conformal_p_value(left_out.null_gains, gain); };
+    const auto chance = [&](double gain) {
+        return conformal_p_value(left_out.null_gains, gain, left_out.null_weights);
+    };
     const auto is_named = [&](double gain) { return chance(gain) <= rule.named; };
     for (int fold = 0; fold < count; ++fold)
         look_at_labelled(evidence, rule, *folds[static_cast<std::size_t>(fold)], fold, left_out, is_named);
 
     out.null_gains = left_out.null_gains;
+    out.null_weights = left_out.null_weights;
     out.p_value = chance(cause.gain);
     out.named = is_named(cause.gain);
     out.probability = CalibratedProbability(left_out.named)(fit.lead(found, {fit.mechanism(best)}));

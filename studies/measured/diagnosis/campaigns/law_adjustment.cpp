@@ -28,21 +28,23 @@ double student_kernel(double distance2, double p, double freedom)
     return -0.5 * (freedom + p) * std::log1p(distance2 / freedom);
 }
 
-Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals)
+Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights)
 {
     const Eigen::Index p = residuals.cols();
-    const auto n = static_cast<double>(residuals.rows());
-    Eigen::MatrixXd sample = residuals.transpose() * residuals / n;
+    const Eigen::VectorXd w = weights / weights.sum();
+    const double effective = 1 / w.squaredNorm();
+    const Eigen::MatrixXd weighted = w.asDiagonal() * residuals;
+    Eigen::MatrixXd sample = residuals.transpose() * weighted;
     const Eigen::VectorXd sd = sample.diagonal().cwiseMax(1e-12).cwiseSqrt();
     sample = sd.cwiseInverse().asDiagonal() * sample * sd.cwiseInverse().asDiagonal();
     // variance of each correlation: that of the products of two residuals, over the number of campaigns
     const Eigen::MatrixXd unit = residuals * sd.cwiseInverse().asDiagonal();
     const Eigen::MatrixXd square = unit.cwiseProduct(unit);
-    const Eigen::MatrixXd fourth = square.transpose() * square / n;
+    const Eigen::MatrixXd fourth = square.transpose() * w.asDiagonal() * square;
     double noise = 0, signal = 0;
     for (Eigen::Index j = 0; j < p; ++j)
         for (Eigen::Index k = 0; k < j; ++k) {
-            noise += (fourth(j, k) - sample(j, k) * sample(j, k)) / std::max(n - 1, 1.0);
+            noise += (fourth(j, k) - sample(j, k) * sample(j, k)) / std::max(effective - 1, 1.0);
             signal += sample(j, k) * sample(j, k);
         }
     const double shrink = signal > 0 ? std::clamp(noise / signal, 0.02, 1.0) : 1.0;
@@ -51,8 +53,8 @@ Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals)
     return out;
 }
 
-LawAdjustment::LawAdjustment(const CampaignTable& nulls, const std::vector<bool>& wanted,
-                             const std::vector<double>& least_scatter)
+LawAdjustment::LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights,
+                             const std::vector<bool>& wanted, const std::vector<double>& least_scatter)
 {
     const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
     for (Eigen::Index j = 0; j < nulls.statistics.cols(); ++j) {
@@ -69,12 +71,12 @@ LawAdjustment::LawAdjustment(const CampaignTable& nulls, const std::vector<bool>
             value = std::fabs(value - middle_(k));
         spread_(k) = std::max(1.4826 * upper_median(std::move(values)), 1e-12);
     }
-    regress(nulls, least_scatter);
+    regress(nulls, weights, least_scatter);
     Eigen::MatrixXd residuals(n, static_cast<Eigen::Index>(used_.size()));
     for (Eigen::Index i = 0; i < n; ++i)
         residuals.row(i) = residual(nulls.descriptors.row(i), nulls.statistics.row(i)).transpose();
-    correlation_ = shrunk_correlation(residuals);
-    find_tails(residuals);
+    correlation_ = shrunk_correlation(residuals, weights);
+    find_tails(residuals, weights);
     // (the shrinkage keeps it far from singular)
     whitening_ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale_ * correlation_).operatorInverseSqrt();
 }
@@ -85,7 +87,8 @@ Eigen::VectorXd LawAdjustment::standardized(const Eigen::VectorXd& descriptors) 
     return ((descriptors - middle_).cwiseQuotient(spread_)).cwiseMax(-5).cwiseMin(5);
 }
 
-void LawAdjustment::regress(const CampaignTable& nulls, const std::vector<double>& least_scatter)
+void LawAdjustment::regress(const CampaignTable& nulls, const Eigen::VectorXd& weights,
+                            const std::vector<double>& least_scatter)
 {
     const Eigen::Index n = nulls.statistics.rows(), q = nulls.descriptors.cols();
     const auto p = static_cast<Eigen::Index>(used_.size());
@@ -96,7 +99,7 @@ void LawAdjustment::regress(const CampaignTable& nulls, const std::vector<double
         design.row(i) << 1, standardized(nulls.descriptors.row(i)).transpose();
     for (Eigen::Index j = 0; j < p; ++j) {
         const Eigen::VectorXd y = nulls.statistics.col(used_[static_cast<std::size_t>(j)]);
-        const Eigen::VectorXd w = y.array().isFinite().cast<double>().matrix(); // those that have it
+        const Eigen::VectorXd w = y.array().isFinite().select(weights.array(), Eigen::ArrayXd::Zero(n)).matrix();
         Eigen::VectorXd known = y.array().isFinite().select(y.array(), Eigen::ArrayXd::Zero(n)).matrix();
         // one extreme campaign does not bend the line: two rounds, the second with what is left cut off
         for (int round = 0; round < 2; ++round) {
@@ -131,16 +134,15 @@ Eigen::VectorXd LawAdjustment::residual(const Eigen::VectorXd& descriptors, cons
     return out;
 }
 
-void LawAdjustment::find_tails(const Eigen::MatrixXd& residuals)
+void LawAdjustment::find_tails(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights)
 {
     const Eigen::Index n = residuals.rows(), p = residuals.cols();
     std::vector<double> distances;
     for (int part = 0; part < parts; ++part) {
-        std::vector<Eigen::Index> others;
-        for (Eigen::Index i = 0; i < n; ++i)
-            if (i % parts != part)
-                others.push_back(i);
-        const Eigen::LLT<Eigen::MatrixXd> factor(shrunk_correlation(residuals(others, Eigen::all)));
+        Eigen::VectorXd others = weights;
+        for (Eigen::Index i = part; i < n; i += parts)
+            others(i) = 0;
+        const Eigen::LLT<Eigen::MatrixXd> factor(shrunk_correlation(residuals, others));
         for (Eigen::Index i = part; i < n; i += parts)
             distances.push_back(factor.matrixL().solve(residuals.row(i).transpose()).squaredNorm());
     }

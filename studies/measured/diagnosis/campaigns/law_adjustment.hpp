@@ -3,9 +3,10 @@
 /// scatter.
 ///
 /// Statistics depend on the healthy contact law, which is not known; the law descriptors of a campaign show it. Among
-/// campaigns whose laws are like the measured one the expected statistics are a linear function of the descriptors
-/// (regression adjustment: Beaumont, Zhang and Balding, "Approximate Bayesian computation in population genetics",
-/// Genetics 162 (2002)). The correlation of the
+/// campaigns whose laws are like the measured one the expected statistics are a linear function of the descriptors, and
+/// the likest weigh most (local linear regression: Cleveland, "Robust locally weighted regression and smoothing
+/// scatterplots", Journal of the American Statistical Association 74 (1979); regression adjustment: Beaumont, Zhang and
+/// Balding, "Approximate Bayesian computation in population genetics", Genetics 162 (2002)). The correlation of the
 /// residuals is shrunk towards none (Schaefer and Strimmer, "A shrinkage approach to large-scale covariance matrix
 /// estimation", Statistical Applications in Genetics and Molecular Biology 4 (2005)), and their tails are Student's.
 ///
@@ -28,10 +29,11 @@ struct CampaignTable {
 class LawAdjustment {
 public:
     /// @param nulls   healthy campaigns, at least 20 and more than twice the descriptors
+    /// @param weights (n) weight of each for the measured campaign, at most 1
     /// @param wanted  (p) whether a statistic is to be used: those that the measured campaign has
     /// @param least_scatter (p) of each statistic, in its unit: what noise gives where the nulls hardly show it; empty:
     /// 0
-    LawAdjustment(const CampaignTable& nulls, const std::vector<bool>& wanted,
+    LawAdjustment(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<bool>& wanted,
                   const std::vector<double>& least_scatter = {});
 
     /// Columns of the statistics that are used: wanted, and finite in most of the nulls.
@@ -54,8 +56,8 @@ public:
     double scale() const { return scale_; }
 
 private:
-    void regress(const CampaignTable& nulls, const std::vector<double>& least_scatter);
-    void find_tails(const Eigen::MatrixXd& residuals);
+    void regress(const CampaignTable& nulls, const Eigen::VectorXd& weights, const std::vector<double>& least_scatter);
+    void find_tails(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
     Eigen::VectorXd standardized(const Eigen::VectorXd& descriptors) const;
 
     std::vector<Eigen::Index> used_;
@@ -67,9 +69,9 @@ private:
     double freedom_ = 0, scale_ = 1;
 };
 
-/// The sample correlation of rows, shrunk towards the identity by as much as its own noise requires.
-/// @param residuals (n x p) of mean near 0 and scatter near 1
-Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals);
+/// The sample correlation of rows with weights, shrunk towards the identity by as much as its own noise requires.
+/// @param residuals (n x p) of mean near 0 and scatter near 1   @param weights (n)
+Eigen::MatrixXd shrunk_correlation(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& weights);
 
 /// log of the multivariate Student density, but for what does not depend on the distance.
 /// @param distance2 Mahalanobis   @param p dimensions

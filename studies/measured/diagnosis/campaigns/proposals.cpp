@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 namespace stylobate {
 
@@ -46,11 +45,8 @@ Proposal Proposals::of(std::uint64_t number, const std::vector<SimulatedCampaign
 
 std::vector<double> Proposals::law_distances(const std::vector<SimulatedCampaign>& rows) const
 {
-    const auto of_joints = [this](const SimulatedCampaign& row) { return joint_numbers(labels_, row.numbers); };
-    std::vector<std::pair<std::vector<double>, std::vector<double>>> of_one_law;
-    for (std::uint64_t i = 0; i < plan_.pairs; ++i)
-        of_one_law.emplace_back(of_joints(rows[i]), of_joints(rows[plan_.wide + i]));
-    const LawLikeness likeness(of_one_law, numbers_kept);
+    const NumbersOf of_joints = [this](const SimulatedCampaign& row) { return joint_numbers(labels_, row.numbers); };
+    const LawLikeness likeness = likeness_of(plan_, rows, of_joints, numbers_kept);
     const std::vector<double> shown = of_joints(shown_);
     std::vector<double> out;
     for (const SimulatedCampaign& row : rows)

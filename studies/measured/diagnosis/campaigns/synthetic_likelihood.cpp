@@ -1,6 +1,7 @@
 #include "studies/measured/diagnosis/campaigns/synthetic_likelihood.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -12,13 +13,12 @@ namespace stylobate {
 namespace {
 
 constexpr int size_steps = 9; // of a cause, over the range that was simulated
+// Variance along a common pattern, in units of a statistic's own: as good as unknown.
+constexpr double unknown = 1e4;
 
-/// log of Student's density, but for what all have in common.
-/// @param residual of variance 1 + `variance`, without correlation
-double log_density(const Eigen::VectorXd& residual, double variance, double freedom)
+double half_log_determinant(const Eigen::VectorXd& variances)
 {
-    const auto p = static_cast<double>(residual.size());
-    return student_kernel(residual.squaredNorm() / (1 + variance), p, freedom) - 0.5 * p * std::log1p(variance);
+    return 0.5 * variances.array().log().sum();
 }
 
 /// Sizes of equal prior weight, both ends included, without the neutral one.
@@ -53,25 +53,49 @@ double weighted_quantile(const std::vector<double>& size, const std::vector<doub
 
 } // namespace
 
-SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes)
+SyntheticLikelihood::SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
+                                         const Eigen::MatrixXd& common)
     : freedom_(law.freedom())
 {
+    const auto used = static_cast<Eigen::Index>(law.used().size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(used, used);
+    for (const auto& pattern : common.rowwise()) {
+        const Eigen::VectorXd along = law.decorrelated(pattern.transpose());
+        covariance += unknown * along * along.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+    axes_ = solver.eigenvectors();
+    variances_ = solver.eigenvalues();
+    log_determinant_ = half_log_determinant(variances_);
     for (const ShiftModel& cause : causes) {
         std::vector<Point> points;
-        for (const double size : grid(cause))
-            points.push_back({size, cause.mean(size), cause.variance(size)});
+        for (const double size : grid(cause)) {
+            Point point;
+            point.size = size;
+            point.mean = axes_.transpose() * cause.mean(size);
+            point.variance = cause.variance(size);
+            point.log_determinant = half_log_determinant((variances_.array() + point.variance).matrix());
+            points.push_back(std::move(point));
+        }
         points_.push_back(std::move(points));
     }
 }
 
+double SyntheticLikelihood::log_density(double variance, double log_determinant, const Eigen::VectorXd& along) const
+{
+    const double distance = (along.array().square() / (variances_.array() + variance)).sum();
+    return student_kernel(distance, static_cast<double>(along.size()), freedom_) - log_determinant;
+}
+
 std::vector<CauseLikelihood> SyntheticLikelihood::of(const Eigen::VectorXd& residual) const
 {
-    const double nothing = log_density(residual, 0, freedom_);
+    const Eigen::VectorXd left = axes_.transpose() * residual;
+    const double nothing = log_density(0, log_determinant_, left);
     std::vector<CauseLikelihood> out;
     for (const std::vector<Point>& points : points_) {
         std::vector<double> gain, size, weight;
         for (const Point& point : points) {
-            gain.push_back(log_density(residual - point.mean, point.variance, freedom_) - nothing);
+            gain.push_back(log_density(point.variance, point.log_determinant, left - point.mean) - nothing);
             size.push_back(point.size);
         }
         const double best = *std::max_element(gain.begin(), gain.end());

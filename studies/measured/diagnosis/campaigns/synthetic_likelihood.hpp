@@ -57,21 +57,32 @@ public:
     ///
     /// @param law    what healthy campaigns give at this campaign's descriptors
     /// @param causes what each cause does
-    SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes);
+    /// @param common (directions x used) patterns along which the residuals, not yet decorrelated, may lie with any
+    ///        size: shifts that are common to all joints, of a campaign whose healthy law the family of laws does not
+    ///        have; usually none
+    SyntheticLikelihood(const LawAdjustment& law, const std::vector<ShiftModel>& causes,
+                        const Eigen::MatrixXd& common = {});
 
     /// @param residual (used) of the campaign
     /// @returns one for each cause
     std::vector<CauseLikelihood> of(const Eigen::VectorXd& residual) const;
 
 private:
-    /// One size of one cause.
+    /// One size of one cause. Its covariance is that of healthy campaigns with more on the diagonal: both have the same
+    /// principal axes, along which all is counted.
     struct Point {
         double size = 0;
-        Eigen::VectorXd mean;
-        double variance = 0; ///< of this mean, beside 1 of healthy campaigns
+        Eigen::VectorXd mean; ///< along the principal axes
+        double variance = 0;  ///< more on the diagonal
+        double log_determinant = 0;
     };
+    /// @param along the principal axes
+    double log_density(double variance, double log_determinant, const Eigen::VectorXd& along) const;
 
     double freedom_;
+    Eigen::MatrixXd axes_;      ///< (used x used) columns: principal axes of the covariance
+    Eigen::VectorXd variances_; ///< (used) along them
+    double log_determinant_ = 0;
     std::vector<std::vector<Point>> points_; ///< [cause][size]
 };
 

@@ -336,8 +336,6 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
     const CampaignEnsemble whole = simulate("whole", best_isa(), 2, patient);
     ASSERT_TRUE(whole.complete);
     ASSERT_EQ(whole.campaigns.size(), 24U + 2U * 6U + 12U + 12U);
-    const std::vector<StatisticLabel> labels = statistic_labels(campaign());
-    const Proposals proposals(plan, causes, labels, shown);
     const std::size_t scores = score_plan(campaign().specimen, scales).size();
     for (const SimulatedCampaign& row : whole.campaigns) {
         EXPECT_EQ(row.numbers.values.size(), shown.numbers.values.size());
@@ -353,7 +351,7 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
         rest = simulate("parts", best_isa(), 2, patient);
         EXPECT_EQ(rest.cached, most) << "whole rounds";
         EXPECT_TRUE(text_of(folder.path() / "whole") == text_of(folder.path() / "parts"));
-        EXPECT_EQ(proposals.law_distances(rest.campaigns), proposals.law_distances(whole.campaigns));
+        EXPECT_EQ(rest.distance, whole.distance);
         if (most == 36)
             std::filesystem::remove(folder.path() / "parts");
     }
@@ -366,7 +364,7 @@ TEST(CampaignEnsemble, IsTheSameForAnyThreadsInstructionsAndInterruption)
         const CampaignEnsemble shared = simulate("ranks", best_isa(), 1, own, &ranks);
         EXPECT_TRUE(shared.complete);
         EXPECT_EQ(shared.cached, 30U);
-        EXPECT_EQ(proposals.law_distances(shared.campaigns), proposals.law_distances(whole.campaigns));
+        EXPECT_EQ(shared.distance, whole.distance);
         EXPECT_EQ(shared.cost.simulations, rest.cost.simulations);
         EXPECT_EQ(shared.cost.block_steps, rest.cost.block_steps);
     });
@@ -400,11 +398,9 @@ std::pair<double, double> distances_from_law(const HealthyLaw& truth, const Ense
     const CampaignEnsemble ensemble = simulate_ensemble(
         made.campaigns.front(), study, causes, {}, plan, shown, {}, {best_isa(), 2},
         [](std::uint64_t, std::uint64_t) {}, observer);
-    const std::vector<StatisticLabel> labels = statistic_labels(lively());
-    const std::vector<double> apart = Proposals(plan, causes, labels, shown).law_distances(ensemble.campaigns);
     const auto median = [&](std::uint64_t from, std::uint64_t to) {
-        std::vector<double> distance(apart.begin() + static_cast<std::ptrdiff_t>(from),
-                                     apart.begin() + static_cast<std::ptrdiff_t>(to));
+        std::vector<double> distance(ensemble.distance.begin() + static_cast<std::ptrdiff_t>(from),
+                                     ensemble.distance.begin() + static_cast<std::ptrdiff_t>(to));
         std::sort(distance.begin(), distance.end());
         return distance[distance.size() / 2];
     };

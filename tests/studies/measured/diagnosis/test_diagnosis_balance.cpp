@@ -481,6 +481,7 @@ TEST(NamedByForces, TheForcesOfWhatTheStatisticsNameAreNotUnknown)
     candidate.most = 1;
     statistics.causes[static_cast<std::size_t>(statistics.best)] = {20, 1, 0.9, 1.1};
     statistics.null_gains = {1, 2};
+    statistics.null_weights = {1, 1};
     EXPECT_EQ(decide({}, evidence, &named, alone).verdict, Verdict::unexplained) << "they name nothing";
     statistics.named = true;
     statistics.probability = statistics.set_probability = 0.8;

@@ -51,7 +51,8 @@ EnsembleDiagnosis ensemble_of(double friction, double drag, double dowel)
     v.best = 0;
     for (int i = 1; i <= 100; ++i)
         v.null_gains.push_back(0.1 * i);
-    v.p_value = conformal_p_value(v.null_gains, friction);
+    v.null_weights.assign(100, 1);
+    v.p_value = conformal_p_value(v.null_gains, friction, v.null_weights);
     v.named = v.p_value <= EnsembleRule{}.named;
     v.probability = v.set_probability = 0.8;
     e.scored.structures = {{1, "x", "velocity", "a sideways force"}};

@@ -38,6 +38,8 @@ protected:
             evidence_.labelled_fold.push_back(i % 5);
         for (int c = 0; c < causes; ++c)
             evidence_.mechanism.push_back(c);
+        for (int j = 0; j < statistics; ++j)
+            evidence_.common.push_back(j % 5); // eight joints of five statistics each
     }
 
     EnsembleVerdict judge(const Eigen::VectorXd& law, const Eigen::VectorXd& campaign)

@@ -117,5 +117,17 @@ TEST_F(ForceTestStatistics, WhatACampaignDoesNotShowIsNotJudged)
     EXPECT_EQ(judge(campaign).p_value, 1);
 }
 
+TEST_F(ForceTestStatistics, CampaignsThatAreUnlikeDoNotCount)
+{
+    // half of the healthy campaigns have a law that makes all scores large
+    const Eigen::VectorXd campaign = world_.campaign(27, 30);
+    for (Eigen::Index i = 0; i < evidence_.nulls.rows(); i += 2)
+        evidence_.nulls.row(i) *= 30;
+    EXPECT_GT(judge(campaign).p_value, 0.0075);
+    for (Eigen::Index i = 0; i < evidence_.nulls.rows(); ++i)
+        evidence_.likeness.push_back(i % 2 == 0 ? 1e-4 : 1);
+    EXPECT_LE(judge(campaign).p_value, 0.0075);
+}
+
 } // namespace
 } // namespace stylobate

@@ -36,12 +36,18 @@ TEST(LawAdjustmentByHand, TheScatterIsThatOfTheNullsAboutTheirMean)
     for (int i = 0; i < 20; ++i)
         statistic.push_back(i % 2 == 0 ? 6 : 4);
     const std::vector<double> descriptor(20, 3);
-    const LawAdjustment law(table_of(descriptor, statistic), {true});
+    const LawAdjustment law(table_of(descriptor, statistic), Eigen::VectorXd::Ones(20), {true});
     EXPECT_NEAR(residual_of(law, 3, 7), 2 / std::sqrt(20.0 / 19), 1e-9);
     EXPECT_EQ(residual_of(law, 3, 100), LawAdjustment::farthest);
     // noise that the nulls hardly show is the least scatter
-    const LawAdjustment noisy(table_of(descriptor, statistic), {true}, {4});
+    const LawAdjustment noisy(table_of(descriptor, statistic), Eigen::VectorXd::Ones(20), {true}, {4});
     EXPECT_NEAR(residual_of(noisy, 3, 7), 0.5, 1e-9);
+    // weights: those of 6 count a quarter; mean (10 x 6 / 4 + 10 x 4) / 12.5 = 4.4, squares 25.6 / 4 + 1.6 at 11.5
+    Eigen::VectorXd weights(20);
+    for (int i = 0; i < 20; ++i)
+        weights(i) = i % 2 == 0 ? 0.25 : 1;
+    const LawAdjustment weighted(table_of(descriptor, statistic), weights, {true});
+    EXPECT_NEAR(residual_of(weighted, 3, 5.4), 1 / std::sqrt((2.5 * 2.56 + 10 * 0.16) / 11.5), 1e-9);
 }
 
 TEST(LawAdjustmentByHand, TheExpectationIsARidgeRegressionOnTheDescriptor)
@@ -53,7 +59,7 @@ TEST(LawAdjustmentByHand, TheExpectationIsARidgeRegressionOnTheDescriptor)
         descriptor.push_back(i % 5 - 2);
         statistic.push_back(10 + 3 * descriptor.back());
     }
-    const LawAdjustment law(table_of(descriptor, statistic), {true});
+    const LawAdjustment law(table_of(descriptor, statistic), Eigen::VectorXd::Ones(20), {true});
     const double squares = 40 / (1.4826 * 1.4826), part = squares / (squares + 1);
     const double scatter = std::sqrt(9 * 40 * (1 - part) * (1 - part) / (20 - 1 - part));
     EXPECT_NEAR(residual_of(law, 2, 16), (16 - (10 + 6 * part)) / scatter, 1e-9);
@@ -69,9 +75,21 @@ TEST(ShrunkCorrelationByHand, IsShrunkByItsNoiseOverItsSquares)
         rows(i, 0) = i % 2 == 0 ? 1 : -1;
         rows(i, 1) = (i < 12 ? 1 : -1) * rows(i, 0);
     }
-    const Eigen::MatrixXd shrunk = shrunk_correlation(rows);
+    const Eigen::MatrixXd shrunk = shrunk_correlation(rows, Eigen::VectorXd::Ones(16));
     EXPECT_NEAR(shrunk(0, 1), 0.8 * 0.5, 1e-12);
     EXPECT_EQ(shrunk(0, 0), 1);
+    // weights w of the first twelve and 1 of the others: correlation (12 w - 4) / (12 w + 4), and as many campaigns as
+    // (sum w)^2 / sum w^2 count
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(16);
+    weights.head(12).setConstant(0.5);
+    const double r = 0.2, campaigns = 100.0 / 7, noise = (1 - r * r) / (campaigns - 1);
+    EXPECT_GT(noise, r * r);
+    EXPECT_EQ(shrunk_correlation(rows, weights)(0, 1), 0) << "nothing but noise";
+    weights.head(12).setConstant(1);
+    weights.tail(4).setConstant(0.25);
+    const double more = 11.0 / 13, of = 169 / 12.25;
+    EXPECT_NEAR(shrunk_correlation(rows, weights)(0, 1), more * (1 - (1 - more * more) / (of - 1) / (more * more)),
+                1e-12);
 }
 
 TEST(ShiftModelByHand, IsALineThroughTheNeutralSize)
@@ -122,7 +140,7 @@ TEST(SyntheticLikelihoodByHand, IsTheMeanOverTheSizesOfStudentsDensity)
         descriptor.push_back(normal(random));
         statistic.push_back(normal(random));
     }
-    const LawAdjustment law(table_of(descriptor, statistic), {true});
+    const LawAdjustment law(table_of(descriptor, statistic), Eigen::VectorXd::Ones(200), {true});
     const ShiftModel cause(Eigen::Vector3d(3, 6, 6), Eigen::Vector3d(1, 2, 2));
     ASSERT_NEAR(cause.mean(1)(0), 3, 1e-12);
     const SyntheticLikelihood likelihood(law, {cause});
@@ -172,6 +190,10 @@ TEST(ForceTestByHand, AScoreIsInUnitsOfTheNineTenthsOfHealthyCampaigns)
     EXPECT_NEAR(far.nulls[9], 10 / std::hypot(9, 0.7), 1e-12);
     evidence.campaign(0) = 8.9;
     EXPECT_NEAR(force_test(evidence).p_value, 2.0 / 11, 1e-12) << "that of 9 is no larger";
+    // likeness weighs: of weights 1 for 10 and 0.1 for the others nine tenths are 10
+    evidence.likeness.assign(10, 0.1);
+    evidence.likeness[9] = 1;
+    EXPECT_NEAR(force_test(evidence).unit[0], std::hypot(10, 0.7), 1e-12);
     EXPECT_NEAR(nats_of_score(2), 2 * 1.6449 * 1.6449, 1e-12);
 }
 

@@ -31,7 +31,7 @@ TEST(LawAdjustment, ResidualsKnowNoLaw)
 {
     World world(1);
     const CampaignTable nulls = world.nulls(300);
-    const LawAdjustment adjustment(nulls, all_wanted);
+    const LawAdjustment adjustment(nulls, Eigen::VectorXd::Ones(nulls.statistics.rows()), all_wanted);
     ASSERT_EQ(adjustment.used().size(), std::size_t{statistics});
     const int n = 400;
     Eigen::MatrixXd laws(n, descriptors), residuals(n, statistics);
@@ -51,7 +51,7 @@ TEST(LawAdjustment, CorrelationIsThatOfTheWorld)
 {
     World world(2);
     const CampaignTable nulls = world.nulls(400);
-    const LawAdjustment adjustment(nulls, all_wanted);
+    const LawAdjustment adjustment(nulls, Eigen::VectorXd::Ones(nulls.statistics.rows()), all_wanted);
     EXPECT_TRUE(adjustment.correlation().diagonal().isOnes());
     // by many other campaigns of one law
     const int n = 4000;
@@ -71,7 +71,7 @@ TEST(LawAdjustment, CorrelationIsThatOfTheWorld)
 TEST(LawAdjustment, DecorrelatedResidualsStayNearTheirStatistics)
 {
     World world(2);
-    const LawAdjustment adjustment(world.nulls(400), all_wanted);
+    const LawAdjustment adjustment(world.nulls(400), Eigen::VectorXd::Ones(400), all_wanted);
     const int n = 4000;
     Eigen::MatrixXd before(n, statistics), after(n, statistics);
     for (int i = 0; i < n; ++i) {
@@ -101,7 +101,7 @@ TEST(LawAdjustment, AStatisticThatIsMissingSaysNothing)
     nulls.statistics.col(8).head(20).setConstant(missing);  // nearly all
     std::vector<bool> wanted = all_wanted;
     wanted[3] = false;
-    const LawAdjustment adjustment(nulls, wanted);
+    const LawAdjustment adjustment(nulls, Eigen::VectorXd::Ones(nulls.statistics.rows()), wanted);
     ASSERT_EQ(adjustment.used().size(), std::size_t{statistics - 2});
     const Eigen::VectorXd law = world.law();
     Eigen::VectorXd campaign = world.campaign(law, -1, 0);
@@ -116,7 +116,7 @@ TEST(ShrunkCorrelation, OfIndependentNoiseIsNearlyNone)
     std::mt19937 random(5);
     std::normal_distribution<double> normal;
     const Eigen::MatrixXd noise = Eigen::MatrixXd::NullaryExpr(60, 50, [&] { return normal(random); });
-    const Eigen::MatrixXd shrunk = shrunk_correlation(noise);
+    const Eigen::MatrixXd shrunk = shrunk_correlation(noise, Eigen::VectorXd::Ones(60));
     Eigen::MatrixXd sample = noise.transpose() * noise / 60;
     const auto off = [](Eigen::MatrixXd m) {
         m.diagonal().setZero();
@@ -152,7 +152,7 @@ TEST(ShiftModel, KeepsStrongShiftsAndDropsNoise)
 TEST(SyntheticLikelihoodStatistics, NamesThePlantedCauseWithItsSize)
 {
     World world(7);
-    const LawAdjustment adjustment(world.nulls(300), all_wanted);
+    const LawAdjustment adjustment(world.nulls(300), Eigen::VectorXd::Ones(300), all_wanted);
     const SyntheticLikelihood likelihood(adjustment, world.learnt(adjustment));
     int named = 0, inside = 0, total = 0;
     for (int i = 0; i < 200; ++i) {
@@ -177,7 +177,7 @@ TEST(SyntheticLikelihoodStatistics, NamesThePlantedCauseWithItsSize)
 TEST(SyntheticLikelihoodStatistics, PValuesOfNullsAreUniform)
 {
     World world(9);
-    const LawAdjustment adjustment(world.nulls(300), all_wanted);
+    const LawAdjustment adjustment(world.nulls(300), Eigen::VectorXd::Ones(300), all_wanted);
     const SyntheticLikelihood likelihood(adjustment, world.learnt(adjustment));
     const auto score = [&] {
         const Eigen::VectorXd law = world.law();
@@ -221,7 +221,7 @@ TEST(SyntheticLikelihood, FindsAShiftThatOnlyAContrastShows)
         nulls.descriptors(i, 0) = normal(random);
         nulls.statistics.row(i) = campaign(0).transpose();
     }
-    const LawAdjustment adjustment(nulls, std::vector<bool>(2 * pairs, true));
+    const LawAdjustment adjustment(nulls, Eigen::VectorXd::Ones(300), std::vector<bool>(2 * pairs, true));
     const Eigen::VectorXd law = Eigen::VectorXd::Zero(1);
     Eigen::MatrixXd residuals(12, 2 * pairs);
     Eigen::VectorXd sizes(12);
@@ -242,6 +242,25 @@ TEST(SyntheticLikelihood, FindsAShiftThatOnlyAContrastShows)
     EXPECT_LT(mean_gain(0), 0);
 }
 
+TEST(SyntheticLikelihood, AShiftCommonToAllIsNoCause)
+{
+    World world(10);
+    const LawAdjustment adjustment(world.nulls(300), Eigen::VectorXd::Ones(300), all_wanted);
+    const std::vector<ShiftModel> models = world.learnt(adjustment);
+    const Eigen::MatrixXd common = Eigen::MatrixXd::Ones(1, statistics) / std::sqrt(double{statistics});
+    const SyntheticLikelihood plain(adjustment, models), contrasts(adjustment, models, common);
+    // a law that the family does not have
+    Eigen::VectorXd residual = adjustment.decorrelated(Eigen::VectorXd::Constant(statistics, 3));
+    EXPECT_GT(most(plain.of(residual)), most(contrasts.of(residual)));
+    EXPECT_LT(most(contrasts.of(residual)), 2);
+    residual += models[3].mean(1); // and a cause on top of it
+    const auto found = contrasts.of(residual);
+    EXPECT_EQ(
+        std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; }) -
+            found.begin(),
+        3);
+}
+
 TEST(Conformal, RanksByHand)
 {
     const std::vector<double> nulls = {1, 2, 3, 4};
@@ -249,6 +268,12 @@ TEST(Conformal, RanksByHand)
     EXPECT_EQ(conformal_p_value(nulls, 4), 2.0 / 5) << "as large counts";
     EXPECT_EQ(conformal_p_value(nulls, 0), 1);
     EXPECT_EQ(conformal_p_value({}, 3), 1) << "without nulls nothing is improbable";
+}
+
+TEST(Conformal, WeighsByHand)
+{
+    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, 1.5, {0.5, 0.25, 1}), (1 + 0.25 + 1) / (1 + 0.5 + 0.25 + 1));
+    EXPECT_DOUBLE_EQ(conformal_p_value({1, 2, 3}, 2.5, {0, 1, 0}), 0.5) << "only one campaign is like this one";
 }
 
 TEST(CalibratedProbability, PoolsWhatFalls)
