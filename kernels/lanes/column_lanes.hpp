@@ -505,8 +505,8 @@ private:
             STYLOBATE_UNROLLED
             for (int i = 0; i < blocks; ++i)
                 momentum = fma(shared_.mass[lowest + i], memory.moved[k][lowest + i], momentum);
-            const double* const base = &shared_.base[group_[lane]][1 + first + k];
             const bool some = k < count;
+            const double* const base = &shared_.base[group_[lane]][1 + first + (some ? k : 0)];
             memory.pushed[group_[lane]][k][0] = some ? momentum : 0;
             memory.pushed[group_[lane]][k][1] = some ? base[-1] + base[0] : 0;
         });
