@@ -112,19 +112,18 @@ public:
             const auto most =
                 static_cast<int>(std::min<std::uint64_t>(left() / static_cast<std::uint64_t>(share) + 1, most_slots));
             typename Sets::Slots set(study_, record_, pattern_, device, options_.slots, most);
-            if (const std::string why = set.why_slow(); !why.empty())
-                warn_once("slow", fmt::format("--backend cuda: the GPU steps this study with a thread for every "
-                                              "realization, its slower way: {} (docs/gpu.md)",
-                                              why));
+            // (of several queues the first one speaks; studies may run in many rounds)
+            const std::string why = &device == options_.devices.front().get() ? set.why_slow() : "";
+            if (!why.empty() && device.tell_slow())
+                crew_.warn(fmt::format("--backend cuda: the GPU steps this study with a thread for every realization, "
+                                       "its slower way: {} (docs/gpu.md)",
+                                       why));
             ready.wait();
             step_on_device(set, few_.last * options_.threads / share);
         } catch (const DeviceError& error) {
             failed_ = true;
             device.give_up();
-            warn_once(device.name(),
-                      fmt::format("{} is not used any more: {}. What it had begun is begun anew without it, with the "
-                                  "same results.",
-                                  device.name(), error.what()));
+            warn_once(device.name(), error.what());
         }
     }
 
@@ -287,15 +286,17 @@ private:
         }
     }
 
-    /// A warning that several queues may have. @param what it is about: said once
-    void warn_once(const std::string& what, const std::string& text)
+    /// That a device has failed; of several queues of one it is said once.
+    void warn_once(const std::string& device, const std::string& error)
     {
         {
             const std::lock_guard lock(crew_.mutex());
-            if (!said_.insert(what).second)
+            if (!lost_.insert(device).second)
                 return;
         }
-        crew_.warn(text);
+        crew_.warn(fmt::format("{} is not used any more: {}. What it had begun is begun anew without it, with the same "
+                               "results.",
+                               device, error));
     }
 
     void deliver(const Realization& realization, const Outcome& outcome)
@@ -352,7 +353,7 @@ private:
     std::uint64_t delivered_ = 0;
     std::atomic<std::uint64_t> lane_chunks_ = 0, active_chunks_ = 0;
     std::atomic<bool> failed_ = false; ///< a device
-    std::set<std::string> said_;       ///< what the observer was warned of
+    std::set<std::string> lost_;       ///< devices that the observer was warned of
     const Realization pattern_;        ///< the topology that all realizations share
 };
 

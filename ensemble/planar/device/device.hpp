@@ -41,6 +41,8 @@ public:
     /// Whether it has failed: it is then not used any more.
     bool failed() const { return failed_; }
     void give_up() { failed_ = true; }
+    /// Whether the user has not been told of its slower way yet (`why_slow`), in this run or one before.
+    bool tell_slow() { return !told_slow_.exchange(true); }
 
     /// How many realizations it steps best at a time.
     /// @param memory its topology, model and precision say which step will run;  @param bytes of memory for each
@@ -79,7 +81,7 @@ public:
     virtual void run(const MultiplyAdds& task, int count) = 0;
 
 private:
-    std::atomic<bool> failed_ = false;
+    std::atomic<bool> failed_ = false, told_slow_ = false;
 };
 
 /// What there is to compute on.
