@@ -19,7 +19,7 @@
 ///   each(f)               calls f(lane) for every lane, in no order
 ///   of(real, lane)        that lane's number
 ///   from(real, lanes)     the number of another lane
-///   any(flags), any_of_group(flags, groups, blocks), first_of_group(flags, groups, blocks)
+///   any(flags), any_of_group(flags, groups, blocks)
 ///   sync()                what has been written to shared memory can be read by other lanes from now on
 /// Between two calls of `sync` no lane may read what another one writes.
 
@@ -146,10 +146,8 @@ public:
             const bool on = busy_[lane];
             const int slot = slot_[lane], i = row(lane), j = block_[lane];
             each_number([&](auto field, int row, auto& number,
-                            double rest) { W::of(number, lane) = on ? value(field, row, slot) : rest; },
+                            bool) { W::of(number, lane) = on ? value(field, row, slot) : 0.0; },
                         i, j);
-            for (int n = 0; n < own_sums; ++n)
-                W::of(sum_[n], lane) = on && own_sum(j, n) < sums ? b_.at(sum_field(own_sum(j, n)), slot) : 0.0;
             each_constant([&](auto field, int row, auto& number,
                               double rest) { W::of(number, lane) = on ? value(field, row, slot) : rest; },
                           i, j);
@@ -196,17 +194,14 @@ public:
                 return;
             const int slot = slot_[lane], i = row(lane), j = block_[lane];
             each_number(
-                [&](auto field, int row, auto& number, double) {
-                    if (is_stored(field, j))
+                [&](auto field, int row, auto& number, bool own) {
+                    if (own)
                         value(field, row, slot) = W::of(number, lane);
                 },
                 i, j);
             b_.at(OfBlock::sine, i, slot) = W::of(s_.pose.sine, lane);
             b_.at(OfBlock::versine, i, slot) = W::of(s_.pose.versine, lane);
             b_.at(OfBlock::inside, i, slot) = static_cast<double>(inside_[lane]);
-            for (int n = 0; n < own_sums; ++n)
-                if (own_sum(j, n) < sums)
-                    b_.at(sum_field(own_sum(j, n)), slot) = W::of(sum_[n], lane);
             if (j == 0) {
                 b_.at(OfRealization::base_step, slot) = base(lane)[chunk_steps];
                 b_.at(OfRealization::kinetic, slot) = kinetic_[lane];
@@ -287,36 +282,29 @@ private:
     STYLOBATE_LANES double& value(OfBlock::Field f, int row, int slot) const { return b_.at(f, row, slot); }
     STYLOBATE_LANES double& value(OfJoint::Field f, int row, int slot) const { return b_.at(f, row, slot); }
     STYLOBATE_LANES double& value(OfRealization::Field f, int, int slot) const { return b_.at(f, slot); }
-    STYLOBATE_LANES static bool is_stored(OfRealization::Field f, int block)
-    {
-        return block == (f == OfRealization::base_energy ? 0 : blocks - 1);
-    }
-    template <class Field>
-    STYLOBATE_LANES static bool is_stored(Field, int)
-    {
-        return true;
-    }
-
-    /// Calls f(field, its row, the number, what it is in a realization that rests) for what a step changes.
+    /// Calls f(field, its row, the number, whether it is this lane that stores it) for what a step changes.
     template <class F>
     STYLOBATE_LANES void each_number(F&& f, int i, int j)
     {
-        f(OfBlock::x, i, s_.pose.x, 0.0);
-        f(OfBlock::y, i, s_.pose.y, 0.0);
-        f(OfBlock::theta, i, s_.pose.theta, 0.0);
-        f(OfBlock::dx, i, s_.motion.x, 0.0);
-        f(OfBlock::dy, i, s_.motion.y, 0.0);
-        f(OfBlock::dtheta, i, s_.motion.theta, 0.0);
-        f(OfJoint::spring, j, s_.spring, 0.0);
-        f(OfJoint::dashpot_force, j, s_.dashpot, 0.0);
-        f(OfJoint::shear_force, j, s_.shear, 0.0);
-        f(OfJoint::max_rotation, j, s_.max_rotation, 0.0);
-        f(OfRealization::peak_top, 0, s_.peak, 0.0);
-        f(OfRealization::top_path, 0, s_.path, 0.0);
-        f(OfRealization::base_energy, 0, s_.base_energy, 0.0);
+        const bool top = j == blocks - 1;
+        f(OfBlock::x, i, s_.pose.x, true);
+        f(OfBlock::y, i, s_.pose.y, true);
+        f(OfBlock::theta, i, s_.pose.theta, true);
+        f(OfBlock::dx, i, s_.motion.x, true);
+        f(OfBlock::dy, i, s_.motion.y, true);
+        f(OfBlock::dtheta, i, s_.motion.theta, true);
+        f(OfJoint::spring, j, s_.spring, true);
+        f(OfJoint::dashpot_force, j, s_.dashpot, true);
+        f(OfJoint::shear_force, j, s_.shear, true);
+        f(OfJoint::max_rotation, j, s_.max_rotation, true);
+        f(OfRealization::peak_top, 0, s_.peak, top);
+        f(OfRealization::top_path, 0, s_.path, top);
+        f(OfRealization::base_energy, 0, s_.base_energy, j == 0);
+        for (int n = 0; n < own_sums; ++n)
+            f(sum_field(own_sum(j, n)), 0, sum_[n], own_sum(j, n) < sums);
     }
 
-    /// The same for what stays as it is.
+    /// Calls f(field, its row, the number, what it is in a realization that rests) for what stays as it is.
     template <class F>
     STYLOBATE_LANES void each_constant(F&& f, int i, int j)
     {

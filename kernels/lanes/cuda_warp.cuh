@@ -34,11 +34,6 @@ struct CudaWarp {
         const unsigned votes = __ballot_sync(all, flags.value);
         return {(votes >> (groups.value * blocks & (warp_lanes - 1)) & ((1U << blocks) - 1)) != 0};
     }
-    STYLOBATE_LANES Each<bool> first_of_group(const Each<bool>& flags, const Each<int>& groups, int blocks) const
-    {
-        const unsigned votes = __ballot_sync(all, flags.value);
-        return {(votes >> (groups.value * blocks & (warp_lanes - 1)) & 1U) != 0};
-    }
     STYLOBATE_LANES double from(double value, const Each<int>& lanes) const
     {
         return __shfl_sync(all, value, lanes.value);

@@ -171,7 +171,7 @@ private:
             asks[lane] = alarmed[lane] || w.undecided != 0 ||
                          watch_rest(RestSigns{lanes_.kinetic(lane), lanes_.potential(lane), slip, top}, false, w);
         });
-        const Each<bool> asked = w_.first_of_group(asks, lanes_.group(), blocks);
+        const Each<bool> asked = w_.any_of_group(asks, lanes_.group(), blocks); // only the lowest lanes do
         w_.each([&](int lane) { writes[lane] = lanes_.busy()[lane] && (last || asked[lane] || audit_due(lane)); });
         const bool written = w_.any(writes);
         if (written)
@@ -188,7 +188,7 @@ private:
         });
         const bool some = w_.any(asks);
         if (some)
-            lanes_.stop(w_.first_of_group(asks, lanes_.group(), blocks));
+            lanes_.stop(w_.any_of_group(asks, lanes_.group(), blocks));
         return some;
     }
 

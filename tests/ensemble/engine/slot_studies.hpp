@@ -1,13 +1,17 @@
 #pragma once
 /// Studies small enough for the tests of a device's slots.
 
+#include "ensemble/experiment.hpp"
 #include "ensemble/model/motion.hpp"
 #include "ensemble/model/study.hpp"
+#include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stylobate {
@@ -58,6 +62,16 @@ inline Study under_pulses()
     return read_study(inputs + "fragility_column.toml",
                       {"study.realizations=1", "fragility.contacts=1", "fragility.twins=1", "fragility.motions=14",
                        "fragility.intensity.count=3"});
+}
+
+/// These pulses, with a measure of their intensity.
+inline Motions pulses_of(const Study& study)
+{
+    MotionSet pulses = drawn_motions(study);
+    pulses.measures.push_back({"pgv_m_s", 1, {}});
+    for (const auto& motion : pulses.motions)
+        pulses.measures.back().value.push_back(peak(motion->velocity_m_s));
+    return {.drawn = std::make_shared<const MotionSet>(std::move(pulses))};
 }
 
 } // namespace stylobate

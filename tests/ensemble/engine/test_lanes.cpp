@@ -2,7 +2,6 @@
 /// all numbers of blocks, and so has every outcome. The warps are emulated in lockstep (`warp_device.hpp`);
 /// `test_ptx_columns` runs the device's own code.
 
-#include "ensemble/sampling/drawn_motions.hpp"
 #include "tests/ensemble/engine/lanes/both_ways.hpp"
 #include "tests/ensemble/engine/rigid_study.hpp"
 #include "tests/ensemble/engine/slot_studies.hpp"
@@ -50,11 +49,7 @@ TEST(Lanes, RecordsHaveTheBitsOfThreads)
 TEST(Lanes, AFragilityStudyHasTheBitsOfThreads)
 {
     const Study study = under_pulses();
-    MotionSet pulses = drawn_motions(study);
-    pulses.measures.push_back({"pgv_m_s", 1, {}});
-    for (const auto& motion : pulses.motions)
-        pulses.measures.back().value.push_back(peak(motion->velocity_m_s));
-    same_in_lanes(study, {.drawn = std::make_shared<const MotionSet>(std::move(pulses))});
+    same_in_lanes(study, pulses_of(study));
 }
 
 TEST(Lanes, ABrokenRealizationIsSetAside)

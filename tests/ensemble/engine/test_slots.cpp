@@ -6,7 +6,6 @@
 #include "ensemble/planar/device/host_device.hpp"
 #include "ensemble/planar/device/slot_column.hpp"
 #include "ensemble/planar/device/slots.hpp"
-#include "ensemble/sampling/drawn_motions.hpp"
 #include "io/study/study_file.hpp"
 #include "tests/ensemble/engine/ensemble_run.hpp"
 #include "tests/ensemble/engine/forwarding_device.hpp"
@@ -118,12 +117,7 @@ TEST(Slots, AChangedRecordHasTheBitsOfTheLanes)
 TEST(Slots, AFragilityStudyHasTheBitsOfTheLanes)
 {
     const Study study = under_pulses();
-    MotionSet pulses = drawn_motions(study);
-    pulses.measures.push_back({"pgv_m_s", 1, {}});
-    for (const auto& motion : pulses.motions)
-        pulses.measures.back().value.push_back(peak(motion->velocity_m_s));
-    const auto drawn = std::make_shared<const MotionSet>(std::move(pulses));
-    EXPECT_GE(same_in_slots(study, {.drawn = drawn}).states.size(), 2U);
+    EXPECT_GE(same_in_slots(study, pulses_of(study)).states.size(), 2U);
 }
 
 /// Samples go up once for each device, however long the realizations are and however many there are.

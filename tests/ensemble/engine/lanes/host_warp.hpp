@@ -134,13 +134,6 @@ struct HostWarp {
                 found[i] |= groups[k] == groups[i] && flags[k];
         return found;
     }
-    Each<bool> first_of_group(const Each<bool>& flags, const Each<int>& groups, int blocks) const
-    {
-        Each<bool> found;
-        for (int i = 0; i < warp_lanes; ++i)
-            found[i] = groups[i] * blocks < warp_lanes && flags[groups[i] * blocks];
-        return found;
-    }
     WarpReal from(const WarpReal& real, const Each<int>& lanes) const
     {
         return detail::in_lanes<WarpReal>(
