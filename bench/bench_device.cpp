@@ -38,7 +38,7 @@ Study rigid_surface()
 }
 
 /// A surface on all devices. slots = 0: the device's own choice.
-void on_devices(benchmark::State& state, const Study& study, int slots, ColumnStep step)
+void on_devices(benchmark::State& state, const Study& study, int slots, DeviceStep step)
 {
     const Experiment experiment(study);
     RunOptions options{best_isa(), static_cast<int>(std::thread::hardware_concurrency())};
@@ -66,7 +66,7 @@ void on_devices(benchmark::State& state, const Study& study, int slots, ColumnSt
 
 /// The step alone: columns that rock without an end, in one queue of the first device.
 /// @param slots 0: as many as both queues have by the device's own choice
-void steps(benchmark::State& state, const Study& study, int slots, ColumnStep step)
+void steps(benchmark::State& state, const Study& study, int slots, DeviceStep step)
 {
     constexpr int launches = 20;
     const Sampler sampler(study, nullptr);
@@ -127,10 +127,10 @@ const bool registered = [] {
         return true;
     }
     benchmark::RegisterBenchmark("BM_CudaPeakFma", peak_fma)->Unit(benchmark::kMillisecond);
-    const auto add = [](const std::string& name, const auto& run, const Study& study, int slots, ColumnStep step) {
+    const auto add = [](const std::string& name, const auto& run, const Study& study, int slots, DeviceStep step) {
         return benchmark::RegisterBenchmark(name.c_str(), run, study, slots, step)->Unit(benchmark::kMillisecond);
     };
-    using enum ColumnStep;
+    using enum DeviceStep;
     for (const int slots :
          {0, 2640, 5280, 7920, 15840}) // one to three warps a scheduler of 132 multiprocessors, and more
         add("BM_CudaStep/lanes/" + std::to_string(slots), steps, rocking_column(7), slots, by_lanes)->Iterations(1);

@@ -82,7 +82,7 @@ trap 'rm -rf "$work"' EXIT
 seconds() { sed -n 's/.*"seconds": \([0-9.e+-]*\).*/\1/p' "$1"; }
 # run WAY BACKEND: one run of the study, and its rows
 run() {
-    STYLOBATE_COLUMN_STEP=$1 "$stylobate" run "studies/inputs/$study.toml" --backend "$2" -o "$work/$1.h5" --quiet \
+    STYLOBATE_DEVICE_STEP=$1 "$stylobate" run "studies/inputs/$study.toml" --backend "$2" -o "$work/$1.h5" --quiet \
         --json >"$work/$1.json"
     "$stylobate" export "$work/$1.h5" --to csv -o "$work/$1" --force >/dev/null
 }
@@ -104,7 +104,7 @@ done
 
 for warps in 1 3; do
     has ncu "ncu, $warps warps a scheduler" && left 40 "ncu, $warps warps a scheduler" || continue
-    timeout 60 ncu --clock-control none --set full -k regex:step_columns --launch-skip 5 --launch-count 1 \
+    timeout 60 ncu --clock-control none --set full -k regex:step_slots --launch-skip 5 --launch-count 1 \
         "$built/stylobate_bench" --benchmark_filter="BM_CudaStep/lanes/$((2640 * warps))\$" \
         >"$results/ncu_$warps.txt" 2>&1 || status=1
     grep -E "Duration|Executed Ipc Active|No Eligible|Registers Per|Achieved Occ" "$results/ncu_$warps.txt" || true

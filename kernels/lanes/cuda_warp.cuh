@@ -1,7 +1,7 @@
 #pragma once
-/// The warp of a CUDA device, for `ColumnLanes` (`column_lanes.hpp`). Compiled by nvcc only.
+/// The warp of a CUDA device, for `BedLanes` (`bed_lanes.hpp`). Compiled by nvcc only.
 
-#include "kernels/lanes/column_lanes.hpp"
+#include "kernels/lanes/bed_lanes.hpp"
 
 namespace stylobate {
 
@@ -29,10 +29,11 @@ struct CudaWarp {
     }
     STYLOBATE_LANES void sync() const { __syncwarp(); }
     STYLOBATE_LANES bool any(const Each<bool>& flags) const { return __any_sync(all, flags.value); }
-    STYLOBATE_LANES Each<bool> any_of_group(const Each<bool>& flags, const Each<int>& groups, int blocks) const
+    STYLOBATE_LANES Each<std::uint32_t> votes_of_group(const Each<bool>& flags, const Each<int>& groups,
+                                                       int width) const
     {
         const unsigned votes = __ballot_sync(all, flags.value);
-        return {(votes >> (groups.value * blocks & (warp_lanes - 1)) & ((1U << blocks) - 1)) != 0};
+        return {votes >> (groups.value * width & (warp_lanes - 1)) & ((1U << width) - 1)};
     }
     STYLOBATE_LANES double from(double value, const Each<int>& lanes) const
     {

@@ -28,6 +28,16 @@ STYLOBATE_INLINE BoxGap<Real> box_gap(Real x, Real y, const TurnedBox<Real>& a, 
     return {x - reach_x, y - reach_y};
 }
 
+/// Whether the bounding boxes of a pair are less than `margin` apart, or it still carries a force to be ended.
+/// @param x, y distances of their centres [m];  @param carried sum of the pair's forces, without their signs [N]
+template <class Real>
+STYLOBATE_INLINE auto pair_meets(Real x, Real y, const TurnedBox<Real>& a, const TurnedBox<Real>& b, Real carried,
+                                 Real margin)
+{
+    const BoxGap<Real> gap = box_gap(abs_of(x), abs_of(y), a, b);
+    return ((gap.x < margin) & (gap.y < margin)) | (carried > Real(0.0));
+}
+
 template <class Real, class Mechanism, class Layout = Packed>
 class Neighbours : protected Rows<Real, Layout> {
 protected:
@@ -98,16 +108,15 @@ protected:
         Real radius_{0.0}, moved_{0.0}, turned_{0.0};
     };
 
-    /// Whether the bounding boxes of a pair are less than `margin` apart, or it still carries a force to be ended.
+    /// `pair_meets`
     STYLOBATE_INLINE auto meets(int joint, Real margin) const
     {
         const auto [lower, upper] = topology_.joint[joint];
-        const Real x = abs_of(get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower)));
-        const Real y = abs_of(get(OfJoint::height, joint) + (centre_y(upper) - centre_y(lower)));
-        const BoxGap<Real> gap = box_gap(x, y, box(lower), box(upper));
-        const Real carried = abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
-                             abs_of(get(OfJoint::dashpot_force, joint));
-        return ((gap.x < margin) & (gap.y < margin)) | (carried > Real(0.0));
+        return pair_meets(get(OfJoint::reference_x, joint) + (centre_x(upper) - centre_x(lower)),
+                          get(OfJoint::height, joint) + (centre_y(upper) - centre_y(lower)), box(lower), box(upper),
+                          abs_of(get(OfJoint::spring, joint)) + abs_of(get(OfJoint::shear_force, joint)) +
+                              abs_of(get(OfJoint::dashpot_force, joint)),
+                          margin);
     }
 
     STYLOBATE_INLINE TurnedBox<Real> box(int i) const

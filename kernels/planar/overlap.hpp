@@ -61,6 +61,17 @@ STYLOBATE_INLINE Placement<Real> bed_placement(Real lower_sine, Real lower_versi
     return place;
 }
 
+/// The placement of blocks that share no bed, whose centres may be any height apart.
+/// @param place what `bed_placement` gives;  @param y upper centre - lower centre, upwards [m]
+template <class Real>
+STYLOBATE_INLINE Placement<Real> pair_placement(Placement<Real> place, Real lower_sine, Real lower_versine, Real x,
+                                                Real y, Real lower_half_height, Real upper_half_height)
+{
+    place.depth =
+        fma(x, lower_sine, fnma(y, Real(1.0) - lower_versine, fma(upper_half_height, place.cosine, lower_half_height)));
+    return place;
+}
+
 /// Half sizes of the two blocks [m].
 template <class Real>
 struct PairSizes {

@@ -141,7 +141,6 @@ private:
     STYLOBATE_INLINE Placement<Real> placement(int joint, const Pose& lower, const Pose& upper, Real& x, Real& y) const
     {
         const Real sl = lower.sine, vl = lower.versine, su = upper.sine, vu = upper.versine;
-        const Real one(1.0);
         const auto [below, above] = ends<Kind>(joint);
         x = get(OfJoint::reference_x, joint) + (upper.x - lower.x);
         Real rise = upper.y - lower.y;
@@ -150,10 +149,11 @@ private:
         const Real height = get(OfJoint::height, joint);
         y = rise + height;
         const Real hu = get(OfBlock::half_height, above);
-        Placement<Real> place = bed_placement(sl, vl, su, vu, x, rise, height, hu);
-        if constexpr (!Kind::at_rest)
-            place.depth = fma(x, sl, fnma(y, one - vl, fma(hu, place.cosine, get(OfBlock::half_height, below))));
-        return place;
+        const Placement<Real> place = bed_placement(sl, vl, su, vu, x, rise, height, hu);
+        if constexpr (Kind::at_rest)
+            return place;
+        else
+            return pair_placement(place, sl, vl, x, y, get(OfBlock::half_height, below), hu);
     }
 
     /// In a stack, a joint's upper block is the next one's lower one, and its pose is reused.

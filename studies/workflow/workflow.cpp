@@ -35,10 +35,10 @@ RunOptions Machine::run_options() const
 {
     RunOptions options{isa(), thread_count()};
     if (backend == "cuda") {
-        const char* const step = std::getenv("STYLOBATE_COLUMN_STEP"); // to compare the two (scripts/gpu.sh)
+        const char* const step = std::getenv("STYLOBATE_DEVICE_STEP"); // to compare the two (scripts/gpu.sh)
         const bool threads = step != nullptr && std::string_view(step) == "threads";
         options.devices = open_cuda_devices(ranks ? ranks->local_rank() : 0, ranks ? ranks->local_size() : 1,
-                                            threads ? ColumnStep::by_threads : ColumnStep::by_lanes);
+                                            threads ? DeviceStep::by_threads : DeviceStep::by_lanes);
     }
     options.ranks = ranks;
     return options;

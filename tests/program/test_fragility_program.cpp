@@ -31,7 +31,7 @@ protected:
     }
 };
 
-TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByte)
+TEST_F(FragilityProgram, ThreadsInstructionSetsAndInterruptionsChangeNoByteLong)
 {
     expect_no_byte_changes([this](const std::string& results, const char* threads, const std::string& simd) {
         return words(results, threads, simd);

@@ -20,7 +20,7 @@ CudaDevices cuda_devices()
     return {{}, "this program was built without CUDA (cmake -DSTYLOBATE_CUDA=ON builds it with)"};
 }
 
-std::vector<std::shared_ptr<Device>> open_cuda_devices(int, int, ColumnStep)
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int, int, DeviceStep)
 {
     throw InputError("--backend cuda: " + cuda_devices().reason);
 }

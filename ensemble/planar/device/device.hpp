@@ -95,15 +95,15 @@ CudaDevices cuda_devices();
 /// @param local_rank of the process, 0 .. local_size - 1
 std::vector<int> devices_of_rank(int devices, int local_rank, int local_size);
 
-/// How a device steps columns.
-enum class ColumnStep {
-    by_lanes, ///< where lanes serve them
+/// How a device steps what lanes serve.
+enum class DeviceStep {
+    by_lanes, ///< a lane of a warp for every bed
     by_threads
 };
 
 /// Queues of those that this process takes: two for each, so that one computes while the host serves the other.
 /// @throws InputError if there is no device
 std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank = 0, int local_size = 1,
-                                                       ColumnStep step = ColumnStep::by_lanes);
+                                                       DeviceStep step = DeviceStep::by_lanes);
 
 } // namespace stylobate

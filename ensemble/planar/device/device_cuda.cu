@@ -2,8 +2,8 @@
 // what is to be fused is written as fma, so that a step has the bits of the processor's.
 
 #include "ensemble/model/input_error.hpp"
-#include "ensemble/planar/device/column_kernel.cuh"
 #include "ensemble/planar/device/device.hpp"
+#include "ensemble/planar/device/slot_kernel.cuh"
 #include "ensemble/planar/device/slot_tasks.hpp"
 
 #include <cuda_runtime.h>
@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace stylobate {
 
@@ -48,7 +49,7 @@ namespace {
 
 class CudaQueue : public Device {
 public:
-    CudaQueue(int device, ColumnStep step) : device_(device), step_(step)
+    CudaQueue(int device, DeviceStep step) : device_(device), step_(step)
     {
         use();
         cudaDeviceProp p{};
@@ -73,7 +74,7 @@ public:
         int processors = 0;
         check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device_),
               "its properties cannot be read");
-        int slots = column_slots(memory);
+        int slots = lane_slots(memory);
         if (slots == 0)
             with_model<OnCuda>(memory, 1, [&](const auto& task) {
                 using Task = std::decay_t<decltype(task)>;
@@ -92,14 +93,14 @@ public:
     /// A step by lanes takes a tenth of the time of one by a thread.
     FewRealizations few_a_thread(const SlotMemory& memory) const override
     {
-        return column_slots(memory) > 0 ? FewRealizations{.run = 8, .last = 2} : FewRealizations{};
+        return lane_slots(memory) > 0 ? FewRealizations{.run = 8, .last = 2} : FewRealizations{};
     }
 
     std::string why_slow(const SlotMemory& memory) const override
     {
         if (const char* const why = why_no_lanes(memory))
             return why;
-        return column_slots(memory) > 0 ? "" : "its multiprocessors have too little shared memory for lanes";
+        return lane_slots(memory) > 0 ? "" : "its multiprocessors have too little shared memory for lanes";
     }
 
     void* allocate(std::size_t bytes) override
@@ -138,15 +139,15 @@ public:
 
     void advance(const SlotMemory& memory, int chunks, int count) override
     {
-        if (column_slots(memory) == 0)
+        if (lane_slots(memory) == 0)
             return with_model<OnCuda>(memory, chunks, [&](const auto& task) { launch(task, count); });
         if (count <= 0)
             return;
         use();
-        with_lane_blocks(memory, [&]<int blocks>() {
-            constexpr int slots = column_block_slots<blocks>;
-            step_columns<blocks><<<static_cast<unsigned>((count + slots - 1) / slots), warp_lanes * column_warps,
-                                   column_shared_bytes<blocks>, stream_>>>(memory, chunks, count);
+        with_lanes(memory, [&]<int width, bool lists>() {
+            constexpr int slots = block_slots<width, lists>;
+            step_slots<width, lists><<<static_cast<unsigned>((count + slots - 1) / slots), warp_lanes * block_warps,
+                                       block_shared_bytes<width, lists>, stream_>>>(memory, chunks, count);
         });
         check(cudaGetLastError(), "a kernel does not start");
     }
@@ -160,30 +161,31 @@ private:
 
     /// Slots for each multiprocessor where lanes step the blocks; 0 where they do not serve, or where the
     /// multiprocessor has too little shared memory for a block of threads.
-    int column_slots(const SlotMemory& memory) const
+    int lane_slots(const SlotMemory& memory) const
     {
-        if (!lanes_serve(memory) || step_ == ColumnStep::by_threads)
+        if (!lanes_serve(memory) || step_ == DeviceStep::by_threads)
             return 0;
-        if (column_slots_ < 0 || column_blocks_ != memory.topology.free_blocks()) {
+        const std::pair kind{memory.lane_width, memory.lists.bed != nullptr};
+        if (lane_slots_ < 0 || lane_kind_ != kind) {
             use();
-            column_blocks_ = memory.topology.free_blocks();
-            with_lane_blocks(memory, [&]<int blocks>() {
-                constexpr int bytes = static_cast<int>(column_shared_bytes<blocks>);
-                const auto kernel = step_columns<blocks>;
+            lane_kind_ = kind;
+            with_lanes(memory, [&]<int width, bool lists>() {
+                constexpr int bytes = static_cast<int>(block_shared_bytes<width, lists>);
+                const auto kernel = step_slots<width, lists>;
                 int most = 0, residents = 0;
                 check(cudaDeviceGetAttribute(&most, cudaDevAttrMaxSharedMemoryPerBlockOptin, device_),
                       "its properties cannot be read");
                 if (bytes <= most) {
                     check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, bytes),
                           "the kernel does not fit");
-                    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&residents, kernel, warp_lanes * column_warps,
-                                                                        column_shared_bytes<blocks>),
+                    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&residents, kernel, warp_lanes * block_warps,
+                                                                        bytes),
                           "the kernel does not fit");
                 }
-                column_slots_ = residents * column_block_slots<blocks>;
+                lane_slots_ = residents * block_slots<width, lists>;
             });
         }
-        return column_slots_;
+        return lane_slots_;
     }
 
     template <class Task>
@@ -199,9 +201,10 @@ private:
 
     int device_ = 0;
     std::string name_;
-    ColumnStep step_ = ColumnStep::by_lanes;
+    DeviceStep step_ = DeviceStep::by_lanes;
     cudaStream_t stream_ = nullptr;
-    mutable int column_slots_ = -1, column_blocks_ = 0; ///< of `column_slots`, and the free blocks that it is for
+    mutable int lane_slots_ = -1;                      ///< of `lane_slots`
+    mutable std::pair<int, bool> lane_kind_{0, false}; ///< that it is for: lanes of a group, whether with lists
 };
 
 /// Devices that this program has code for. @param reason why there are none, if so
@@ -225,7 +228,7 @@ std::vector<int> usable_devices(std::string& reason)
         if (found == cudaSuccess)
             usable.push_back(device);
         else if (there && (found == cudaErrorNoKernelImageForDevice || found == cudaErrorInvalidDeviceFunction))
-            reason = "this program has no code for " + CudaQueue(device, ColumnStep::by_threads).name() +
+            reason = "this program has no code for " + CudaQueue(device, DeviceStep::by_threads).name() +
                      ". Build it with -DCMAKE_CUDA_ARCHITECTURES of its compute capability, without the point";
         else
             reason = std::string("no CUDA device can be used: ") + cudaGetErrorString(found);
@@ -239,11 +242,11 @@ CudaDevices cuda_devices()
 {
     CudaDevices found;
     for (const int device : usable_devices(found.reason))
-        found.names.push_back(CudaQueue(device, ColumnStep::by_lanes).name());
+        found.names.push_back(CudaQueue(device, DeviceStep::by_lanes).name());
     return found;
 }
 
-std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank, int local_size, ColumnStep step)
+std::vector<std::shared_ptr<Device>> open_cuda_devices(int local_rank, int local_size, DeviceStep step)
 {
     std::string reason;
     const std::vector<int> usable = usable_devices(reason);

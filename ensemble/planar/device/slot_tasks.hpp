@@ -9,6 +9,7 @@
 #include "ensemble/planar/single_lanes.hpp"
 #include "kernels/base_motion.hpp"
 #include "kernels/instances/instantiate.hpp"
+#include "kernels/lanes/lane_list.hpp"
 #include "kernels/sampled_motion.hpp"
 
 #include <bit>
@@ -69,6 +70,8 @@ struct SlotMemory {
     SlotState* state = nullptr; ///< (slots)
     const int* seats = nullptr; ///< (seat_count) the beds on which epistyles lie
     int seat_count = 0;
+    int lane_width = 0; ///< lanes of a group where lanes step this structure (`kernels/lanes/`); 0: they do not
+    LaneLists lists{};  ///< what they hold; of a plain stack: none
 };
 
 namespace detail {
@@ -104,10 +107,11 @@ STYLOBATE_INLINE void store_rows(double* rows, int slots, int slot, const Plain&
 }
 
 /// Whether an epistyle may have lost a seat: as `LimitStates` has it, with an eye to what the two compute otherwise.
-STYLOBATE_INLINE bool unseats(const Topology& topology, const Bundle& b, int bed, int lane)
+/// @param l, u displacement of the bed's lower and upper block's geometric centre
+STYLOBATE_INLINE bool unseats(const Topology& topology, const Bundle& b, int bed, int lane, const Planar<double>& l,
+                              const Planar<double>& u)
 {
     const int lower = topology.joint[bed].lower, upper = topology.joint[bed].upper;
-    const Planar<double> l = centre_of(topology, b, lower, lane), u = centre_of(topology, b, upper, lane);
     const Angle<double> al = angle(l.theta), au = angle(u.theta), turn = angle(u.theta - l.theta);
     const double hu = b.at(OfBlock::half_height, upper, lane);
     const double x = b.at(OfJoint::reference_x, bed, lane) + (u.x - l.x) + hu * au.sine;
@@ -130,9 +134,12 @@ STYLOBATE_INLINE bool alarmed(const SlotMemory& m, int slot, const Watch& w)
             return true;
     }
     if (w.seated != 0)
-        for (int i = 0; i < m.seat_count; ++i)
-            if (unseats(m.topology, m.bundle, m.seats[i], slot))
+        for (int i = 0; i < m.seat_count; ++i) {
+            const auto [lower, upper] = m.topology.joint[m.seats[i]];
+            if (unseats(m.topology, m.bundle, m.seats[i], slot, centre_of(m.topology, m.bundle, lower, slot),
+                        centre_of(m.topology, m.bundle, upper, slot)))
                 return true;
+        }
     return false;
 }
 

@@ -1,6 +1,7 @@
 #include "ensemble/planar/device/slots.hpp"
 
 #include "ensemble/planar/device/slot_column.hpp"
+#include "ensemble/planar/device/slot_warp.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -24,8 +25,10 @@ struct SlotSet::Memory {
           state(device, slots), tables(device, chunks_per_launch * table_rows * slots),
           joints(device, static_cast<std::size_t>(topology.joints)),
           bed_lists(device, static_cast<std::size_t>(bed_lists_size(topology))), rigid_order(device, rigid_numbers),
-          seats(device, static_cast<std::size_t>(topology.beds())), packed(device, rows * slots), list(device, slots),
-          singles(device, single_rows * slots), packed_singles(device, single_rows * slots),
+          seats(device, static_cast<std::size_t>(topology.beds())),
+          lane_beds(device, static_cast<std::size_t>(topology.beds())),
+          lane_owners(device, static_cast<std::size_t>(topology.blocks)), packed(device, rows * slots),
+          list(device, slots), singles(device, single_rows * slots), packed_singles(device, single_rows * slots),
           host_packed(device, rows * slots, Doubles::Where::host), host_list(device, slots, Ints::Where::host),
           host_state(device, slots, States::Where::host)
     {
@@ -36,6 +39,8 @@ struct SlotSet::Memory {
     Doubles tables;
     DeviceArray<TopologyJoint> joints;
     Ints bed_lists, rigid_order, seats;
+    DeviceArray<LaneBed> lane_beds; ///< `list_lanes`
+    Ints lane_owners;
     Doubles packed; ///< columns on their way, one after the other
     Ints list;
     Singles singles, packed_singles; ///< (single_rows x slots), and on their way
@@ -54,10 +59,26 @@ void SlotSet::each(std::size_t count, const std::function<void(std::size_t)>& f)
 
 namespace {
 
-/// Which step the realizations of a study take: without slots and pointers.
-SlotMemory kind_of_step(const Study& study, const Topology& topology)
+/// What lanes hold, on the host.
+struct HostLists {
+    std::vector<LaneBed> bed;
+    std::vector<int> owner;
+};
+
+/// Which step the realizations of a study take: without slots, and with pointers of the host alone.
+SlotMemory kind_of_step(const Study& study, const Topology& topology, HostLists& lists)
 {
     SlotMemory memory;
+    if (plain_stack(topology)) {
+        memory.lane_width = topology.free_blocks();
+    } else {
+        lists.bed.resize(static_cast<std::size_t>(topology.beds()));
+        lists.owner.resize(static_cast<std::size_t>(topology.blocks));
+        if (list_lanes(topology, lists.bed.data(), lists.owner.data())) {
+            memory.lane_width = lanes_of_group(topology.beds());
+            memory.lists = {lists.bed.data(), lists.owner.data(), lists.owner[static_cast<std::size_t>(topology.top)]};
+        }
+    }
     memory.topology = topology;
     memory.motion = BaseMotion::formula(study.excitation.kind);
     memory.base = BaseMotion::along_shared_samples(study) ? BaseTables::along_samples : BaseTables::by_formula;
@@ -71,7 +92,8 @@ FewRealizations SlotSet::few_a_thread(const Study& study, const Motion* record, 
                                       const Device& device)
 {
     const LaneSet one(study, record, kernels(Isa::scalar), pattern);
-    return device.few_a_thread(kind_of_step(study, one.model().topology()));
+    HostLists lists;
+    return device.few_a_thread(kind_of_step(study, one.model().topology(), lists));
 }
 
 SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pattern, Device& device, int slots,
@@ -83,7 +105,8 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     const Topology& host = first.topology();
     rows_ = static_cast<int>(column_rows(host));
     tables_ = static_cast<int>(table_registers(host));
-    memory_ = kind_of_step(study, host);
+    HostLists lists;
+    memory_ = kind_of_step(study, host, lists);
     if (memory_.in_single)
         single_rows_ = static_cast<int>(bundle_registers<float>(host));
     const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(2 * rows_ + chunks_per_launch * tables_) +
@@ -111,11 +134,17 @@ SlotSet::SlotSet(const Study& study, const Motion* record, const Realization& pa
     upload(own.bed_lists, host.bed_lists, static_cast<std::size_t>(bed_lists_size(host)));
     upload(own.rigid_order, host.rigid_order, first.rigid_order_size());
     upload(own.seats, seats.data(), seats.size());
+    upload(own.lane_beds, lists.bed.data(), lists.bed.size());
+    upload(own.lane_owners, lists.owner.data(), lists.owner.size());
 
     memory_.slots = slots;
     memory_.topology.joint = own.joints.data();
     memory_.topology.bed_lists = own.bed_lists.data();
     memory_.topology.rigid_order = own.rigid_order.data();
+    if (memory_.lists.bed != nullptr) {
+        memory_.lists.bed = own.lane_beds.data();
+        memory_.lists.owner = own.lane_owners.data();
+    }
     memory_.bundle = bind_bundle(memory_.topology, slots, own.columns.data(), own.close.data());
     if (memory_.in_single)
         memory_.single = bind_bundle(memory_.topology, slots, own.singles.data(), own.close.data());

@@ -1,5 +1,5 @@
-/// Columns with a lane of a warp for every block: every number of every column has the bits of the step by threads, for
-/// all numbers of blocks, and so has every outcome. The warps are emulated in lockstep (`warp_device.hpp`);
+/// Structures with a lane of a warp for every bed: every number of every column has the bits of the step by threads,
+/// for all numbers of blocks, and so has every outcome. The warps are emulated in lockstep (`warp_device.hpp`);
 /// `test_ptx_columns` runs the device's own code.
 
 #include "tests/ensemble/engine/lanes/both_ways.hpp"
@@ -57,14 +57,14 @@ TEST(Lanes, ABrokenRealizationIsSetAside)
     broken_are_set_aside();
 }
 
-/// All ready studies that lanes serve, columns of 1 to 9 blocks from a small model to a monument: their first thousands
+/// All ready studies that lanes serve, columns and colonnades from a small model to a monument: their first thousands
 /// of steps. (Whole outcomes: `LanesLong`, and `scripts/gpu.sh` on a device.)
 TEST(Lanes, ReadyStudiesHaveTheBitsOfThreads)
 {
     int served = 0;
     for (const auto& entry : std::filesystem::directory_iterator(inputs))
         served += entry.path().extension() == ".toml" && begin_in_lanes(entry.path().filename().string(), 6) != nullptr;
-    EXPECT_GE(served, 10);
+    EXPECT_GE(served, 15);
 }
 
 /// A few realizations of each, to their end.
@@ -97,18 +97,41 @@ TEST(LanesLong, ReadyStudiesHaveTheOutcomesOfTheProcessor)
     }
 }
 
+/// Columns under epistyles, whose pieces meet where they have no bed, and whose groups leave lanes empty or do not.
+class LanesOfColonnades : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(LanesOfColonnades, HaveTheBitsOfThreads)
+{
+    const auto [columns, drums] = GetParam();
+    const auto device = same_in_lanes(colonnade_of(columns, drums, {"study.realizations=1"}));
+    EXPECT_GT(device->asked, 4) << "nothing ended";
+}
+
+INSTANTIATE_TEST_SUITE_P(Columns, LanesOfColonnades,
+                         testing::Values(std::pair{2, 1}, std::pair{2, 2}, std::pair{3, 1}, std::pair{2, 3}));
+INSTANTIATE_TEST_SUITE_P(Long, LanesOfColonnades, testing::Values(std::pair{3, 3}, std::pair{4, 4}));
+
+TEST(Lanes, MoreBlocksThanAStackHasLanesForHaveTheBitsOfThreads)
+{
+    same_in_lanes(of_blocks(most_lane_blocks + 1,
+                            {"study.realizations=1", "surface.frequency_hz={ from = 3.0, to = 3.0, count = 1 }"}));
+}
+
+TEST(Lanes, AColumnFollowedToItsRestHasTheBitsOfThreads)
+{
+    for (const int free : {1, 6})
+        same_in_lanes(of_blocks(free, {"study.realizations=1", "outcome.follow=\"rest\""}));
+}
+
 /// What lanes do not serve is stepped by threads.
 TEST(Lanes, LeaveTheRestToThreads)
 {
     Study single = column({"study.realizations=1"});
     single.run.precision = Precision::single;
-    const std::vector<Study> others{single,
-                                    colonnade({"study.realizations=1"}),
-                                    rigid_of(column({"study.realizations=1"})),
+    const std::vector<Study> others{single, rigid_of(column({"study.realizations=1"})),
                                     column({"study.realizations=1", "contact.form=\"two_corner\""}),
                                     column({"study.realizations=1", "mechanisms.drag={ coefficient_n_s2_m2 = 0.05 }"}),
-                                    column({"study.realizations=1", "outcome.follow=\"rest\""}),
-                                    of_blocks(most_lane_blocks + 1, {"study.realizations=1"})};
+                                    of_blocks(most_lane_beds + 1, {"study.realizations=1"})};
     for (const Study& study : others) {
         const auto device = std::make_shared<WarpDevice>();
         RunOptions options{Isa::scalar, 2};
@@ -132,12 +155,12 @@ TEST(Cuda, LanesHaveTheBitsOfThreads)
         RunOptions options{best_isa(), 2};
         options.few = 0;
         options.longest_on_host = 0;
-        const auto on = [&](ColumnStep step) {
+        const auto on = [&](DeviceStep step) {
             options.devices = open_cuda_devices(0, 1, step);
             return run_all(study, options).outcomes;
         };
-        const auto by_lanes = on(ColumnStep::by_lanes);
-        EXPECT_EQ(by_lanes, on(ColumnStep::by_threads));
+        const auto by_lanes = on(DeviceStep::by_lanes);
+        EXPECT_EQ(by_lanes, on(DeviceStep::by_threads));
         EXPECT_EQ(by_lanes, run_all(study, {best_isa(), 2}).outcomes);
     }
 }

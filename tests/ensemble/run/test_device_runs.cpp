@@ -1,7 +1,7 @@
 /// Whole runs on devices that are the processor: which realizations are begun first, which of them the host steps, what
 /// is made while a device steps, and what becomes of a run whose device fails.
 
-#include "ensemble/planar/device/column_warp.hpp"
+#include "ensemble/planar/device/slot_warp.hpp"
 #include "ensemble/planar/device/slots.hpp"
 #include "ensemble/run/executor.hpp"
 #include "io/study/study_file.hpp"

@@ -50,7 +50,7 @@ TEST_F(DiagnosisProgram, NothingHiddenIsNone)
     }
 }
 
-TEST_F(DiagnosisProgram, APitchingTableIsNamed)
+TEST_F(DiagnosisProgram, APitchingTableIsNamedLong)
 {
     // the laboratory's own answer: what is hidden, and how much
     const std::string answer = read_bytes(campaigns / "answers" / "4.toml");

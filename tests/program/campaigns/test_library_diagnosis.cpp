@@ -9,7 +9,7 @@ namespace {
 
 using LibraryDiagnosis = Program;
 
-TEST_F(LibraryDiagnosis, HasTheVerdictTheSizesAndTheFileOfTheProgram)
+TEST_F(LibraryDiagnosis, HasTheVerdictTheSizesAndTheFileOfTheProgramLong)
 {
     const std::string campaign = STYLOBATE_HIDDEN_CAMPAIGNS "/campaign_4.h5"; // a pitching table
     const JsonValue said =

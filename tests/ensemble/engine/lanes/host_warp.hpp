@@ -1,8 +1,8 @@
 #pragma once
-/// A warp on the processor, for `ColumnLanes`: 32 numbers in the place of one, all lanes in lockstep. Each operation is
+/// A warp on the processor, for `BedLanes`: 32 numbers in the place of one, all lanes in lockstep. Each operation is
 /// that of `kernels/real.hpp`. (A missing barrier does not show here: the run of the device's own code sees it.)
 
-#include "kernels/lanes/column_lanes.hpp"
+#include "kernels/lanes/bed_lanes.hpp"
 
 #include <array>
 
@@ -123,15 +123,17 @@ struct HostWarp {
             f(lane);
     }
     static double& of(WarpReal& real, int lane) { return real.of[static_cast<std::size_t>(lane)]; }
+    static double of(const WarpReal& real, int lane) { return real.of[static_cast<std::size_t>(lane)]; }
     static bool of(const WarpMask& mask, int lane) { return mask.of[static_cast<std::size_t>(lane)]; }
     void sync() const {}
     bool any(const Each<bool>& flags) const { return stylobate::any(WarpMask{flags.value}); }
-    Each<bool> any_of_group(const Each<bool>& flags, const Each<int>& groups, int) const
+    Each<std::uint32_t> votes_of_group(const Each<bool>& flags, const Each<int>& groups, int width) const
     {
-        Each<bool> found;
+        Each<std::uint32_t> found;
         for (int i = 0; i < warp_lanes; ++i)
-            for (int k = 0; k < warp_lanes; ++k)
-                found[i] |= groups[k] == groups[i] && flags[k];
+            for (int k = 0; k < width; ++k)
+                if (const int lane = groups[i] * width + k; lane < warp_lanes && flags[lane])
+                    found[i] |= 1U << k;
         return found;
     }
     WarpReal from(const WarpReal& real, const Each<int>& lanes) const

@@ -1,4 +1,4 @@
-/// The code that nvcc emits for columns with a lane for every block, run on the processor with its lanes in random
+/// The code that nvcc emits for structures with a lane for every bed, run on the processor with its lanes in random
 /// order: every number of every column, and every outcome, has the bits of the processor's step.
 
 #include "tests/ensemble/engine/lanes/both_ways.hpp"
@@ -13,6 +13,9 @@
 namespace columns {
 ptx::Kernels kernels();
 }
+namespace colonnades {
+ptx::Kernels kernels();
+}
 
 using namespace stylobate;
 
@@ -23,13 +26,14 @@ class PtxStep {
 public:
     void operator()(const SlotMemory& m, int chunks, int count)
     {
-        with_lane_blocks(m, [&]<int blocks>() {
+        with_lanes(m, [&]<int width, bool lists>() {
             const ptx::Kernel& kernel =
-                ptx::kernel_named(columns::kernels(), "step_columns<" + std::to_string(blocks) + ">");
+                ptx::kernel_named(lists ? colonnades::kernels() : columns::kernels(),
+                                  "step_slots<" + std::to_string(width) + ", " + (lists ? "true" : "false") + ">");
             const std::vector<char> parameters = ptx::packed(m, chunks, count);
-            constexpr int slots = column_block_slots<blocks>;
+            constexpr int slots = block_slots<width, lists>;
             machine_->run(kernel, parameters.data(), parameters.size(), (count + slots - 1) / slots,
-                          warp_lanes * column_warps, column_shared_bytes<blocks>, ++seed_);
+                          warp_lanes * block_warps, block_shared_bytes<width, lists>, ++seed_);
         });
     }
 
@@ -70,6 +74,22 @@ TEST(PtxColumns, ReadyStudiesHaveTheBitsOfTheProcessor)
                              "fragility_column.toml", "synthetic_earthquake.toml"})
         EXPECT_NE(begin_in_lanes(file, 4, PtxStep()), nullptr) << file;
 }
+
+class PtxColonnades : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(PtxColonnades, HaveTheBitsOfTheProcessor)
+{
+    const auto [columns, drums] = GetParam();
+    const auto device =
+        same_in_lanes(colonnade_of(columns, drums,
+                                   {"study.realizations=1", "surface.frequency_hz={ from = 3.0, to = 3.0, count = 1 }",
+                                    "surface.pga_m_s2={ from = 15.0, to = 15.0, count = 1 }"}),
+                      {}, PtxStep());
+    EXPECT_GT(device->asked, 0) << "nothing ended";
+    RecordProperty("numbers", std::to_string(device->compared));
+}
+
+INSTANTIATE_TEST_SUITE_P(Columns, PtxColonnades, testing::Values(std::pair{2, 2}, std::pair{2, 3}, std::pair{3, 5}));
 
 /// More columns, to their end.
 TEST(PtxColumnsLong, ASurfaceHasTheBitsOfTheProcessor)

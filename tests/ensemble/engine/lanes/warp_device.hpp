@@ -1,8 +1,8 @@
 #pragma once
-/// The processor as a device whose warps step columns with a lane for every block (`column_warp.hpp`), and everything
+/// The processor as a device whose warps step structures with a lane for every bed (`slot_warp.hpp`), and everything
 /// else with a thread for every realization.
 
-#include "ensemble/planar/device/column_warp.hpp"
+#include "ensemble/planar/device/slot_warp.hpp"
 #include "tests/ensemble/engine/forwarding_device.hpp"
 #include "tests/ensemble/engine/lanes/host_warp.hpp"
 
@@ -14,13 +14,14 @@
 namespace stylobate {
 
 /// Steps slots 0 .. count - 1. @pre lanes_serve(m)
-inline void advance_columns(const SlotMemory& m, int chunks, int count)
+inline void advance_in_lanes(const SlotMemory& m, int chunks, int count)
 {
-    with_lane_blocks(m, [&]<int blocks>() {
-        const auto shared = std::make_unique<WarpMemory<blocks>>();
+    with_lanes(m, [&]<int width, bool lists>() {
+        using Memory = WarpMemory<width, lists>;
+        const auto shared = std::make_unique<Memory>();
         const HostWarp warp;
-        for (int first = 0; first < count; first += WarpMemory<blocks>::groups)
-            ColumnWarp<HostWarp, blocks>(warp, m, *shared, first, count).run(chunks);
+        for (int first = 0; first < count; first += Memory::groups)
+            SlotWarp<HostWarp, width, lists>(warp, m, *shared, first, count).run(chunks);
     });
 }
 
@@ -28,7 +29,7 @@ class WarpDevice : public test::ForwardingDevice {
 public:
     /// Steps slots 0 .. count - 1 by lanes.
     using Step = std::function<void(const SlotMemory&, int chunks, int count)>;
-    explicit WarpDevice(Step step = advance_columns) : step_(std::move(step)) {}
+    explicit WarpDevice(Step step = advance_in_lanes) : step_(std::move(step)) {}
 
     std::string name() const override { return "the processor, in warps"; }
     std::string why_slow(const SlotMemory& memory) const override
