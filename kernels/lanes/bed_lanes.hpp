@@ -442,7 +442,7 @@ private:
         const auto far = moved_ * Real(2.0 * steps_) > skin_ * skin_;
         Each<bool> strayed;
         w_.each([&](int lane) {
-            strayed[lane] = W::of(far, lane);
+            strayed[lane] = busy_[lane] && W::of(far, lane); // (what is not busy may drift along an old base)
             if (audit && busy_[lane])
                 for (int joint = t_.beds() + number_[lane]; joint < t_.joints; joint += width)
                     b_.at(OfJoint::elastic, joint, slot_[lane]) = 0;
