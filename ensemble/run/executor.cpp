@@ -137,8 +137,7 @@ public:
             longest_places(places_, done_, static_cast<std::size_t>(std::max(options_.longest_first, 0)),
                            [this](std::uint64_t place) { return sampler_.most_steps(index_of(place)); });
         const int free = options_.threads - std::max(1, options_.threads / threads_a_server);
-        const int some = std::max(options_.longest_on_host, 0) * options_.threads;
-        const std::size_t most = free > 0 ? static_cast<std::size_t>(some) : 0;
+        const auto most = static_cast<std::size_t>(std::max(options_.longest_on_host, 0) * std::max(free, 0));
         const std::size_t apart = std::min(most, longest.size());
         start_.start_first(std::move(longest), apart);
         return static_cast<int>(std::min(apart, static_cast<std::size_t>(free)));

@@ -31,9 +31,9 @@ struct RunOptions {
     std::optional<int> few{};
     /// With devices: so many realizations that may take longest are begun first. 0: the run order is left as it is.
     int longest_first = 1000;
-    /// With devices: so many of these for each thread are stepped by the host from the beginning, the longest one
-    /// first: a realization by itself takes less time in a lane than on a device.
-    int longest_on_host = 3;
+    /// With devices: so many of these for each thread that does not serve the devices are stepped by the host from the
+    /// beginning, the longest one first: a realization by itself takes less time in a lane than on a device.
+    int longest_on_host = 1;
     /// The processes that run the same together; null: this one is alone. `run_ensemble` knows nothing of them: who
     /// calls it shares out what is to be run.
     Ranks* ranks = nullptr;
