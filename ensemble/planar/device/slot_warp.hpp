@@ -24,10 +24,10 @@ constexpr const char* why_no_lanes(const SlotMemory& m)
     if (t.model != StepModel{})
         return "lanes have no mechanisms";
     if (m.lane_width == 0)
-        return "lanes step structures of 1 to 31 beds";
+        return "lanes step structures of 1 to 31 beds, whose blocks have 1 to 4 of them each";
     return nullptr;
 }
-static_assert(most_lane_beds == 31);
+static_assert(most_lane_beds == 31 && most_beds_of_block == 4);
 constexpr bool lanes_serve(const SlotMemory& m)
 {
     return why_no_lanes(m) == nullptr;
