@@ -103,7 +103,7 @@ TEST_F(DiagnosisProgram, APitchingTableIsNamedLong)
     EXPECT_EQ(again["text"].text, d["text"].text);
 }
 
-TEST_F(DiagnosisProgram, WithAStudyOfItsOwn)
+TEST_F(DiagnosisProgram, WithAStudyOfItsOwnLong)
 {
     const std::string study = (campaigns / "campaign_4.toml").string();
     const JsonValue d = diagnosed(4, {"--study", study});
