@@ -215,10 +215,10 @@ private:
         const Pose<Real>&lower = pair.lower, &upper = pair.upper;
         const PairSizes<Real>& sizes = pair.sizes;
         const Real x = pair.reference_x + (upper.x - lower.x), rise = upper.y - lower.y, y = rise + pair.height;
-        const Placement<Real> place =
-            pair_placement(bed_placement(lower.sine, lower.versine, upper.sine, upper.versine, x, rise, pair.height,
-                                         sizes.upper_half_height),
-                           lower.sine, lower.versine, x, y, sizes.lower_half_height, sizes.upper_half_height);
+        Placement<Real> place = bed_placement(lower.sine, lower.versine, upper.sine, upper.versine, x, rise,
+                                              pair.height, sizes.upper_half_height);
+        place.depth =
+            pair_depth(place.cosine, lower.sine, lower.versine, x, y, sizes.lower_half_height, sizes.upper_half_height);
         const Overlap<Real> o = detail::general_overlap_apart(place, sizes);
         const ContactSize<Real> size = contact_size(o);
         const Touch<Real> t =

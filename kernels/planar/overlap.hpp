@@ -61,15 +61,13 @@ STYLOBATE_INLINE Placement<Real> bed_placement(Real lower_sine, Real lower_versi
     return place;
 }
 
-/// The placement of blocks that share no bed, whose centres may be any height apart.
-/// @param place what `bed_placement` gives;  @param y upper centre - lower centre, upwards [m]
+/// `Placement::depth` of blocks that share no bed, whose centres may be any height apart.
+/// @param cosine of the relative rotation;  @param x, y upper centre - lower centre, frame of the base [m]
 template <class Real>
-STYLOBATE_INLINE Placement<Real> pair_placement(Placement<Real> place, Real lower_sine, Real lower_versine, Real x,
-                                                Real y, Real lower_half_height, Real upper_half_height)
+STYLOBATE_INLINE Real pair_depth(Real cosine, Real lower_sine, Real lower_versine, Real x, Real y,
+                                 Real lower_half_height, Real upper_half_height)
 {
-    place.depth =
-        fma(x, lower_sine, fnma(y, Real(1.0) - lower_versine, fma(upper_half_height, place.cosine, lower_half_height)));
-    return place;
+    return fma(x, lower_sine, fnma(y, Real(1.0) - lower_versine, fma(upper_half_height, cosine, lower_half_height)));
 }
 
 /// Half sizes of the two blocks [m].

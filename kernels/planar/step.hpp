@@ -149,11 +149,10 @@ private:
         const Real height = get(OfJoint::height, joint);
         y = rise + height;
         const Real hu = get(OfBlock::half_height, above);
-        const Placement<Real> place = bed_placement(sl, vl, su, vu, x, rise, height, hu);
-        if constexpr (Kind::at_rest)
-            return place;
-        else
-            return pair_placement(place, sl, vl, x, y, get(OfBlock::half_height, below), hu);
+        Placement<Real> place = bed_placement(sl, vl, su, vu, x, rise, height, hu);
+        if constexpr (!Kind::at_rest)
+            place.depth = pair_depth(place.cosine, sl, vl, x, y, get(OfBlock::half_height, below), hu);
+        return place;
     }
 
     /// In a stack, a joint's upper block is the next one's lower one, and its pose is reused.
