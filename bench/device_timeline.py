@@ -21,7 +21,7 @@ STEPS_OF_LAUNCH, LONGEST, COPIES, SCHEDULERS = 512, 1000, 1.05, 4
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rows")
+    parser.add_argument("rows", type=argparse.FileType())
     parser.add_argument("--multiprocessors", type=int, default=132)
     parser.add_argument("--realizations-a-multiprocessor", type=int, default=60)
     parser.add_argument("--realizations-a-warp", type=int, default=5)
@@ -30,7 +30,11 @@ def parse():
     parser.add_argument("--slower", type=float, default=1.25, help="times the cycles (default: 1.25)")
     parser.add_argument("--host-us", type=float, default=0.5)
     parser.add_argument("--threads", type=int, default=16)
-    return parser.parse_args()
+    options = parser.parse_args()
+    rows = csv.DictReader(options.rows)
+    if "steps" not in (rows.fieldnames or []):
+        parser.error(f"{options.rows.name} has no column 'steps': give the realizations.csv of the export above")
+    return options, [int(float(row["steps"])) for row in rows]
 
 
 class Machine:
@@ -71,9 +75,7 @@ class Machine:
 
 
 def main():
-    options = parse()
-    with open(options.rows, newline="") as file:
-        steps = [int(float(row["steps"])) for row in csv.DictReader(file)]
+    options, steps = parse()
     machine = Machine(options)
     ranked = sorted(range(len(steps)), key=lambda i: -steps[i])
     first = ranked[:LONGEST]

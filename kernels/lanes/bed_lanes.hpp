@@ -323,9 +323,9 @@ private:
                                                                             c_.half_width, c_.half_height}));
         }
         const ContactSize<Real> size = contact_size(o);
-        const Touch<Real> t =
-            touch(size, o, o.moment_x * size.per_area, fnma(o.moment_depth, size.per_area, c_.lower_half_height),
-                  lower_sine, lower_versine, apart_x, apart_y, lower_motion, s_.motion);
+        Touch<Real> t;
+        touch(size, o, o.moment_x * size.per_area, fnma(o.moment_depth, size.per_area, c_.lower_half_height),
+              lower_sine, lower_versine, apart_x, apart_y, lower_motion, s_.motion, t);
         const ContactForce<Real> f = contact_force(c_.law, t.area, t.chord, t.closing, t.sliding, s_.spring);
         const BedLoad<Real> load = bed_load(f, t, apart_x, apart_y);
         const Real dashpot = fnma(c_.law.K_n, t.area, f.normal);

@@ -221,9 +221,9 @@ private:
             pair_depth(place.cosine, lower.sine, lower.versine, x, y, sizes.lower_half_height, sizes.upper_half_height);
         const Overlap<Real> o = detail::general_overlap_apart(place, sizes);
         const ContactSize<Real> size = contact_size(o);
-        const Touch<Real> t =
-            touch(size, o, o.moment_x * size.per_area, fnma(o.moment_depth, size.per_area, sizes.lower_half_height),
-                  lower.sine, lower.versine, x, y, pair.lower_motion, pair.upper_motion);
+        Touch<Real> t;
+        touch(size, o, o.moment_x * size.per_area, fnma(o.moment_depth, size.per_area, sizes.lower_half_height),
+              lower.sine, lower.versine, x, y, pair.lower_motion, pair.upper_motion, t);
         const ContactForce<Real> f = contact_force(law, t.area, t.chord, t.closing, t.sliding, pair.spring);
         const BedLoad<Real> load = bed_load(f, t, x, y);
         Real dashpot = fnma(law.K_n, t.area, f.normal);

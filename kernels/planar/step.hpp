@@ -303,9 +303,8 @@ private:
                 s.points.area[i] = s.points.area[i] * size.per_area;
             }
         }
-        static_cast<Touch<Real>&>(s) =
-            touch(size, o, arm_x, arm_y, get(OfBlock::sine, lower), get(OfBlock::versine, lower), s.apart_x, s.apart_y,
-                  motion(lower), motion(upper));
+        touch<Real>(size, o, arm_x, arm_y, get(OfBlock::sine, lower), get(OfBlock::versine, lower), s.apart_x,
+                    s.apart_y, motion(lower), motion(upper), s);
         if (audit)
             put(OfJoint::elastic, joint, select(size.pressed, get(OfJoint::K_n, joint) * o.elastic, Real(0.0)));
     }
