@@ -51,10 +51,10 @@ public:
             busy_[lane] = in_group && busy(slot_[lane]);
             if constexpr (lists) {
                 const bool some = in_group && j < t_.beds();
-                const LaneBed mine = some ? held_.bed[j] : LaneBed{0, -1, -1, 0xFFFFFFFFU};
+                const LaneBed mine = some ? held_.bed[j] : LaneBed{0, -1, 0xFFFFFFFFU};
                 row_[lane] = mine.block;
                 below_[lane] = mine.lower < 0 ? spare_lane : lowest + mine.lower;
-                owner_[lane] = some ? lowest + mine.owner : nobody;
+                owner_[lane] = some ? lowest + held_.owner[mine.block] : nobody;
                 beds_[lane] = mine.beds;
             } else {
                 below_[lane] = in_group && j > 0 ? lane - 1 : spare_lane;
@@ -114,7 +114,8 @@ public:
             const bool own = on && owns(lane);
             shared_.mass[lane] = own ? b_.at(OfBlock::mass, row(lane), slot) : 0;
             shared_.inertia[lane] = own ? b_.at(OfBlock::inertia, row(lane), slot) : 0;
-            this->clear_factors(lane);
+            this->forget_factors(0, lane);
+            this->forget_factors(1, lane);
             if (lane == spare_lane)
                 for (double& step : shared_.base[groups])
                     step = 0;

@@ -19,14 +19,13 @@ inline constexpr int most_lane_beds = warp_lanes - 1;
 struct LaneBed {
     int block;          ///< that lies on the bed, its number in the bundle
     int lower;          ///< lane of the group that holds the bed's lower block; -1: it is a fixed one
-    int owner;          ///< lane of the group that the block is of: this one, or that of which it is a copy
     std::uint32_t beds; ///< of the block, in the order of `list_beds`, a byte each: as entries there; 255: no more
 };
 
 /// What lanes hold, of structures that are no single stack, or have watched pairs.
 struct LaneLists {
     const LaneBed* bed = nullptr; ///< (beds) `list_lanes`
-    const int* owner = nullptr;   ///< (blocks)
+    const int* owner = nullptr;   ///< (blocks) lane of the group that each block is of; -1: it is fixed
     int top = 0;                  ///< lane of the group that holds the block whose displacement is followed
 };
 
@@ -69,7 +68,7 @@ inline bool list_lanes(const Topology& t, LaneBed* lane, int* owner)
             return false;
         for (int k = count - 1; k >= 0; --k)
             beds = beds << 8 | static_cast<std::uint32_t>(t.bed_lists[t.bed_lists[block] + k]);
-        lane[j] = {block, owner[lower], owner[block], beds};
+        lane[j] = {block, owner[lower], beds};
     }
     return true;
 }

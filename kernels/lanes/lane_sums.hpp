@@ -112,14 +112,6 @@ protected:
                                       : OfRealization::rocking_path;
     }
 
-    /// No bed has added anything yet.
-    STYLOBATE_LANES void clear_factors(int lane)
-    {
-        for (auto& step : shared_.factor)
-            for (int k = 0; k < Memory::factors; ++k)
-                step[lane].of[k] = k == Memory::one ? 1 : 0;
-    }
-
     /// What the sums of a step are made of.
     /// @param dashpot, shear sum of the forces at the two ends of the step [N];  @param slip, turning in it
     /// @param limit of friction [N]
@@ -163,11 +155,11 @@ protected:
             }
         });
     }
-    /// No bed adds to the sums at the first step after these.
+    /// The lane's bed adds nothing to the next sums that are made of these.
     STYLOBATE_LANES void forget_factors(int at, int lane)
     {
-        for (int k = 0; k < Memory::one; ++k)
-            shared_.factor[at][lane].of[k] = 0;
+        for (int k = 0; k < Memory::factors; ++k)
+            shared_.factor[at][lane].of[k] = k == Memory::one ? 1 : 0;
     }
 
     /// The work of the base in `count` steps from `first` on: lane j adds up the momentum of the j-th of them, and each

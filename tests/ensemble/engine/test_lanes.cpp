@@ -111,6 +111,47 @@ INSTANTIATE_TEST_SUITE_P(Columns, LanesOfColonnades,
                          testing::Values(std::pair{2, 1}, std::pair{2, 2}, std::pair{3, 1}, std::pair{2, 3}));
 INSTANTIATE_TEST_SUITE_P(Long, LanesOfColonnades, testing::Values(std::pair{3, 3}, std::pair{4, 4}));
 
+/// Two columns of one drum under an epistyle, on a fixed block 0: the epistyle, block 3, lies on beds 2 and 3.
+TEST(LaneList, OfTwoColumnsUnderAnEpistyle)
+{
+    const std::vector<TopologyJoint> joints{{0, 1}, {0, 2}, {1, 3}, {2, 3}};
+    Topology t{.blocks = 4, .fixed = 1, .top = 3, .joints = 4, .joint = joints.data()};
+    std::vector<int> lists(static_cast<std::size_t>(bed_lists_size(t))), owner(4);
+    list_beds(t, lists.data());
+    std::vector<LaneBed> lane(4);
+    ASSERT_TRUE(list_lanes(t, lane.data(), owner.data()));
+    EXPECT_EQ(owner, (std::vector{-1, 0, 1, 2}));
+    const auto same = [&](int j, int block, int lower, std::uint32_t beds) {
+        const LaneBed& l = lane[static_cast<std::size_t>(j)];
+        return l.block == block && l.lower == lower && l.beds == beds;
+    };
+    EXPECT_TRUE(same(0, 1, -1, 0xFFFF0500U)) << "it lies on bed 0 and carries bed 2";
+    EXPECT_TRUE(same(1, 2, -1, 0xFFFF0702U));
+    EXPECT_TRUE(same(2, 3, 0, 0xFFFF0604U));
+    EXPECT_TRUE(same(3, 3, 1, 0xFFFF0604U)) << "a copy of the epistyle";
+}
+
+TEST(LaneList, RefusesWhatLanesCannotHold)
+{
+    const auto fits = [](int blocks, const std::vector<TopologyJoint>& joints) {
+        Topology t{.blocks = blocks, .fixed = 1, .joints = static_cast<int>(joints.size()), .joint = joints.data()};
+        std::vector<int> lists(static_cast<std::size_t>(bed_lists_size(t))), owner(static_cast<std::size_t>(blocks));
+        list_beds(t, lists.data());
+        std::vector<LaneBed> lane(joints.size());
+        return list_lanes(t, lane.data(), owner.data());
+    };
+    EXPECT_TRUE(fits(5, {{0, 1}, {1, 2}, {1, 3}, {1, 4}})) << "four beds of block 1";
+    EXPECT_FALSE(fits(6, {{0, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}})) << "five";
+    EXPECT_FALSE(fits(3, {{0, 1}})) << "block 2 has no bed";
+    EXPECT_FALSE(fits(3, {{0, 2}, {2, 1}})) << "the beds are not in the order of the blocks";
+    std::vector<TopologyJoint> stack;
+    for (int j = 0; j < most_lane_beds; ++j)
+        stack.push_back({j, j + 1});
+    EXPECT_TRUE(fits(most_lane_beds + 1, stack));
+    stack.push_back({most_lane_beds, most_lane_beds + 1});
+    EXPECT_FALSE(fits(most_lane_beds + 2, stack));
+}
+
 TEST(Lanes, MoreBlocksThanAStackHasLanesForHaveTheBitsOfThreads)
 {
     same_in_lanes(of_blocks(most_lane_blocks + 1,
