@@ -65,7 +65,7 @@ public:
 
     STYLOBATE_LANES const Each<bool>& busy() const { return busy_; }
     STYLOBATE_LANES int slot(int lane) const { return slot_[lane]; }
-    /// Whether the lane has a bed and a block; if not, it rests.
+    /// Whether the lane has a bed and a block.
     STYLOBATE_LANES bool holds(int lane) const
     {
         if constexpr (lists)
@@ -73,6 +73,8 @@ public:
         else
             return group_[lane] < groups;
     }
+    /// Whether its block is stepped; if not, it rests.
+    STYLOBATE_LANES bool moves(int lane) const { return busy_[lane] && holds(lane); }
     /// The number of its block in the bundle.   @pre holds
     STYLOBATE_LANES int row(int lane) const
     {
@@ -109,7 +111,7 @@ public:
                 W::of(number, lane) = on && has ? value(field, row, slot) : 0.0;
             });
             each_constant(lane, [&](auto field, int row, auto& number, double rest) {
-                W::of(number, lane) = on && holds(lane) ? value(field, row, slot) : rest;
+                W::of(number, lane) = moves(lane) ? value(field, row, slot) : rest;
             });
             const bool own = on && owns(lane);
             shared_.mass[lane] = own ? b_.at(OfBlock::mass, row(lane), slot) : 0;
@@ -339,7 +341,7 @@ private:
         const Planar<Real> force = force_on_block(step, load, audit);
         Real base;
         w_.each([&](int lane) {
-            W::of(base, lane) = shared_.base[holds(lane) ? group_[lane] : groups][1 + step];
+            W::of(base, lane) = shared_.base[moves(lane) ? group_[lane] : groups][1 + step];
             shared_.sums.moved[turn][lane] = owns(lane) ? W::of(s_.motion.x, lane) : 0;
         });
         const Planar<Real> next =
@@ -443,7 +445,7 @@ private:
         const auto far = moved_ * Real(2.0 * steps_) > skin_ * skin_;
         Each<bool> strayed;
         w_.each([&](int lane) {
-            strayed[lane] = busy_[lane] && W::of(far, lane); // (what is not busy may drift along an old base)
+            strayed[lane] = W::of(far, lane);
             if (audit && busy_[lane])
                 for (int joint = t_.beds() + number_[lane]; joint < t_.joints; joint += width)
                     b_.at(OfJoint::elastic, joint, slot_[lane]) = 0;
@@ -502,7 +504,7 @@ private:
             shared_.sums.audit[0][lane] = own ? W::of(twice, lane) : 0;
             shared_.sums.audit[1][lane] = own ? W::of(turning, lane) : 0;
             shared_.sums.audit[2][lane] = own ? W::of(height, lane) : 0;
-            if (!busy_[lane] || !holds(lane))
+            if (!moves(lane))
                 return;
             const int slot = slot_[lane], i = row(lane), j = number_[lane];
             b_.at(OfJoint::force_x, j, slot) = W::of(of_bed[0], lane);

@@ -81,13 +81,13 @@ public:
             steps_[lane] = on ? whole(m_.watch[steps_row * m_.slots + slot]) : 0;
             for (int f = 0; f < OfAlarm::count; ++f)
                 alarm_[f][lane] =
-                    on && lanes_.holds(lane)
+                    lanes_.moves(lane)
                         ? m_.alarms[(static_cast<long>(lanes_.row(lane)) * OfAlarm::count + f) * m_.slots + slot]
                         : 0;
             if constexpr (lists) {
                 seat_[lane] = false;
                 for (int i = 0; i < m_.seat_count; ++i)
-                    seat_[lane] = seat_[lane] || (lanes_.holds(lane) && m_.seats[i] == lanes_.number(lane));
+                    seat_[lane] = seat_[lane] || m_.seats[i] == lanes_.number(lane);
             }
         });
     }
@@ -171,9 +171,8 @@ private:
             const Planar<double> at = of(lanes_.position(), lane);
             const bool finite = abs_of(at.x) < most && abs_of(at.y) < most && abs_of(at.theta) < most &&
                                 abs_of(lanes_.kinetic(lane)) < most;
-            alarms[lane] =
-                lanes_.busy()[lane] && lanes_.holds(lane) &&
-                (!finite || at.y < alarm_[OfAlarm::low][lane] || abs_of(at.theta) > alarm_[OfAlarm::turned][lane]);
+            alarms[lane] = lanes_.moves(lane) && (!finite || at.y < alarm_[OfAlarm::low][lane] ||
+                                                  abs_of(at.theta) > alarm_[OfAlarm::turned][lane]);
             asks[lane] = false;
         });
         const Each<bool> alarmed = any_of_group(alarms);
@@ -233,7 +232,7 @@ private:
                 return found;
             const auto below = lanes_.position_below();
             w_.each([&](int lane) {
-                if (seat_[lane] && lanes_.busy()[lane])
+                if (seat_[lane] && lanes_.moves(lane))
                     found[lane] = detail::unseats(m_.topology, m_.bundle, lanes_.number(lane), lanes_.slot(lane),
                                                   of(below, lane), of(lanes_.position(), lane));
             });
