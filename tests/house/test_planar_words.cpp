@@ -22,7 +22,7 @@ const std::set<std::string> planar_words = {"theta", "half_width_m"};
 /// Folders and files that may have them, and why.
 const std::map<std::string, std::string> planar_places = {
     {"kernels/planar/", "the planar model"},
-    {"kernels/lanes/", "the planar model, with a lane for every block"},
+    {"kernels/lanes/", "the planar model, with a lane for every bed"},
     {"ensemble/planar/", "the planar model"},
     {"ensemble/realization/planar_structure.hpp", "the planar model"},
     {"ensemble/model/campaign.hpp", "measured data, which give planar poses"},

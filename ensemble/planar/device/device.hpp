@@ -1,5 +1,5 @@
 #pragma once
-/// A device that steps many realizations at once, with a lane for every block (`column_warp.hpp`) or a thread for every
+/// A device that steps many realizations at once, with a lane for every bed (`slot_warp.hpp`) or a thread for every
 /// realization (`slot_tasks.hpp`): memory, copies, and launches. All else about it is ordinary code (`slots.hpp`), the
 /// same for every device.
 

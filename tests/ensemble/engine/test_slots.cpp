@@ -1,6 +1,6 @@
 /// The slots of a device, on the device that is the processor and on the devices of CUDA, where there are any: outcomes
 /// have the bits of the processor's own lanes, with any number of slots, however they are refilled, and whatever the
-/// realizations are. (`test_lanes`: the same with a lane of a warp for every block.)
+/// realizations are. (`test_lanes`: the same with a lane of a warp for every bed.)
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/planar/device/host_device.hpp"
