@@ -6,6 +6,8 @@
 #   format     clang-format has nothing to change
 #   headers    every header compiles by itself, with clang's warnings as errors
 #   clang      so does every source file
+#   bench      so does every source file of bench/, by the compiler and with the warnings of the release build, which leaves
+#              them out
 #   tidy       clang-tidy finds nothing in the files that changed last, and then in as many others as TIDY_S seconds
 #              (300) allow; TIDY_S=0: in all files
 #   sanitize   the tests of files and numerics (SANITIZE: the programs, "inputs estimators") under AddressSanitizer and
@@ -40,10 +42,22 @@ in_parallel() { xargs -P "$jobs" -d '\n' -I{} bash -c '{}'; }
 
 gate_format() { sources '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs -P "$jobs" -n 40 clang-format --dry-run --Werror; }
 
+# syntax BUILD TARGET...: the commands that check the source files of these targets without compiling them.
+syntax() {
+    local build=$1
+    shift
+    ninja -C "$build" -t commands "$@" | grep -- ' -c ' | grep -vE 'version.cpp|page_assets.cpp|cmake_pch.hxx.cxx' |
+        sed -E "s| -o [^ ]+||; s| -M[DTF]+( [^ ]+\.(o\|d))?||g; s|^|cd $build \&\& |; s|\$| -fsyntax-only|"
+}
+
 gate_clang() {
     configure
-    ninja -C "$work/clang" -t commands all | grep -- ' -c ' | grep -vE 'version.cpp|page_assets.cpp|cmake_pch.hxx.cxx' |
-        sed -E "s| -o [^ ]+||; s| -M[DTF]+( [^ ]+\.(o\|d))?||g; s|^|cd $work/clang \&\& |; s|\$| -fsyntax-only|" | in_parallel
+    syntax "$work/clang" all measurements | in_parallel
+}
+
+gate_bench() {
+    cmake --preset release >/dev/null
+    syntax build/release measurements | grep -E "$PWD/bench/[^ ]+ -fsyntax-only\$" | in_parallel
 }
 
 gate_headers() {
@@ -86,7 +100,7 @@ gate_sanitize() {
 
 gate_fuzz() { scripts/fuzz.sh all "$((${FUZZ_S:-60} / 7))s" "$work/fuzz" 2>&1 | tail -n 40; }
 
-all=(format headers clang tidy sanitize fuzz)
+all=(format headers bench clang tidy sanitize fuzz)
 within=
 if [[ ${1:-} == --within ]]; then
     within=${2:?check.sh: --within needs a number of seconds}

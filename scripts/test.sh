@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds everything and runs the tests.
+# Builds the program and its tests, and runs these. The programs of bench/ that no test needs are built with --long.
 #
 #   scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]
 #
-#   --long     also the tests labelled `long`
+#   --long     also the tests labelled `long`, and the target `measurements`
 #   --debug    with assertions; --asan, --tsan: with sanitizers
 # The last lines are CTest's summary, the exit status is CTest's.
 set -euo pipefail
@@ -32,6 +32,8 @@ if [[ ${#selection[@]} -eq 0 ]]; then # packages in a bare Debian, and on an old
     scripts/install_packages.sh debootstrap dpkg-dev file lintian patchelf qemu-user-static
 fi
 cmake --preset "$preset" >/dev/null
-cmake --build "build/$preset" --parallel "$(nproc)"
+targets=(all)
+[[ ${#selection[@]} -gt 0 || $preset != release ]] || targets+=(measurements) # sanitized builds have none
+cmake --build "build/$preset" --target "${targets[@]}" --parallel "$(nproc)"
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"
 exec ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" "$@"

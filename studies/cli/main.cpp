@@ -422,6 +422,17 @@ private:
         return words;
     }
 
+    /// A structure where the kind of a study belongs: empty, or what to write instead.
+    static std::string structure_as_kind(const std::string& word)
+    {
+        const std::vector<std::string> structures = words_of(structure_kind_names);
+        return std::ranges::find(structures, word) == structures.end()
+                   ? ""
+                   : fmt::format("{0} is a structure, not a kind of study: for example `stylobate new surface "
+                                 "--structure {0}`",
+                                 word);
+    }
+
     void add_new()
     {
         auto* begin =
@@ -435,6 +446,7 @@ private:
                          fmt::format("kind of the study: {}; or {}, a folder for measured data",
                                      fmt::join(words_of(study_kind_names), ", "), new_campaign_word))
             ->required()
+            ->check(structure_as_kind)
             ->check(CLI::IsMember(kinds));
         add_word(*begin, "--test", new_.test,
                  fmt::format("campaign: kind of its run: {} (default: shake)", fmt::join(tests, ", ")))

@@ -94,10 +94,19 @@ std::string html_of(const Document& document);
 /// script are left out.
 std::string markdown_of(const Document& document);
 
+constexpr std::size_t console_width = 100; ///< characters of a line
+
+/// Characters of UTF-8.
+std::size_t characters(std::string_view text);
+
+/// Words on lines of at most `width` characters, each after `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width = console_width);
+
 /// What a console shows of it: sentences, lists, facts and tables, each with two blanks before it, columns as wide as
 /// their widest cell; of what is folded the sentence alone. A result's text on the console and the first part of its
 /// page are made by one function.
-std::string console_text(const Document& document);
+/// @param width of the lines of sentences and lists; 0: as they are
+std::string console_text(const Document& document, std::size_t width = 0);
 
 /// {"title", "subtitle", "sections": [{"title", "blocks": [{"kind", ...}]}]}, with tables as lists of rows. The first
 /// section, without a title, is what stands before the others.

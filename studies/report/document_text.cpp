@@ -9,12 +9,6 @@ namespace {
 
 constexpr std::size_t widest_name = 34; ///< of facts: longer names do not push the others to the right
 
-/// Characters of UTF-8.
-std::size_t characters(std::string_view text)
-{
-    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
 /// Columns as wide as their widest cell.
 std::string console_table(const HtmlTable& table)
 {
@@ -73,8 +67,12 @@ std::string indented(const std::string& text)
     return out;
 }
 
-std::string console_block(const DocumentBlock& b)
+/// @param width of the lines; 0: those of the text
+std::string console_block(const DocumentBlock& b, std::size_t width)
 {
+    const auto lines = [&](const Html& text) {
+        return width > 0 ? wrapped(plain_text(text), 2, width) : indented(plain_text(text));
+    };
     using Kind = DocumentBlock::Kind;
     std::string out;
     switch (b.kind) {
@@ -85,12 +83,11 @@ std::string console_block(const DocumentBlock& b)
     case Kind::paragraph:
     case Kind::note:
     case Kind::fold:
-        return indented(plain_text(b.text));
     case Kind::box: // its title says the same more briefly
-        return indented(plain_text(b.text));
+        return lines(b.text);
     case Kind::list:
         for (const Html& item : b.items)
-            out += fmt::format("  - {}\n", plain_text(item));
+            out += lines("- " + plain_text(item));
         return out;
     case Kind::facts:
         return console_facts(b.items);
@@ -106,13 +103,38 @@ std::string console_block(const DocumentBlock& b)
 
 } // namespace
 
-std::string console_text(const Document& document)
+std::size_t characters(std::string_view text)
+{
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width)
+{
+    std::string out(indent, ' ');
+    std::size_t column = indent;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        begin = end + 1;
+        if (word.empty())
+            continue;
+        if (column > indent && column + 1 + characters(word) > width) {
+            out += "\n" + std::string(indent, ' ');
+            column = indent;
+        }
+        out += (column > indent ? " " : "") + word;
+        column += (column > indent ? 1 : 0) + characters(word);
+    }
+    return out + "\n";
+}
+
+std::string console_text(const Document& document, std::size_t width)
 {
     std::string out = document.title().empty() ? "" : document.title() + "\n";
     std::size_t folds = 0; // what opens below a sentence is for a page
     for (const DocumentBlock& block : document.blocks()) {
         if (folds == 0)
-            out += console_block(block);
+            out += console_block(block, width);
         if (block.kind == DocumentBlock::Kind::fold)
             ++folds;
         else if (folds > 0 && block.kind == DocumentBlock::Kind::end && block.title == "details")

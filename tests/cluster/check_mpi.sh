@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# --mpi under mpirun: the bytes of one process for 1 and 4 ranks, for every kind of study that ranks can share; a
-# rank that is killed and a run that is terminated, continued with other numbers of ranks and by one process; bad input
-# is said once.
+# --mpi under mpirun: the bytes of one process for 4 ranks, for every kind of study that ranks can share; a rank that is
+# killed and a run that is terminated, continued with other numbers of ranks and by one process; bad input is said once.
 #
 #   tests/cluster/check_mpi.sh PROGRAM SOURCE [CAMPAIGNS]
 #
-#   CAMPAIGNS   the program hidden_campaigns: instead, a calibration and a diagnosis by one process and by three ranks
+#   CAMPAIGNS   the program hidden_campaigns: also a calibration and a diagnosis by one process and by three ranks, one
+#               and two ranks for every kind, and kills of more kinds
 set -euo pipefail
 
 program=$1 source=$2 campaigns=${3:-}
+numbers=(4) killed=(rows adaptive)
 command -v mpirun >/dev/null || { echo "skipped: no mpirun (Debian: libopenmpi-dev)"; exit 77; }
 "$program" info | grep -q "^MPI: .*MPI" || { echo "skipped: the program was built without MPI"; exit 77; }
 folder=$(mktemp -d)
@@ -31,7 +32,7 @@ if [[ -n $campaigns ]]; then
     differing=$(cmp -l one_fit.h5 three_fit.h5 | awk 'NR == 1 { first = $1 } END { print NR ? $1 - first + 1 : 0 }')
     [[ $(stat -c %s one_fit.h5) == $(stat -c %s three_fit.h5) && $differing -le 8 ]] || fail "calibrate: other results"
     echo "calibrate: the same bytes, but for the seconds"
-    exit
+    numbers=(1 2 4) killed=(rows counts adaptive space)
 fi
 
 inputs=$source/studies/inputs
@@ -57,7 +58,7 @@ settings() { # of one kind, one to a line
 for kind in rows counts adaptive rare twins fragility sensitivity space; do
     mapfile -t set < <(settings $kind)
     "$program" run "$inputs/${study[$kind]}.toml" "${set[@]}" -o $kind.h5 --quiet >/dev/null
-    for n in 1 4; do
+    for n in "${numbers[@]}"; do
         ranks $n run "$inputs/${study[$kind]}.toml" "${set[@]}" -o ranks.h5 >/dev/null
         cmp $kind.h5 ranks.h5 || fail "$kind: $n ranks"
         rm ranks.h5
@@ -66,7 +67,7 @@ for kind in rows counts adaptive rare twins fragility sensitivity space; do
 done
 
 # SIGKILL of a rank that is not the first, then SIGTERM of all, then to the end: by one process, and by four ranks
-for kind in rows counts adaptive space; do
+for kind in "${killed[@]}"; do
     mapfile -t set < <(settings $kind)
     again() { "${@}" run "$inputs/${study[$kind]}.toml" "${set[@]}" -o stopped.h5 --quiet; }
     for ((i = 0; ; ++i)); do # on a busy machine a run may end before it is killed

@@ -186,6 +186,7 @@ public:
         command.add_flag("--short", brief_, "two runs without repeats, for tests");
         command.add_option("--law", law_, "baseline contact law, instead of that of the seed")
             ->check(CLI::IsMember({"nonsmooth", "compliant"}));
+        command.add_flag("--column", column_, "a column of small blocks, for any seed: specimens of loop_assessment");
         slippery_ = command
                         .add_option("--friction", friction_,
                                     "FROM TO: true friction over the nominal one of the file, uniform in the logarithm")
@@ -197,6 +198,8 @@ public:
         Wish wish;
         if (brief_)
             wish.most_motions = 2;
+        if (column_)
+            wish.specimen = SpecimenKind::small_column;
         if (!law_.empty())
             wish.law = law_ == "nonsmooth" ? Law::nonsmooth : Law::compliant;
         if (slippery_->count() > 0 && friction_.first > friction_.second)
@@ -218,7 +221,7 @@ public:
 private:
     std::string law_;
     std::vector<std::string> effects_;
-    bool nothing_ = false, brief_ = false;
+    bool nothing_ = false, brief_ = false, column_ = false;
     std::pair<double, double> friction_;
     CLI::Option* slippery_ = nullptr;
 };

@@ -46,7 +46,7 @@ protected:
     }
 };
 
-TEST_F(CalibrationProgram, WhatAnInterruptKeepsIsSaidAndUsed)
+TEST_F(CalibrationProgram, WhatAnInterruptKeepsIsSaidAndUsedLong)
 {
     SyntheticCampaign c;
     c.runs = 2;

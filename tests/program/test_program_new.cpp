@@ -51,6 +51,7 @@ TEST_F(NewStudy, RefusesWhatIsNoKind)
     expect_refused({"new"}, {"KIND is required"});
     expect_refused({"new", "surfac"}, {"surfac", "surface"});
     expect_refused({"new", "single", "--structure", "temple"}, {"temple", "colonnade"});
+    expect_refused({"new", "colonnade"}, {"stylobate new surface --structure colonnade"});
     expect_refused({"new", "survival", "--dimensions", "3"}, {"\"survival\" cannot have structure.dimensions = 3"});
     expect_refused({"new", "single", "--dimensions", "4"}, {"dimensions", "4"});
     expect_refused({"new", "rare", "--excitation", "noise"}, {"\"rare\" cannot have excitation.kind = \"noise\""});

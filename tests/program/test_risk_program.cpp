@@ -375,7 +375,7 @@ TEST_F(RiskProgram, HistoriesShowNoShareWhileTheyRun)
     } seen;
     const Results results((folder / "f.h5").string(), {});
     SequenceOptions options;
-    options.histories = 60;
+    options.histories = 8;
     options.threshold = 0.5;
     options.pause_s = 5;
     RunOptions two;

@@ -61,7 +61,7 @@ TEST_F(Shards, OfCountsAreItsBytes)
     expect_same_bytes(column_study, with(short_surface(20), {"output.realizations=none"}), {4, 37});
 }
 
-TEST_F(Shards, OfOtherKindsAreTheirBytes)
+TEST_F(Shards, OfOtherKindsAreTheirBytesLong)
 {
     expect_same_bytes(inputs + "free_rocking.toml", {"study.realizations=5"}, {3});
     expect_same_bytes(inputs + "twins_column.toml",

@@ -28,7 +28,10 @@ namespace {
 struct Assessment {
     std::uint64_t first = 1, last = 1;
     std::vector<std::string> effects;
-    bool in_turn = false; ///< one of the effects for each seed, one after the other
+    bool in_turn = false;   ///< one of the effects for each seed, one after the other
+    std::size_t second = 0; ///< with `in_turn`, not 0: also the effect that stands so many further on, a pair each
+    int blocks = 0;         ///< not 0: seeds of columns with other numbers of blocks are passed over
+    std::size_t most = 0;   ///< specimens; 0: all seeds
     bool nothing = false;
     std::string law, specimen;
     std::string prior = "flat"; ///< "flat", "group" (the right one), or a folder of diagnoses
@@ -113,9 +116,30 @@ std::vector<PriorShare> prior_of(const Assessment& how, const VirtualCampaign& m
     return fs::exists(file) ? prior_shares(read_diagnosis(file)) : std::vector<PriorShare>();
 }
 
+/// Whether the cause is what the effect is, where it is.
+bool is_that(const StoryCause& cause, const HiddenEffect& effect)
+{
+    return cause.mechanism == loop_mechanism(effect.name) &&
+           (cause.place == effect.place || cause.place.starts_with(effect.place + " "));
+}
+
+/// How a verdict stands to several effects: which of them are named, and how many other names there are.
+std::string judged_together(const std::vector<HiddenEffect>& effects, const TestStory& story)
+{
+    std::size_t right = 0;
+    for (const HiddenEffect& e : effects)
+        right += std::ranges::any_of(story.named, [&](const StoryCause& c) { return is_that(c, e); });
+    const auto wrong = std::ranges::count_if(story.named, [&](const StoryCause& c) {
+        return std::ranges::none_of(effects, [&](const HiddenEffect& e) { return is_that(c, e); });
+    });
+    return fmt::format("{} of {} named, {} wrong", right, effects.size(), wrong);
+}
+
 /// How a verdict stands to what is hidden.
 std::string judged(const VirtualCampaign& made, const TestStory& story)
 {
+    if (made.effects.size() > 1)
+        return judged_together(made.effects, story);
     const bool named = story.verdict == SequenceVerdict::named;
     if (made.effects.empty())
         return named || story.verdict == SequenceVerdict::unexplained ? "false alarm" : "quiet";
@@ -127,7 +151,7 @@ std::string judged(const VirtualCampaign& made, const TestStory& story)
     const StoryCause& first = story.named.front();
     if (first.mechanism != loop_mechanism(e.name))
         return "wrong name";
-    if (first.place != e.place && !first.place.starts_with(e.place + " "))
+    if (!is_that(first, e))
         return "wrong place";
     return story.named.size() > 1 ? "right, and a wrong one beside it" : "right";
 }
@@ -135,7 +159,7 @@ std::string judged(const VirtualCampaign& made, const TestStory& story)
 /// Whether the interval has the size; empty: the two are not the same quantity.
 std::string size_within(const VirtualCampaign& made, const TestStory& story)
 {
-    if (made.effects.empty() || story.named.empty() || !judged(made, story).starts_with("right"))
+    if (made.effects.size() != 1 || story.named.empty() || !judged(made, story).starts_with("right"))
         return "";
     const StoryCause& first = story.named.front();
     const HiddenEffect& effect = made.effects.front();
@@ -144,17 +168,65 @@ std::string size_within(const VirtualCampaign& made, const TestStory& story)
     return effect.size >= *first.low && effect.size <= *first.high ? "within" : "outside";
 }
 
-void assess(const Assessment& how, std::uint64_t seed)
+/// What is to be hidden in the specimen of this number.
+std::vector<std::string> effects_of(const Assessment& how, std::size_t number)
+{
+    if (!how.in_turn)
+        return how.effects;
+    std::vector<std::string> effects = {how.effects[number % how.effects.size()]};
+    if (how.second > 0)
+        effects.push_back(how.effects[(number + how.second) % how.effects.size()]);
+    return effects;
+}
+
+/// A line of what was hidden and what was found, and a remark for each step.
+/// @param done the tests   @param estimates of a step, that are told
+void tell(const VirtualCampaign& made, const TestStory& story, const std::string& done, std::size_t estimates)
+{
+    const StoryCause named = story.named.empty() ? StoryCause{} : story.named.front();
+    std::vector<std::string> names, places, sizes;
+    for (const HiddenEffect& e : made.effects) {
+        names.push_back(e.listed ? e.name : "outside:" + e.name);
+        places.push_back(e.place);
+        sizes.push_back(fmt::format("{:.4g}", e.size));
+    }
+    const std::string hidden =
+        names.empty() ? "nothing\t\t"
+                      : fmt::format("{}\t{}\t{}", fmt::join(names, "+"), fmt::join(places, "+"), fmt::join(sizes, "+"));
+    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}\t{}\n", made.seed,
+               made.model.law == hidden::Law::nonsmooth ? "A" : "B", made.planned.specimen.name, hidden,
+               to_string(story.verdict), named.mechanism, named.place,
+               story.named.empty() ? "" : fmt::format("{:.4g}", named.size),
+               named.low ? fmt::format("{:.4g}..{:.4g}", *named.low, *named.high) : "", story.share, story.log_evidence,
+               done, judged(made, story), size_within(made, story));
+    for (const StoryStep& step : story.steps) {
+        std::vector<const StoryEstimate*> order;
+        for (const StoryEstimate& e : step.seen)
+            order.push_back(&e);
+        std::ranges::sort(order, [](auto* a, auto* b) { return std::fabs(a->deviations) > std::fabs(b->deviations); });
+        std::string told;
+        for (std::size_t k = 0; k < std::min(estimates, order.size()); ++k)
+            told +=
+                fmt::format(" {}[{}]={:+.1f}{} ({:.3g} +- {:.2g})", order[k]->name, order[k]->joint,
+                            order[k]->deviations, order[k]->from_the_others ? "o" : "", order[k]->value, order[k]->sd);
+        fmt::print("#   {} lnE {:.1f} {}:{}\n", step.test, step.log_evidence, to_string(step.verdict), told);
+    }
+}
+
+/// @param number of the specimen, from 0   @returns whether it was assessed
+bool assess(const Assessment& how, std::uint64_t seed, std::size_t number)
 {
     Wish wish;
     wish.most_motions = 0;
     if (how.nothing || !how.effects.empty())
-        wish.effects = how.in_turn ? std::vector{how.effects[(seed - how.first) % how.effects.size()]} : how.effects;
+        wish.effects = effects_of(how, number);
     if (!how.law.empty())
         wish.law = how.law == "nonsmooth" ? hidden::Law::nonsmooth : hidden::Law::compliant;
     if (how.specimen == "column")
         wish.specimen = SpecimenKind::small_column;
     const VirtualCampaign made = make_campaign(seed, wish);
+    if (how.blocks > 0 && made.planned.specimen.blocks() != how.blocks)
+        return false;
     Campaign campaign;
     campaign.source = made.campaign.source;
     campaign.specimen = made.planned.specimen;
@@ -168,8 +240,10 @@ void assess(const Assessment& how, std::uint64_t seed)
     options.cache = fs::path(how.cache) /
                     fmt::format("{}_{:g}.txt", campaign.specimen.blocks(), campaign.specimen.half_width_m.front());
     Observer observer;
-    if (how.signatures)
-        return tell_signatures(campaign, study, options, how.only);
+    if (how.signatures) {
+        tell_signatures(campaign, study, options, how.only);
+        return true;
+    }
     std::vector<MeasuredRun> plans;
     std::string done;
     std::optional<TestStory> story;
@@ -198,31 +272,9 @@ void assess(const Assessment& how, std::uint64_t seed)
         plan.tests = plans;
         campaign = tested(made, plan);
     }
-    const StoryCause named = story->named.empty() ? StoryCause{} : story->named.front();
-    std::string hidden = "nothing\t\t";
-    if (!made.effects.empty()) {
-        const HiddenEffect& e = made.effects.front();
-        hidden = fmt::format("{}\t{}\t{:.4g}", e.listed ? e.name : "outside:" + e.name, e.place, e.size);
-    }
-    fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{:.1f}\t{}\t{}\t{}\n", seed,
-               made.model.law == hidden::Law::nonsmooth ? "A" : "B", made.planned.specimen.name, hidden,
-               to_string(story->verdict), named.mechanism, named.place,
-               story->named.empty() ? "" : fmt::format("{:.4g}", named.size),
-               named.low ? fmt::format("{:.4g}..{:.4g}", *named.low, *named.high) : "", story->share,
-               story->log_evidence, done, judged(made, *story), size_within(made, *story));
-    for (const StoryStep& step : story->steps) {
-        std::vector<const StoryEstimate*> order;
-        for (const StoryEstimate& e : step.seen)
-            order.push_back(&e);
-        std::ranges::sort(order, [](auto* a, auto* b) { return std::fabs(a->deviations) > std::fabs(b->deviations); });
-        std::string told;
-        for (std::size_t k = 0; k < std::min(how.estimates, order.size()); ++k)
-            told +=
-                fmt::format(" {}[{}]={:+.1f}{} ({:.3g} +- {:.2g})", order[k]->name, order[k]->joint,
-                            order[k]->deviations, order[k]->from_the_others ? "o" : "", order[k]->value, order[k]->sd);
-        fmt::print("#   {} lnE {:.1f} {}:{}\n", step.test, step.log_evidence, to_string(step.verdict), told);
-    }
+    tell(made, *story, done, how.estimates);
     std::fflush(stdout);
+    return true;
 }
 
 } // namespace
@@ -235,6 +287,9 @@ int main(int argc, char** argv)
     app.add_option("--last", how.last, "last seed")->required();
     app.add_option("--effect", how.effects, "hidden effects, instead of those of the seeds");
     app.add_flag("--in-turn", how.in_turn, "one of the effects for each seed, one after the other");
+    app.add_option("--second", how.second, "with --in-turn: also the effect that stands so many further on");
+    app.add_option("--blocks", how.blocks, "columns of so many blocks alone");
+    app.add_option("--most", how.most, "specimens");
     app.add_flag("--nothing", how.nothing, "no hidden effect");
     app.add_option("--law", how.law)->check(CLI::IsMember({"nonsmooth", "compliant"}));
     app.add_option("--specimen", how.specimen)->check(CLI::IsMember({"column"}));
@@ -253,8 +308,9 @@ int main(int argc, char** argv)
     app.add_flag("--signatures", how.signatures, "tells what healthy specimens and causes give, and does no test");
     try {
         app.parse(argc, argv);
-        for (std::uint64_t seed = how.first; seed <= how.last; ++seed)
-            assess(how, seed);
+        std::size_t number = 0;
+        for (std::uint64_t seed = how.first; seed <= how.last && (how.most == 0 || number < how.most); ++seed)
+            number += assess(how, seed, number) ? 1 : 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     } catch (const std::exception& error) {

@@ -1,8 +1,8 @@
 #include "studies/measured/diagnosis/findings/diagnosis_words.hpp"
 
 #include "io/files/suggest.hpp"
-#include "io/files/utf8.hpp"
 #include "studies/measured/diagnosis/findings/story_document.hpp"
+#include "studies/report/document.hpp"
 #include "studies/report/left_out.hpp"
 
 #include <fmt/format.h>
@@ -12,37 +12,7 @@
 namespace stylobate {
 namespace {
 
-constexpr std::size_t line_width = 100;
 constexpr std::size_t most_rows = 12; ///< of a table; the file has all
-
-std::size_t letters(std::string_view text)
-{
-    std::size_t count = 0;
-    for (; !text.empty(); ++count)
-        text.remove_prefix(std::max<std::size_t>(utf8_length(text), 1));
-    return count;
-}
-
-/// Words on lines, each after `indent` blanks.
-std::string wrapped(const std::string& text, std::size_t indent)
-{
-    std::string out(indent, ' ');
-    std::size_t column = indent;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
-        const std::string word = text.substr(begin, end - begin);
-        begin = end + 1;
-        if (word.empty())
-            continue;
-        if (column > indent && column + 1 + letters(word) > line_width) {
-            out += "\n" + std::string(indent, ' ');
-            column = indent;
-        }
-        out += (column > indent ? " " : "") + word;
-        column += (column > indent ? 1 : 0) + letters(word);
-    }
-    return out + "\n";
-}
 
 std::string heading(const std::string& text)
 {
@@ -58,13 +28,13 @@ std::string table(const std::vector<Row>& rows)
     for (const Row& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i) {
             width.resize(std::max(width.size(), row.size()));
-            width[i] = std::max(width[i], letters(row[i]));
+            width[i] = std::max(width[i], characters(row[i]));
         }
     std::string out;
     for (const Row& row : rows) {
         std::string line = "  ";
         for (std::size_t i = 0; i < row.size(); ++i)
-            line += row[i] + std::string(width[i] - letters(row[i]) + 2, ' ');
+            line += row[i] + std::string(width[i] - characters(row[i]) + 2, ' ');
         line.erase(line.find_last_not_of(' ') + 1);
         out += line + "\n";
     }
@@ -186,7 +156,7 @@ std::string tests_part(const Diagnosis& d)
         return "";
     Document document;
     add_story(*d.tests, document);
-    return heading("Tests of single joints") + console_text(document);
+    return heading("Tests of single joints") + console_text(document, console_width);
 }
 
 std::string baseline_part(const Diagnosis& d)

@@ -47,12 +47,14 @@ HtmlTable estimate_table(const StoryStep& step)
 
 void add_options(const TestStory& story, Document& document)
 {
-    HtmlTable table{"lrrrl", {"test", "cost", "belief gained", "entropy lost", ""}, {}, "Tests that could come next"};
+    HtmlTable table{"lrrrl",
+                    {"test", "cost", "belief gained", "entropy lost", "belief per cost"},
+                    {},
+                    "Tests that could come next"};
     for (const StoryOption& option : story.options)
-        table.rows.push_back(
-            {option.test, fmt::format("{:g}", option.cost), fmt::format("{:.3f}", option.belief_gain),
-             fmt::format("{:.3f}", option.entropy_fall),
-             option.left_out.empty() ? fmt::format("{:.3f} per cost", option.per_cost) : option.left_out});
+        table.rows.push_back({option.test, fmt::format("{:g}", option.cost), fmt::format("{:.3f}", option.belief_gain),
+                              fmt::format("{:.3f}", option.entropy_fall),
+                              option.left_out.empty() ? fmt::format("{:.3f}", option.per_cost) : option.left_out});
     document.table(table);
 }
 
