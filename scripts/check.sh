@@ -6,8 +6,8 @@
 #   format     clang-format has nothing to change
 #   headers    every header compiles by itself, with clang's warnings as errors
 #   clang      so does every source file
-#   bench      so does every source file of bench/, by the compiler and with the warnings of the release build, which leaves
-#              them out
+#   bench      so does every source file of the programs that measure, by the compiler and with the warnings of the release
+#              build, which leaves these programs out
 #   tidy       clang-tidy finds nothing in the files that changed last, and then in as many others as TIDY_S seconds
 #              (300) allow; TIDY_S=0: in all files
 #   sanitize   the tests of files and numerics (SANITIZE: the programs, "inputs estimators") under AddressSanitizer and
@@ -57,7 +57,7 @@ gate_clang() {
 
 gate_bench() {
     cmake --preset release >/dev/null
-    syntax build/release measurements | grep -E "$PWD/bench/[^ ]+ -fsyntax-only\$" | in_parallel
+    syntax build/release measurements | grep -E "$PWD/(bench/|studies/evidence/[a-z]+/main|tests/hidden/assess/)[^ ]+ -fsyntax-only\$" | in_parallel
 }
 
 gate_headers() {

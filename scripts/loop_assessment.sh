@@ -9,6 +9,7 @@
 #                                                                  (scripts/hidden.sh; minutes for each)
 set -euo pipefail
 out=${1:?folder}; prior=${2:-flat}; build=${3:-build/release}
+cmake --build "$build" --target loop_assessment hidden_campaigns --parallel "$(nproc)"
 listed=(stribeck joint_friction friction_wear dowel adhesion bond corner_loss eccentricity wedge rate_damping face_damping drag)
 outside=(heat_memory coriolis magnet direction draught patch slosh spin)
 if [[ $out == first ]]; then

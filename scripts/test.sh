@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the program and its tests, and runs these. The programs of bench/ that no test needs are built with --long.
+# Builds the program and its tests, and runs these. The programs that measure are built with --long.
 #
 #   scripts/test.sh [--long] [--debug | --asan | --tsan] [-- CTEST ARGUMENTS]
 #

@@ -52,6 +52,8 @@ def campaign(lab, kills, random, tell):
     rows = []
     for i, (study, ranks) in enumerate(ways):
         share = kills // len(ways) + (i < kills % len(ways))
+        if share == 0:
+            continue
         rows.append(kill_study(lab, study, ranks, share, random))
         tell(f"{rows[-1]['study']}: {rows[-1]['kills']} kills, {len(rows[-1]['faults'])} faults")
     return rows
