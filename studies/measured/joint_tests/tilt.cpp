@@ -90,11 +90,19 @@ std::optional<TiltSide> tilt_side(const Specimen& specimen, const MeasuredRun& r
         return std::nullopt;
     const double rate = now->rate * run.rate_hz, arm = h * std::tan(now->tilt), squared = arm * arm + h * h;
     const double p = std::sqrt(g * std::sqrt(squared) / (seen->body.inertia_m2 + squared));
+    const auto turned = [&](double samples) {
+        const double t = samples * data.step_s;
+        return rate * (std::sinh(p * t) / p - t);
+    };
+    std::vector<double> whole(turn.size()); // most starts that are tried lie at a sample
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        whole[i] = turned(static_cast<double>(i));
     std::optional<OnsetFit> fit;
     for (const double most : {0.03, 0.015}) {
         fit = fit_onset(data, *moved, most, false, [&](double start, std::size_t i) {
-            const double t = (static_cast<double>(i) - start) * data.step_s;
-            return OnsetMotion{rate * (std::sinh(p * t) / p - t), 0};
+            const double samples = static_cast<double>(i) - start;
+            const auto at = static_cast<std::size_t>(samples);
+            return OnsetMotion{static_cast<double>(at) == samples ? whole[at] : turned(samples), 0};
         });
         if (fit && fit->scatter < most_turn_scatter)
             break;

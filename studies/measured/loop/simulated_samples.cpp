@@ -1,6 +1,7 @@
 #include "studies/measured/loop/simulated_samples.hpp"
 
 #include "ensemble/model/input_error.hpp"
+#include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/random.hpp"
 #include "ensemble/numerics/sample_quantiles.hpp"
 #include "io/files/atomic_file.hpp"
@@ -9,6 +10,7 @@
 #include "studies/measured/joint_tests/simulated_test.hpp"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -308,16 +310,19 @@ public:
         std::vector<TestSubject> simulated;
         for (const SampleSubject& subject : subjects)
             simulated.push_back(of(subject));
-        std::vector<std::vector<Estimate>> out;
         const SimulatedTests done =
             simulated_tests(specimen_, about_, test.runs, simulated, plan_.seed, options_, observer_);
         cost += done.cost;
-        for (std::size_t s = 0; s < done.runs.size(); ++s)
-            out.push_back(estimates(
-                test.kind == RunKind::rest
-                    ? measured_at_rest(specimen_, *simulated[s].law, simulated[s].causes, plan_.seed, subjects[s])
-                    : specimen_,
-                done.runs[s], plan_.floor));
+        std::vector<std::vector<Estimate>> out(done.runs.size());
+        tbb::task_arena(options_.threads).execute([&] {
+            in_parallel(std::size_t{0}, out.size(), [&](std::size_t s) {
+                out[s] = estimates(
+                    test.kind == RunKind::rest
+                        ? measured_at_rest(specimen_, *simulated[s].law, simulated[s].causes, plan_.seed, subjects[s])
+                        : specimen_,
+                    done.runs[s], plan_.floor);
+            });
+        });
         return out;
     }
 
