@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stylobate {
 
 namespace {
 
 constexpr double clear_mean = 6; // standard deviations of a mean
+constexpr double not_tried = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums of squares for one start: the best zero and coefficient, and what is left.
 struct OnsetTry {
@@ -45,6 +47,24 @@ OnsetTry try_start(const OnsetData& data, double start, std::size_t from, std::s
     return tried;
 }
 
+/// The place of the least of `count` values that vary smoothly: of some of them first, then of all around the least of
+/// these. A long run has a thousand starts, and the sum of squares of each is one over thousands of samples.
+template <class Value>
+std::size_t least_of(std::size_t count, const Value& value)
+{
+    constexpr std::size_t some = 64;
+    const std::size_t stride = std::max<std::size_t>(1, count / some);
+    const auto least = [&](std::size_t from, std::size_t to, std::size_t by) {
+        std::size_t best = from;
+        for (std::size_t k = from; k < to; k += by)
+            if (value(k) < value(best))
+                best = k;
+        return best;
+    };
+    const std::size_t near = least(0, count, stride);
+    return least(near > stride ? near - stride : 0, std::min(count, near + stride + 1), 1);
+}
+
 } // namespace
 
 std::optional<std::size_t> first_motion(const OnsetData& data)
@@ -74,25 +94,28 @@ std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, doub
     if (to < moved + fewest || moved < from + data.before / 2)
         return std::nullopt;
     const std::size_t earliest = moved > data.before ? moved - data.before : 0;
-    std::vector<double> left;
     const std::size_t latest = std::min(moved + data.window / 2, to); // the mean of a window moves before its middle
-    for (std::size_t k = earliest; k <= latest; ++k)
-        left.push_back(try_start(data, static_cast<double>(k), from, to, has_column, motion).left);
-    const auto best = static_cast<std::size_t>(std::ranges::min_element(left) - left.begin());
-    if (best == 0 || best + 1 >= left.size())
+    std::vector<double> tried(latest - earliest + 1, not_tried);
+    const auto left = [&](std::size_t k) {
+        if (std::isnan(tried[k]))
+            tried[k] = try_start(data, static_cast<double>(earliest + k), from, to, has_column, motion).left;
+        return tried[k];
+    };
+    const std::size_t best = least_of(tried.size(), left);
+    if (best == 0 || best + 1 >= tried.size())
         return std::nullopt;
     // a parabola wide enough that the sum of squares has grown by a few of the noise's
     std::size_t wide = 1;
-    while (wide < best && best + wide + 1 < left.size() &&
-           left[best - wide] + left[best + wide] - 2 * left[best] < 8 * data.sd * data.sd)
+    while (wide < best && best + wide + 1 < tried.size() &&
+           left(best - wide) + left(best + wide) - 2 * left(best) < 8 * data.sd * data.sd)
         ++wide;
     const double w = static_cast<double>(wide);
     const double bend =
-        (left[best - wide] - 2 * left[best] + left[best + wide]) / (2 * w * w); // of the squared distance
+        (left(best - wide) - 2 * left(best) + left(best + wide)) / (2 * w * w); // of the squared distance
     if (!(bend > 0))
         return std::nullopt;
     OnsetFit fit;
-    const double aside = (left[best - wide] - left[best + wide]) / (4 * bend * w);
+    const double aside = (left(best - wide) - left(best + wide)) / (4 * bend * w);
     fit.start = static_cast<double>(earliest + best) + std::clamp(aside, -w, w);
     const OnsetTry at = try_start(data, fit.start, from, to, has_column, motion);
     const double later = try_start(data, fit.start + 1, from, to, has_column, motion).coefficient;
