@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace stylobate {
 
@@ -105,10 +106,11 @@ std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, doub
     if (best == 0 || best + 1 >= tried.size())
         return std::nullopt;
     // a parabola wide enough that the sum of squares has grown by a few of the noise's
-    std::size_t wide = 1;
-    while (wide < best && best + wide + 1 < tried.size() &&
-           left(best - wide) + left(best + wide) - 2 * left(best) < 8 * data.sd * data.sd)
-        ++wide;
+    const auto widths = std::views::iota(std::size_t{1}, std::min(best, tried.size() - 1 - best));
+    const auto grown = std::ranges::partition_point(widths, [&](std::size_t w) {
+        return left(best - w) + left(best + w) - 2 * left(best) < 8 * data.sd * data.sd;
+    });
+    const auto wide = static_cast<std::size_t>(grown - widths.begin()) + 1;
     const double w = static_cast<double>(wide);
     const double bend =
         (left(best - wide) - 2 * left(best) + left(best + wide)) / (2 * w * w); // of the squared distance
