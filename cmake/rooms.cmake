@@ -25,8 +25,8 @@ function(stylobate_unity target)
   endforeach()
 endfunction()
 
-# stylobate_measurements(TARGET...): programs that measure are built by their scripts and by the target `measurements`, and
-# not with all others: they are a tenth of the time of a build, and no test needs them.
+# stylobate_measurements(TARGET...): what measures is built by its scripts, by the tests that need it and by the target
+# `measurements`, and not with all others: it is a tenth of the time of a build.
 add_custom_target(measurements)
 function(stylobate_measurements)
   set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -21,7 +21,7 @@ if [[ $out == first ]]; then
             hidden=(--nothing)
             ((i != 0)) || hidden=(--effect "${listed[k % ${#listed[@]}]}")
             ((i != 2)) || hidden=(--effect "${outside[k % ${#outside[@]}]}")
-            build/release/tests/hidden/hidden_campaigns generate --column "${hidden[@]}" --seeds $((firsts[i] + k)) \
+            build/release/tests/hidden/hidden_campaigns generate --specimen column "${hidden[@]}" --seeds $((firsts[i] + k)) \
                 --out "results/hidden/$seeds"
         done
         scripts/hidden.sh "$seeds"

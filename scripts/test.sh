@@ -28,12 +28,12 @@ done
 
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 scripts/install_packages.sh --tests
+targets=(all)
 if [[ ${#selection[@]} -eq 0 ]]; then # packages in a bare Debian, and on an old processor
+    targets+=(measurements)
     scripts/install_packages.sh debootstrap dpkg-dev file lintian patchelf qemu-user-static
 fi
 cmake --preset "$preset" >/dev/null
-targets=(all)
-[[ ${#selection[@]} -gt 0 || $preset != release ]] || targets+=(measurements) # sanitized builds have none
 cmake --build "build/$preset" --target "${targets[@]}" --parallel "$(nproc)"
 export TSAN_OPTIONS="suppressions=$PWD/tests/tsan_suppressions.txt ${TSAN_OPTIONS:-}"
 exec ctest --preset "$preset" --parallel "$(nproc)" "${selection[@]}" "$@"

@@ -1,6 +1,9 @@
 #include "ensemble/model/nominal.hpp"
 
+#include "ensemble/model/input_error.hpp"
 #include "ensemble/model/layout_in_space.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +151,34 @@ std::vector<double> nominal_values(const Study& study, const Layout& layout, Qua
         return of_blocks(layout, [](const PlacedBlock& block) { return block.offset_z_m; });
     }
     return {0};
+}
+
+std::vector<StackedDrum> stacked_drums(const Study& study, const Layout& layout, const RealizationValues& values,
+                                       std::uint64_t index)
+{
+    const bool dressed = study.structure.kind == StructureKind::colonnade &&
+                         std::any_of(study.perturbations.begin(), study.perturbations.end(),
+                                     [](const Perturbation& p) { return p.quantity == Quantity::drum_height; });
+    const std::vector<PlacedBlock>& blocks = layout.blocks;
+    std::vector<StackedDrum> drums;
+    double top = 0;
+    for (std::size_t i = 0; i < blocks.size() && blocks[i].role == BlockRole::drum; ++i) {
+        if (i > 0 && blocks[i].column != blocks[i - 1].column)
+            top = 0;
+        const bool topmost = i + 1 == blocks.size() || blocks[i + 1].column != blocks[i].column;
+        double height = values[Quantity::drum_height][i];
+        if (dressed && topmost) {
+            height = blocks[i].top() - top;
+            if (height < blocks[i].height_m / 2)
+                throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
+                                             "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
+                                             "have equal heights. Reduce its spread, or limit it with min and max.",
+                                             index, blocks[i].column + 1, height, blocks[i].name, blocks[i].height_m));
+        }
+        drums.push_back({top, height});
+        top += height;
+    }
+    return drums;
 }
 
 std::vector<double> static_sinkage_m(const Study& study)

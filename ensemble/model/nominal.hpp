@@ -50,6 +50,18 @@ struct RealizationValues {
 RealizationValues nominal_values(const Study& study, const Layout& layout,
                                  const std::vector<ActingMechanism>& mechanisms);
 
+/// A drum of a realization as it is stacked.
+struct StackedDrum {
+    double bottom_m = 0, height_m = 0;
+};
+/// The drums of a realization, in the order of the layout, whose first blocks they are. A column of its own is as high
+/// as its drums are; those of a colonnade stay level, as masons dress the seats: the topmost drum of each takes up what
+/// the others differ.
+/// @param index of the realization
+/// @throws InputError if that leaves less than half of a topmost drum
+std::vector<StackedDrum> stacked_drums(const Study& study, const Layout& layout, const RealizationValues& values,
+                                       std::uint64_t index);
+
 /// The parts of the critical damping that the dashpots of a joint have.
 struct DampingRatios {
     double normal = 0;

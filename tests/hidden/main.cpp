@@ -186,7 +186,9 @@ public:
         command.add_flag("--short", brief_, "two runs without repeats, for tests");
         command.add_option("--law", law_, "baseline contact law, instead of that of the seed")
             ->check(CLI::IsMember({"nonsmooth", "compliant"}));
-        command.add_flag("--column", column_, "a column of small blocks, for any seed: specimens of loop_assessment");
+        command
+            .add_option("--specimen", specimen_, "column: of small blocks, as loop_assessment has them, for any seed")
+            ->check(CLI::IsMember({"column"}));
         slippery_ = command
                         .add_option("--friction", friction_,
                                     "FROM TO: true friction over the nominal one of the file, uniform in the logarithm")
@@ -198,7 +200,7 @@ public:
         Wish wish;
         if (brief_)
             wish.most_motions = 2;
-        if (column_)
+        if (specimen_ == "column")
             wish.specimen = SpecimenKind::small_column;
         if (!law_.empty())
             wish.law = law_ == "nonsmooth" ? Law::nonsmooth : Law::compliant;
@@ -219,9 +221,9 @@ public:
     }
 
 private:
-    std::string law_;
+    std::string law_, specimen_;
     std::vector<std::string> effects_;
-    bool nothing_ = false, brief_ = false, column_ = false;
+    bool nothing_ = false, brief_ = false;
     std::pair<double, double> friction_;
     CLI::Option* slippery_ = nullptr;
 };

@@ -32,10 +32,7 @@ Motion turning(const BaseMechanisms& base)
 
 PlanarBuilder::PlanarBuilder(const Study& study)
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(study, layout_),
-      nominal_(nominal_values(study, layout_, mechanisms_.acting())), restitution_(nominal_restitution(study, layout_)),
-      dressed_(study.structure.kind == StructureKind::colonnade &&
-               std::any_of(study.perturbations.begin(), study.perturbations.end(),
-                           [](const Perturbation& p) { return p.quantity == Quantity::drum_height; }))
+      nominal_(nominal_values(study, layout_, mechanisms_.acting())), restitution_(nominal_restitution(study, layout_))
 {
     const bool watches = study.structure.kind == StructureKind::colonnade || study.outcome.follow == Follow::rest;
     has_ground_ = watches || std::any_of(layout_.beds.begin(), layout_.beds.end(),
@@ -121,30 +118,12 @@ Block PlanarBuilder::block(const RealizationValues& values, std::size_t i, doubl
     return block;
 }
 
-/// The columns. A column of its own is as high as its drums are; those of a colonnade stay level, as masons dress the
-/// seats: the topmost drum of each takes up what the others differ.
 void PlanarBuilder::stack(const RealizationValues& values, Realization& realization) const
 {
-    const std::vector<PlacedBlock>& blocks = layout_.blocks;
-    double top = 0;
-    for (std::size_t i = 0; i < blocks.size() && blocks[i].role == BlockRole::drum; ++i) {
-        if (i > 0 && blocks[i].column != blocks[i - 1].column)
-            top = 0;
-        const bool topmost = i + 1 == blocks.size() || blocks[i + 1].column != blocks[i].column;
-        double height = values[Quantity::drum_height][i];
-        if (dressed_ && topmost) {
-            height = blocks[i].top() - top;
-            if (height < blocks[i].height_m / 2)
-                throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
-                                             "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
-                                             "have equal heights. Reduce its spread, or limit it with min and max.",
-                                             realization.index, blocks[i].column + 1, height, blocks[i].name,
-                                             blocks[i].height_m));
-        }
-        Block drum = block(values, i, height);
-        drum.y_m = top + height / 2;
+    for (const StackedDrum& of : stacked_drums(*study_, layout_, values, realization.index)) {
+        Block drum = block(values, realization.blocks.size(), of.height_m);
+        drum.y_m = of.bottom_m + of.height_m / 2;
         realization.blocks.push_back(drum);
-        top += height;
     }
 }
 

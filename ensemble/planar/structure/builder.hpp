@@ -55,7 +55,6 @@ private:
     MechanismBuilder mechanisms_;
     RealizationValues nominal_;
     std::vector<double> restitution_; ///< (beds)
-    bool dressed_;                    ///< the topmost drum of each column takes up what the heights of others differ
     bool has_ground_ = false;
     std::vector<std::pair<int, int>> watched_; ///< lower and upper block
 };

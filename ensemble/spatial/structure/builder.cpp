@@ -99,9 +99,6 @@ bool has_rows(Mechanism mechanism)
 SpatialBuilder::SpatialBuilder(const Study& study)
     : study_(&study), layout_(lay_out(study.structure)), mechanisms_(acting_mechanisms(study, layout_)),
       nominal_(nominal_values(study, layout_, mechanisms_)),
-      dressed_(study.structure.kind == StructureKind::colonnade &&
-               std::any_of(study.perturbations.begin(), study.perturbations.end(),
-                           [](const Perturbation& p) { return p.quantity == Quantity::drum_height; })),
       has_ground_(
           std::any_of(layout_.beds.begin(), layout_.beds.end(), [](const PlacedBed& bed) { return bed.lower < 0; }))
 {
@@ -179,29 +176,11 @@ Solid SpatialBuilder::solid(const RealizationValues& values, std::size_t i, doub
     return solid;
 }
 
-/// The columns. A column of its own is as high as its drums are; those of a colonnade stay level, as masons dress the
-/// seats: the topmost drum of each takes up what the others differ.
 void SpatialBuilder::stack(const RealizationValues& values, Realization& realization) const
 {
-    const std::vector<PlacedBlock>& blocks = layout_.blocks;
-    double top = 0;
-    for (std::size_t i = 0; i < blocks.size() && blocks[i].role == BlockRole::drum; ++i) {
-        if (i > 0 && blocks[i].column != blocks[i - 1].column)
-            top = 0;
-        const bool topmost = i + 1 == blocks.size() || blocks[i + 1].column != blocks[i].column;
-        double height = values[Quantity::drum_height][i];
-        if (dressed_ && topmost) {
-            height = blocks[i].top() - top;
-            if (height < blocks[i].height_m / 2)
-                throw InputError(fmt::format("perturbation.drum_height: in realization {} the drums of column {} leave "
-                                             "{:g} m for {}, less than half of its {:g} m: the columns of a colonnade "
-                                             "have equal heights. Reduce its spread, or limit it with min and max.",
-                                             realization.index, blocks[i].column + 1, height, blocks[i].name,
-                                             blocks[i].height_m));
-        }
-        realization.space.solids.push_back(solid(values, i, height, top));
-        top += height;
-    }
+    std::vector<Solid>& solids = realization.space.solids;
+    for (const StackedDrum& of : stacked_drums(*study_, layout_, values, realization.index))
+        solids.push_back(solid(values, solids.size(), of.height_m, of.bottom_m));
 }
 
 /// The epistyles, as they are laid one after the other along each line, in the direction of its axis, and abreast of

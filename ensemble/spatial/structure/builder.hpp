@@ -56,7 +56,6 @@ private:
     Layout layout_;
     std::vector<ActingMechanism> mechanisms_;
     RealizationValues nominal_;
-    bool dressed_; ///< the topmost drum of each column takes up what the heights of others differ
     bool has_ground_;
     bool with_mechanisms_ = false; ///< a mechanism that the plain step does not have may act
 };

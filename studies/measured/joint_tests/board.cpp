@@ -31,7 +31,6 @@ namespace stylobate {
 
 namespace {
 
-constexpr double slide_window_s = 0.05, slide_before_s = 0.4; // times sqrt(s)
 constexpr double most_scatter = 1.25;
 constexpr double most_board_turn = 0.02; // rad
 
@@ -90,24 +89,17 @@ std::optional<BoardSide> held_to_the_end(const std::vector<double>& tilt, const 
     return found;
 }
 
-std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun& run, int& side)
+std::optional<BoardSide> board_side(const Specimen& specimen, const BoardRun& board)
 {
-    const std::optional<JointRun> seen = joint_run(specimen, run, true);
-    if (!seen || run.base_tilt_rad.values.size() != run.time_s.size())
-        return std::nullopt;
-    std::vector<double> tilt = run.base_tilt_rad.values, down(seen->samples);
-    side = finite_mean(tilt, tilt.size() / 2, tilt.size()).first > 0 ? -1 : 1; // to which the block slides
-    for (double& t : tilt)
-        t *= -side;
+    const JointRun& seen = board.seen;
+    const std::vector<double>& tilt = board.tilt;
+    std::vector<double> down(seen.samples);
     for (std::size_t i = 0; i < down.size(); ++i)
-        down[i] = std::fabs(seen->turn(i)) < most_board_turn ? side * seen->slip(i)
-                                                             : std::numeric_limits<double>::quiet_NaN();
-    const double s = seen->body.length_ratio, times = seen->body.time_ratio, g = specimen.gravity_m_s2;
-    OnsetData data{down, seen->step_s(), seen->slip_sd(), 0, 0};
-    data.window = static_cast<std::size_t>(slide_window_s * times * run.rate_hz);
-    data.before = static_cast<std::size_t>(slide_before_s * times * run.rate_hz);
+        down[i] = std::fabs(seen.turn(i)) < most_board_turn ? board.side * seen.slip(i)
+                                                            : std::numeric_limits<double>::quiet_NaN();
+    const double s = seen.body.length_ratio, g = specimen.gravity_m_s2, noise = board.tilt_sd;
+    const OnsetData data = board.data_of(down, seen.slip_sd());
     const auto moved = first_motion(data);
-    const double noise = run.base_tilt_rad.noise_sd.value_or(noise_of(run.base_tilt_rad.values));
     if (std::ranges::any_of(tilt, [](double t) { return !std::isfinite(t); }))
         return std::nullopt;
     if (!moved)
@@ -117,7 +109,7 @@ std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun&
     std::vector<double> smooth = tilt;
     std::ranges::copy(smoothed(std::span(tilt).subspan(from, to - from), static_cast<int>(data.before)),
                       smooth.begin() + static_cast<std::ptrdiff_t>(from));
-    const TiltIntegrals integrals = integrals_of(smooth, seen->step_s());
+    const TiltIntegrals integrals = integrals_of(smooth, seen.step_s());
     std::optional<OnsetFit> fit;
     for (const double most : {0.010, 0.005, 0.0025, 0.0012}) {
         fit = fit_onset(data, *moved, most * s, true, [&](double start, std::size_t i) {
@@ -147,7 +139,7 @@ std::optional<BoardSide> board_side(const Specimen& specimen, const MeasuredRun&
         return std::nullopt;
     // x = g r / cos t (time)^3 / 6 of a block whose friction stays as it was at the first slip, r: rate of the tilt
     const double limit = 6 * data.sd / std::sqrt(static_cast<double>(data.window));
-    const double rate = now->rate * run.rate_hz, delay = std::cbrt(6 * limit * std::cos(now->tilt) / (g * rate));
+    const double rate = now->rate * seen.run->rate_hz, delay = std::cbrt(6 * limit * std::cos(now->tilt) / (g * rate));
     const double mu = std::tan(now->tilt - rate * delay);
     if (!(mu > 0))
         return std::nullopt;
@@ -160,9 +152,9 @@ std::vector<Estimate> board_of(const Specimen& specimen, std::span<const Measure
 {
     std::vector<BoardSide> left, right;
     for (const MeasuredRun& run : runs) {
-        int side = 0;
-        if (const auto found = board_side(specimen, run, side))
-            (side < 0 ? left : right).push_back(*found);
+        const std::optional<BoardRun> board = board_run(specimen, run);
+        if (const auto found = board ? board_side(specimen, *board) : std::nullopt)
+            (board->side < 0 ? left : right).push_back(*found);
     }
     const auto friction = [](const char* name, double value, double sd) {
         return Estimate{name, 0, value, sd, {.friction = 1, .geometry_m = 0, .force = 0, .damping = 0}};

@@ -1,17 +1,17 @@
 #include "studies/measured/joint_tests/onset.hpp"
 
-#include "studies/measured/joint_tests/joint_run.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <ranges>
+#include <utility>
 
 namespace stylobate {
 
 namespace {
 
-constexpr double clear_mean = 6; // standard deviations of a mean
+constexpr double window_s = 0.05, before_s = 0.4; // times the root of the body's size
+constexpr double clear_mean = 6;                  // standard deviations of a mean
 constexpr double not_tried = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums of squares for one start: the best zero and coefficient, and what is left.
@@ -49,7 +49,7 @@ OnsetTry try_start(const OnsetData& data, double start, std::size_t from, std::s
 }
 
 /// The place of the least of `count` values that vary smoothly: of some of them first, then of all around the least of
-/// these. A long run has a thousand starts, and the sum of squares of each is one over thousands of samples.
+/// these. At full scale there are a thousand starts, each with a sum over thousands of samples.
 template <class Value>
 std::size_t least_of(std::size_t count, const Value& value)
 {
@@ -67,6 +67,26 @@ std::size_t least_of(std::size_t count, const Value& value)
 }
 
 } // namespace
+
+OnsetData BoardRun::data_of(std::span<const double> values, double sd) const
+{
+    const double times = seen.body.time_ratio, rate_hz = seen.run->rate_hz;
+    return {values, seen.step_s(), sd, static_cast<std::size_t>(window_s * times * rate_hz),
+            static_cast<std::size_t>(before_s * times * rate_hz)};
+}
+
+std::optional<BoardRun> board_run(const Specimen& specimen, const MeasuredRun& run)
+{
+    std::optional<JointRun> seen = joint_run(specimen, run, true);
+    if (!seen || run.base_tilt_rad.values.size() != run.time_s.size())
+        return std::nullopt;
+    BoardRun board{std::move(*seen), 0, run.base_tilt_rad.values,
+                   run.base_tilt_rad.noise_sd.value_or(noise_of(run.base_tilt_rad.values))};
+    board.side = finite_mean(board.tilt, board.tilt.size() / 2, board.tilt.size()).first > 0 ? -1 : 1;
+    for (double& t : board.tilt)
+        t *= -board.side;
+    return board;
+}
 
 std::optional<std::size_t> first_motion(const OnsetData& data)
 {
@@ -89,10 +109,11 @@ std::optional<OnsetFit> fit_onset(const OnsetData& data, std::size_t moved, doub
 {
     constexpr std::size_t fewest = 15;
     const std::size_t from = moved > 2 * data.before ? moved - 2 * data.before : 0;
+    const std::size_t until = std::min(data.values.size(), moved + 3 * data.before);
     std::size_t to = moved;
-    while (to < data.values.size() && !(data.values[to] > most))
+    while (to < until && !(data.values[to] > most))
         ++to;
-    if (to < moved + fewest || moved < from + data.before / 2)
+    if ((to == until && until < data.values.size()) || to < moved + fewest || moved < from + data.before / 2)
         return std::nullopt;
     const std::size_t earliest = moved > data.before ? moved - data.before : 0;
     const std::size_t latest = std::min(moved + data.window / 2, to); // the mean of a window moves before its middle

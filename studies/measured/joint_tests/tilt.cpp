@@ -32,7 +32,6 @@ namespace stylobate {
 
 namespace {
 
-constexpr double turn_window_s = 0.05, turn_before_s = 0.4; // times sqrt(s)
 constexpr double most_turn_scatter = 1.25;
 constexpr double slid_first_m = 0.0005; // times s, of the lower face's middle when the body is seen to turn
 
@@ -66,43 +65,27 @@ bool slid_first(const Specimen& specimen, const JointRun& seen, const std::vecto
     return count == 0 || std::fabs(mean) > slid_first_m * seen.body.length_ratio + rolled;
 }
 
-std::optional<TiltSide> tilt_side(const Specimen& specimen, const MeasuredRun& run, int& side)
+std::optional<TiltSide> tilt_side(const Specimen& specimen, const BoardRun& board)
 {
-    const std::optional<JointRun> seen = joint_run(specimen, run, true);
-    if (!seen || run.base_tilt_rad.values.size() != run.time_s.size())
-        return std::nullopt;
-    std::vector<double> tilt = run.base_tilt_rad.values, turn(seen->samples);
-    side = finite_mean(tilt, tilt.size() / 2, tilt.size()).first > 0 ? -1 : 1; // to which the body turns
-    for (double& t : tilt)
-        t *= -side;
+    const JointRun& seen = board.seen;
+    std::vector<double> turn(seen.samples);
     for (std::size_t i = 0; i < turn.size(); ++i)
-        turn[i] = -side * seen->turn(i);
-    const double times = seen->body.time_ratio, g = specimen.gravity_m_s2, h = seen->body.centre_m;
-    const double noise = run.base_tilt_rad.noise_sd.value_or(noise_of(run.base_tilt_rad.values));
-    OnsetData data{turn, seen->step_s(), seen->turn_sd(), 0, 0};
-    data.window = static_cast<std::size_t>(turn_window_s * times * run.rate_hz);
-    data.before = static_cast<std::size_t>(turn_before_s * times * run.rate_hz);
+        turn[i] = -board.side * seen.turn(i);
+    const double g = specimen.gravity_m_s2, h = seen.body.centre_m, rate_hz = seen.run->rate_hz;
+    const OnsetData data = board.data_of(turn, seen.turn_sd());
     const auto moved = first_motion(data);
-    if (!moved || slid_first(specimen, *seen, turn, *moved, data.window))
+    if (!moved || slid_first(specimen, seen, turn, *moved, data.window))
         return std::nullopt;
-    const auto now = tilt_at(tilt, static_cast<double>(*moved), data.window, noise);
+    const auto now = tilt_at(board.tilt, static_cast<double>(*moved), data.window, board.tilt_sd);
     if (!now || !(now->tilt > 0) || !(now->rate > 0))
         return std::nullopt;
-    const double rate = now->rate * run.rate_hz, arm = h * std::tan(now->tilt), squared = arm * arm + h * h;
-    const double p = std::sqrt(g * std::sqrt(squared) / (seen->body.inertia_m2 + squared));
-    const auto turned = [&](double samples) {
-        const double t = samples * data.step_s;
-        return rate * (std::sinh(p * t) / p - t);
-    };
-    std::vector<double> whole(turn.size()); // most starts that are tried lie at a sample
-    for (std::size_t i = 0; i < whole.size(); ++i)
-        whole[i] = turned(static_cast<double>(i));
+    const double rate = now->rate * rate_hz, arm = h * std::tan(now->tilt), squared = arm * arm + h * h;
+    const double p = std::sqrt(g * std::sqrt(squared) / (seen.body.inertia_m2 + squared));
     std::optional<OnsetFit> fit;
     for (const double most : {0.03, 0.015}) {
         fit = fit_onset(data, *moved, most, false, [&](double start, std::size_t i) {
-            const double samples = static_cast<double>(i) - start;
-            const auto at = static_cast<std::size_t>(samples);
-            return OnsetMotion{static_cast<double>(at) == samples ? whole[at] : turned(samples), 0};
+            const double t = (static_cast<double>(i) - start) * data.step_s;
+            return OnsetMotion{rate * (std::sinh(p * t) / p - t), 0};
         });
         if (fit && fit->scatter < most_turn_scatter)
             break;
@@ -114,26 +97,26 @@ std::optional<TiltSide> tilt_side(const Specimen& specimen, const MeasuredRun& r
         start_sd = fit->start_sd;
     } else {
         const double limit = 6 * data.sd / std::sqrt(static_cast<double>(data.window));
-        const double delay = time_to_turn(limit, rate, p) * run.rate_hz;
+        const double delay = time_to_turn(limit, rate, p) * rate_hz;
         start = std::max(0.0, static_cast<double>(*moved) - delay);
         start_sd = delay / 2;
     }
-    const auto at = tilt_at(tilt, start, data.window, noise);
+    const auto at = tilt_at(board.tilt, start, data.window, board.tilt_sd);
     if (!at || !(at->tilt > 0))
         return std::nullopt;
     const double tangent = std::tan(at->tilt);
-    const auto [left, right] = seen->bearing_m(specimen);
+    const auto [left, right] = seen.bearing_m(specimen);
     const double sd = h * (1 + tangent * tangent) * std::hypot(at->sd, at->rate * start_sd);
-    return TiltSide{h * tangent - (side < 0 ? left : right), std::hypot(sd, seen->offset_sd_m)};
+    return TiltSide{h * tangent - (board.side < 0 ? left : right), std::hypot(sd, seen.offset_sd_m)};
 }
 
 std::vector<Estimate> tilt_of(const Specimen& specimen, std::span<const MeasuredRun> runs)
 {
     double arm[2] = {0, 0}, variance[2] = {0, 0}, count[2] = {0, 0}; // left, right
     for (const MeasuredRun& run : runs) {
-        int side = 0;
-        if (const auto found = tilt_side(specimen, run, side)) {
-            const int k = side < 0 ? 0 : 1;
+        const std::optional<BoardRun> board = board_run(specimen, run);
+        if (const auto found = board ? tilt_side(specimen, *board) : std::nullopt) {
+            const int k = board->side < 0 ? 0 : 1;
             arm[k] += found->arm_m;
             variance[k] += found->sd * found->sd;
             ++count[k];

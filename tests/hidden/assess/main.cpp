@@ -289,7 +289,7 @@ int main(int argc, char** argv)
     app.add_flag("--in-turn", how.in_turn, "one of the effects for each seed, one after the other");
     app.add_option("--second", how.second, "with --in-turn: also the effect that stands so many further on");
     app.add_option("--blocks", how.blocks, "columns of so many blocks alone");
-    app.add_option("--most", how.most, "specimens");
+    app.add_option("--most", how.most, "at most so many specimens");
     app.add_flag("--nothing", how.nothing, "no hidden effect");
     app.add_option("--law", how.law)->check(CLI::IsMember({"nonsmooth", "compliant"}));
     app.add_option("--specimen", how.specimen)->check(CLI::IsMember({"column"}));

@@ -69,6 +69,16 @@ TEST(Documents, AreTextOfAConsole)
                                              "  More\n"); // and what it opens is for a page
 }
 
+TEST(Documents, WrapSentencesAndListsWhereAWidthIsGiven)
+{
+    Document page;
+    page.paragraph("eleven drums stand on a base, and a twelfth one lies beside it");
+    page.list({"a γ of a long list item that goes on", "short"});
+    // by hand: two blanks, and at most 20 characters (γ is one of them)
+    EXPECT_EQ(console_text(page, 20), "  eleven drums stand\n  on a base, and a\n  twelfth one lies\n  beside it\n"
+                                      "  - a γ of a long\n  list item that\n  goes on\n  - short\n");
+}
+
 TEST(Documents, CountCharactersNotBytesInColumns)
 {
     Document document;

@@ -19,39 +19,19 @@ std::string heading(const std::string& text)
     return "\n" + text + "\n";
 }
 
-using Row = std::vector<std::string>;
-
-/// Columns flush left, two blanks apart; the first row is the head.
-std::string table(const std::vector<Row>& rows)
-{
-    std::vector<std::size_t> width;
-    for (const Row& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            width.resize(std::max(width.size(), row.size()));
-            width[i] = std::max(width[i], characters(row[i]));
-        }
-    std::string out;
-    for (const Row& row : rows) {
-        std::string line = "  ";
-        for (std::size_t i = 0; i < row.size(); ++i)
-            line += row[i] + std::string(width[i] - characters(row[i]) + 2, ' ');
-        line.erase(line.find_last_not_of(' ') + 1);
-        out += line + "\n";
-    }
-    return out;
-}
+using Row = std::vector<Html>;
 
 /// At most so many of them as rows, and how many more there are.
 template <class T, class F>
 std::string table_of(const std::vector<T>& items, Row head, F row)
 {
-    std::vector<Row> rows = {std::move(head)};
+    HtmlTable table{"", std::move(head), {}, ""};
     for (std::size_t i = 0; i < std::min(items.size(), most_rows); ++i)
-        rows.push_back(row(items[i]));
-    std::string out = table(rows);
-    if (items.size() > most_rows)
-        out += fmt::format("  and {} more\n", items.size() - most_rows);
-    return out;
+        table.rows.push_back(row(items[i]));
+    Document document;
+    document.table(table);
+    return console_text(document) +
+           (items.size() > most_rows ? fmt::format("  and {} more\n", items.size() - most_rows) : "");
 }
 
 std::string data_part(const Diagnosis& d)
