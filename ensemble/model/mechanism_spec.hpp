@@ -5,6 +5,7 @@
 #include "ensemble/model/realization.hpp"
 #include "ensemble/model/structure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -121,6 +122,13 @@ struct BlockMechanisms {
     double rod_end_s() const
     {
         return has_rod() && rod_speed_m_s != 0 ? rod_start_s + rod_travel_m / std::abs(rod_speed_m_s) : 0;
+    }
+    /// How far the end of the rod is from where it began, in the frame of the base [m].
+    /// @param time_s since the start   @param base_m displacement of the base [m]
+    double rod_end_m(double time_s, double base_m) const
+    {
+        const double path = std::clamp(std::abs(rod_speed_m_s) * (time_s - rod_start_s), 0.0, rod_travel_m);
+        return std::copysign(path, rod_speed_m_s) - rod_laboratory * base_m;
     }
     friend bool operator==(const BlockMechanisms&, const BlockMechanisms&) = default;
 };

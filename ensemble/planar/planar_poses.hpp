@@ -48,13 +48,17 @@ struct Rectangle {
     struct Corner {
         double x = 0, y = 0;
     };
+    /// Where a point of it is. @param u, v from its centre before it is turned
+    Corner place(double u, double v) const
+    {
+        const double c = std::cos(turned_rad), s = std::sin(turned_rad);
+        return {x + c * u - s * v, y + s * u + c * v};
+    }
     /// Counter-clockwise from the one that is at the lower left before it is turned.
     std::array<Corner, 4> corners() const
     {
-        const double c = std::cos(turned_rad), s = std::sin(turned_rad);
-        const auto corner = [&](double u, double v) { return Corner{x + c * u - s * v, y + s * u + c * v}; };
-        return {corner(-half_width, -half_height), corner(half_width, -half_height), corner(half_width, half_height),
-                corner(-half_width, half_height)};
+        return {place(-half_width, -half_height), place(half_width, -half_height), place(half_width, half_height),
+                place(-half_width, half_height)};
     }
     /// The radius of the circle about the centre that no corner leaves.
     double reach() const { return std::hypot(half_width, half_height); }

@@ -240,9 +240,27 @@ void draw_height_axis(DrawingSheet& sheet, double top, double bottom, const std:
                TextAt::center, "#000000", true);
 }
 
+/// @param place of a point in the frame of the base [m]: where it is drawn [px]
+template <class Place>
+void draw_fastening(DrawingSheet& sheet, const Trajectory& t, std::size_t sample, const Fastening& fastening,
+                    const Place& place)
+{
+    std::vector<Rectangle> blocks;
+    for (std::size_t b = 0; b < t.blocks(); ++b)
+        blocks.push_back(rectangle_of(t, sample, b));
+    const auto line =
+        line_of(fastening, blocks, rectangle_of(t, 0, *fastening.at.block), t.time_s[sample], t["base_x_m"][sample]);
+    if (!line)
+        return;
+    const auto [x1, y1] = place(line->from);
+    const auto [x2, y2] = place(line->to);
+    sheet.line(x1, y1, x2, y2, "#1d2730", 4);
+}
+
 /// The snapshots side by side, one scale for both axes.
 void draw_strip(DrawingSheet& sheet, const Trajectory& t, const Drawn& drawn, const std::vector<double>& fall_time_s,
-                const std::vector<std::size_t>& chosen, const StripLayout& layout)
+                const std::vector<std::size_t>& chosen, const StripLayout& layout,
+                const std::vector<Fastening>& fastenings)
 {
     const double tallest = *std::max_element(layout.row_height.begin(), layout.row_height.end());
     const Unit unit = unit_for(tallest);
@@ -279,6 +297,11 @@ void draw_strip(DrawingSheet& sheet, const Trajectory& t, const Drawn& drawn, co
         for (const bool outline : {false, true}) // red lines above all others
             for (std::size_t d = 0; d < drawn.blocks.size(); ++d)
                 draw(d, outline);
+        for (const Fastening& one : fastenings)
+            draw_fastening(sheet, t, chosen[n], one, [&](const Rectangle::Corner& at) {
+                const double along = std::clamp(at.x + cell.shift_x, cell.left, cell.right);
+                return std::array{x(along), y(at.y + cell.ground)};
+            });
         const bool lowest = *std::max_element(layout.row.begin(), layout.row.end()) == layout.row[n];
         const double row_bottom = lowest ? 0
                                          : layout.row_ground[layout.row[n] + 1] + layout.row_height[layout.row[n] + 1] +
@@ -386,7 +409,7 @@ void draw_falls(DrawingSheet& sheet, double top, const Trajectory& t, const std:
                at - 12, top + panel_pixels * (late ? 0.28 : 0.8), 25, TextAt::right, fallen_colour);
 }
 
-std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls)
+std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t samples, bool falls, bool held)
 {
     const auto fixed = std::count(drawn.fixed.begin(), drawn.fixed.end(), true);
     std::string text = counted(drawn.blocks.size() - drawn.epistyles - drawn.capitals, "drum");
@@ -399,6 +422,8 @@ std::string subtitle(const Trajectory& t, const Drawn& drawn, std::size_t sample
     text += " · drawn to scale in the frame of the base";
     text += drawn.blocks.size() > 1 ? " · top: centre of " + t.name[drawn.top] + ", from upright"
                                     : " · top: the drum's centre, from upright";
+    if (held)
+        text += " · lines: rods, tendons, clamps";
     if (falls)
         text += " · red outlines: fallen";
     if (samples < t.time_s.size())
@@ -417,7 +442,7 @@ std::vector<std::size_t> snapshot_samples(const Trajectory& trajectory, std::siz
 }
 
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
-                const std::filesystem::path& png, std::size_t snapshots)
+                const std::filesystem::path& png, std::size_t snapshots, const std::vector<Fastening>& fastenings)
 {
     check_trajectory(trajectory, fall_time_s);
     if (is_spatial(trajectory))
@@ -443,8 +468,8 @@ void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_ti
     std::vector<double> base_m = trajectory["base_x_m"];
     base_m.resize(samples);
 
-    sheet.heading(title, subtitle(trajectory, drawn, samples, !falls.empty()));
-    draw_strip(sheet, trajectory, drawn, fall_time_s, chosen, layout);
+    sheet.heading(title, subtitle(trajectory, drawn, samples, !falls.empty(), !fastenings.empty()));
+    draw_strip(sheet, trajectory, drawn, fall_time_s, chosen, layout, fastenings);
     double top = first_panel;
     if (!falls.empty()) {
         draw_falls(sheet, top, trajectory, falls, fall_time_s, last_s);

@@ -1,6 +1,7 @@
 #pragma once
 /// The picture of one realization: the structure at chosen times, its falls, and its displacements.
 
+#include "ensemble/planar/fastening.hpp"
 #include "io/store/result_store.hpp"
 
 #include <cstddef>
@@ -9,6 +10,8 @@
 #include <vector>
 
 namespace stylobate {
+
+inline constexpr std::size_t usual_snapshots = 8;
 
 /// Draws a strip of snapshots (1800 pixels wide, 1350 high or more), blocks to scale in the frame of the base, the base
 /// beneath them and the time under each: a column in one row, what is wide in several rows. Fixed blocks are darker,
@@ -22,13 +25,15 @@ namespace stylobate {
 ///
 /// @param fall_time_s of each block, -1 = never, as in `Outcome`; empty: not known
 /// @param snapshots 2 to 16; fewer are drawn if there are fewer samples
+/// @param fastenings of a structure in the plane, which are drawn as lines; a rod from the edge of its base
 /// A structure in space is drawn as `plot_strip_in_space` describes.
 ///
 /// @throws InputError if the trajectory is empty, its arrays do not fit each other or a size is not positive, if the
 ///         fall times are not as many as the blocks, if `snapshots` is out of range, or
 ///         if the picture cannot be written
 void plot_strip(const Trajectory& trajectory, const std::vector<double>& fall_time_s, const std::string& title,
-                const std::filesystem::path& png, std::size_t snapshots = 8);
+                const std::filesystem::path& png, std::size_t snapshots = usual_snapshots,
+                const std::vector<Fastening>& fastenings = {});
 
 /// The samples that the strip shows, ascending: the first, the last, and in each stretch between (short where the
 /// column moves much, long where it does little) the one at which the column is farthest from its start.

@@ -4,6 +4,7 @@
 #include "ensemble/model/structure.hpp"
 #include "ensemble/numerics/in_parallel.hpp"
 #include "ensemble/numerics/run_order.hpp"
+#include "ensemble/planar/fastening.hpp"
 #include "io/files/suggest.hpp"
 #include "studies/experiment/trajectory.hpp"
 #include "studies/report/json.hpp"
@@ -292,9 +293,39 @@ KeptAnimations animations_for(const Study& study)
     return none;
 }
 
+namespace {
+
+/// As player.js describes them: in pixels and seconds.
+Json fastenings_json(const std::vector<Fastening>& all, const AnimationStage& stage)
+{
+    const auto end = [&](const FastenedPoint& point) {
+        const double x = (point.x_m - (point.block ? 0 : stage.middle_m)) * stage.px_m;
+        return fmt::format("[{},{:.6g},{:.6g}]", point.block ? static_cast<int>(*point.block) : -1, x,
+                           point.y_m * stage.px_m);
+    };
+    Json list = Json::list();
+    for (const Fastening& fastening : all) {
+        Json one = Json::object();
+        one.member_as_is("at", end(fastening.at));
+        if (fastening.other) {
+            list.item(one.member_as_is("to", end(*fastening.other)));
+            continue;
+        }
+        one.member("right", fastening.from_the_right());
+        if (const BlockMechanisms& rod = fastening.rod; fastening.only_pushes())
+            one.member_as_is("tip", fmt::format("[{:.6g},{:.6g},{:.6g},{:.6g}]", rod.rod_speed_m_s * stage.px_m,
+                                                rod.rod_start_s, rod.rod_travel_m * stage.px_m, rod.rod_laboratory));
+        list.item(one);
+    }
+    return list;
+}
+
+} // namespace
+
 std::string animations_json(const KeptAnimations& kept, const Study& study)
 {
-    const std::vector<PlacedBlock> placed = lay_out(study.structure).blocks;
+    const Layout layout = lay_out(study.structure);
+    const std::vector<PlacedBlock>& placed = layout.blocks;
     std::vector<AnimatedBlock> blocks;
     SpaceLooks looks;
     for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -327,6 +358,7 @@ std::string animations_json(const KeptAnimations& kept, const Study& study)
     }
     return animation_store(kept.stage, kept.rate_hz, blocks,
                            study.structure.spatial() ? std::optional(std::move(looks)) : std::nullopt)
+        .member("fastenings", fastenings_json(fastenings(study.mechanisms, study.contact.friction, layout), kept.stage))
         .member("list", list)
         .text();
 }

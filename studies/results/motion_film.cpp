@@ -2,7 +2,7 @@
 
 #include "ensemble/model/input_error.hpp"
 #include "ensemble/model/structure.hpp"
-#include "ensemble/planar/planar_poses.hpp"
+#include "ensemble/planar/fastening.hpp"
 #include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/program.hpp"
@@ -26,15 +26,15 @@ namespace fs = std::filesystem;
 
 constexpr Rgb paper{244, 246, 248}, stone{233, 226, 208}, lintel{195, 211, 224}, fixed_stone{169, 160, 140},
     fallen{227, 160, 143}, edge{90, 102, 114}, ground{181, 191, 201}, base_curve{31, 86, 115},
-    base_curve_across{0, 158, 115}, cursor{213, 94, 0}, fall_mark{178, 58, 58};
+    base_curve_across{0, 158, 115}, cursor{213, 94, 0}, fall_mark{178, 58, 58}, fastened{29, 39, 48};
 
 /// The frames of a realization one after the other.
 class Film {
 public:
-    Film(const TracedMotion& motion, const std::vector<PlacedBlock>& blocks, double rate_hz)
-        : t_(motion.trajectory), falls_(motion.fall_time_s), blocks_(blocks),
-          stage_(is_spatial(motion.trajectory) ? animation_stage_in_space(blocks) : animation_stage(blocks)),
-          rate_hz_(rate_hz)
+    Film(const TracedMotion& motion, const Study& study, double rate_hz)
+        : t_(motion.trajectory), falls_(motion.fall_time_s), layout_(lay_out(study.structure)),
+          fastenings_(fastenings(study.mechanisms, study.contact.friction, layout_)),
+          stage_(animations_for(study).stage), rate_hz_(rate_hz)
     {
         if (is_spatial(t_))
             base_.push_back({"base_z_m", base_curve_across});
@@ -63,6 +63,7 @@ public:
             draw_strip(frame, time);
             return frame;
         }
+        std::vector<Rectangle> now;
         for (std::size_t b = 0; b < t_.blocks(); ++b) {
             Rectangle at = rectangle_of(t_, k, b);
             const Rectangle then = rectangle_of(t_, next, b);
@@ -70,8 +71,11 @@ public:
             at.y = between(at.y, then.y);
             at.turned_rad = between(at.turned_rad, then.turned_rad);
             draw_block(frame, b, at, time);
+            now.push_back(at);
         }
-        draw_ground(frame, between(t_["base_x_m"][k], t_["base_x_m"][next]));
+        const double base_m = between(t_["base_x_m"][k], t_["base_x_m"][next]);
+        draw_ground(frame, base_m);
+        draw_fastenings(frame, now, base_m, time);
         draw_strip(frame, time);
         return frame;
     }
@@ -84,10 +88,10 @@ private:
     Rgb colour_of(std::size_t b, double time) const
     {
         const bool has_fallen = falls_.at(b) >= 0 && falls_[b] <= time + 1e-9;
-        return has_fallen                               ? fallen
-               : blocks_[b].fixed                       ? fixed_stone
-               : blocks_[b].role == BlockRole::epistyle ? lintel
-                                                        : stone;
+        return has_fallen                                      ? fallen
+               : layout_.blocks[b].fixed                       ? fixed_stone
+               : layout_.blocks[b].role == BlockRole::epistyle ? lintel
+                                                               : stone;
     }
 
     void draw_block(Frame& frame, std::size_t b, const Rectangle& at, double time) const
@@ -108,6 +112,17 @@ private:
         };
         frame.fill(corners(0), edge);
         frame.fill(corners(1.2), colour);
+    }
+
+    void draw_fastenings(Frame& frame, const std::vector<Rectangle>& now, double base_m, double time) const
+    {
+        const auto drawn = [&](const Rectangle::Corner& at) {
+            return FramePoint{std::clamp(stage_.width_px / 2 + (at.x - stage_.middle_m) * stage_.px_m, -1e4, 1e4),
+                              stage_.ground_px - at.y * stage_.px_m};
+        };
+        for (const Fastening& one : fastenings_)
+            if (const auto line = line_of(one, now, rectangle_of(t_, 0, *one.at.block), time, base_m))
+                frame.line(drawn(line->from), drawn(line->to), 3, fastened);
     }
 
     /// A structure in space as the page shows it at first.
@@ -220,7 +235,8 @@ private:
 
     const Trajectory& t_;
     const std::vector<double>& falls_;
-    const std::vector<PlacedBlock>& blocks_;
+    const Layout layout_;
+    const std::vector<Fastening> fastenings_;
     const AnimationStage stage_;
     const double rate_hz_;
     std::vector<std::pair<const char*, Rgb>> base_; ///< channels of its displacement, and their colours
@@ -250,8 +266,7 @@ bool write_film(const TracedMotion& motion, const Study& study, const fs::path& 
     AtomicFile target(file); // refuses before any work is done
     const TemporaryFolder folder;
     const double rate_hz = format == "gif" ? 25 : 50; // hundredths of a second are the unit of time of a GIF
-    const std::vector<PlacedBlock> blocks = lay_out(study.structure).blocks;
-    const Film film(motion, blocks, rate_hz);
+    const Film film(motion, study, rate_hz);
     std::size_t next = 0;
     const int status =
         run_program(ffmpeg, ffmpeg_words(film, rate_hz, format), folder.path(), folder / "ffmpeg.log", [&] {

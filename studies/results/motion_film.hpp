@@ -16,9 +16,9 @@ namespace stylobate {
 /// "html", "gif", "mp4", "webm".
 bool is_motion_format(std::string_view format);
 
-/// The realization's trajectory, of the file or run again, as the player of the page shows it, in real time; in space a
-/// film has the view of the player's start. A film has no texts; it has 25 frames a second as GIF, else 50, and at most
-/// `longest_film_s` seconds.
+/// The realization's trajectory, of the file or run again, as the player of the page shows it, in real time; in the
+/// plane with rods, tendons and clamps; in space a film has the view of the player's start. A film has no texts; it has
+/// 25 frames a second as GIF, else 50, and at most `longest_film_s` seconds.
 /// @param title of the page; nullopt: by the results and the realization
 /// @param file written whole or not at all
 /// @returns false if the observer stopped it; there is no file then

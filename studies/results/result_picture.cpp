@@ -141,7 +141,9 @@ void strip_picture(const Results& results, const TracedMotion& motion, const std
                    const fs::path& file)
 {
     const Trajectory& t = motion.trajectory;
-    plot_strip(t, motion.fall_time_s, title.value_or(strip_title(results, motion)), file);
+    const Study& study = results.study();
+    plot_strip(t, motion.fall_time_s, title.value_or(strip_title(results, motion)), file, usual_snapshots,
+               fastenings(study.mechanisms, study.contact.friction, lay_out(study.structure)));
 }
 
 FallOrder fall_order(const std::vector<std::string>& names, const std::vector<ResultRow>& rows,

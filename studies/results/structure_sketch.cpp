@@ -1,6 +1,6 @@
 #include "studies/results/structure_sketch.hpp"
 
-#include "ensemble/model/mechanism_spec.hpp"
+#include "ensemble/planar/fastening.hpp"
 #include "ensemble/spatial/placed_solid.hpp"
 #include "io/files/suggest.hpp"
 #include "io/plots/sheet.hpp"
@@ -27,7 +27,7 @@ const char* fill_of(const PlacedBlock& block)
 }
 
 /// How a mark is drawn.
-enum class MarkLook { pin, pair, band, seam, cable, link, rod, outline };
+enum class MarkLook { pin, pair, band, seam, line, outline };
 
 MarkLook look_of(const MechanismRule& rule)
 {
@@ -39,11 +39,9 @@ MarkLook look_of(const MechanismRule& rule)
     case Mechanism::bearing:
         return MarkLook::band;
     case Mechanism::tendon:
-        return MarkLook::cable;
     case Mechanism::clamp:
-        return MarkLook::link;
     case Mechanism::rod:
-        return MarkLook::rod;
+        return MarkLook::line;
     default:
         return rule.place == MechanismPlace::joint ? MarkLook::seam : MarkLook::outline;
     }
@@ -54,7 +52,7 @@ struct Mark {
     std::string words; ///< "dowel: all 9 joints"
     MarkLook look = MarkLook::seam;
     std::vector<std::size_t> places; ///< beds or blocks of the layout
-    double height_m = 0;             ///< of the end of a rod above the block's lower face
+    std::vector<Fastening> lines;    ///< what is drawn as such
 };
 
 /// "all 9 joints", "3 of 9 joints", "joint 0"
@@ -83,16 +81,17 @@ std::vector<Mark> mechanism_marks(const Study& study, const Layout& layout, cons
         std::size_t all = joints ? layout.beds.size() : layout.blocks.size();
         if (!joints)
             all -= static_cast<std::size_t>(std::ranges::count_if(layout.blocks, &PlacedBlock::fixed));
-        Mark mark{{}, look_of(rule), {}, 0};
+        Mark mark{{}, look_of(rule), {}, {}};
+        std::vector<MechanismSpec> shown;
         for (const MechanismSpec& spec : study.mechanisms) {
             const bool old = base && std::ranges::find(base->mechanisms, spec) != base->mechanisms.end();
             if (spec.mechanism != rule.mechanism || old || !acts(spec, study.contact.friction))
                 continue;
             for (const int place : spec.places.empty() ? usual_places(rule, layout) : spec.places)
                 mark.places.push_back(static_cast<std::size_t>(place));
-            if (rule.mechanism == Mechanism::rod)
-                mark.height_m = spec.values[2];
+            shown.push_back(spec);
         }
+        mark.lines = fastenings(shown, study.contact.friction, layout);
         std::ranges::sort(mark.places);
         mark.places.erase(std::unique(mark.places.begin(), mark.places.end()), mark.places.end());
         if (mark.places.empty())
@@ -125,7 +124,7 @@ std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study
 {
     std::vector<Mark> marks = mechanism_marks(study, layout, base);
     const Layout old = base ? lay_out(base->structure) : Layout{};
-    Mark beds{"bed of its own values", MarkLook::seam, {}, 0}, stones{"other size or mass", MarkLook::outline, {}, 0};
+    Mark beds{"bed of its own values", MarkLook::seam, {}, {}}, stones{"other size or mass", MarkLook::outline, {}, {}};
     for (std::size_t i = 0; i < layout.beds.size(); ++i) {
         const BedSpec& bed = layout.beds[i].bed;
         if (base && i < old.beds.size() ? !(bed == old.beds[i].bed) : !(bed == BedSpec{}))
@@ -136,7 +135,7 @@ std::vector<Mark> marks_of(const Study& study, const Layout& layout, const Study
             if (!same_stone(layout.blocks[i], old.blocks[i]))
                 stones.places.push_back(i);
     if (base && !same_contact(study.contact, base->contact)) {
-        beds = {"other contact", MarkLook::seam, {}, 0};
+        beds = {"other contact", MarkLook::seam, {}, {}};
         for (std::size_t i = 0; i < layout.beds.size(); ++i)
             beds.places.push_back(i);
     }
@@ -163,6 +162,7 @@ public:
     double x(double metres) const { return beside + (metres - left_m_) * scale_; }
     double y(double metres) const { return 4 + (top_m_ - metres) * scale_; }
     double scale() const { return scale_; }
+    double width() const { return sheet_.size().width; }
 
     void ground() { sheet_.rectangle(0, y(0), sheet_.size().width, y(0) + slab, "var(--ground)"); }
     void rectangle(double left, double right, double bottom, double top, const char* fill)
@@ -202,23 +202,21 @@ private:
 
 void draw_mark(Elevation& view, const Layout& layout, const Mark& mark, const std::string& colour)
 {
-    const bool on_blocks = mark.look == MarkLook::cable || mark.look == MarkLook::link || mark.look == MarkLook::rod ||
-                           mark.look == MarkLook::outline;
+    std::vector<Rectangle> at_rest;
+    for (const PlacedBlock& block : layout.blocks)
+        at_rest.push_back({block.x_m(), block.y_m, 0, block.width_m / 2, block.height_m / 2});
+    for (const Fastening& one : mark.lines)
+        if (const auto line = line_of(one, at_rest, at_rest[*one.at.block], 0, 0))
+            view.stroke(view.x(line->from.x), view.y(line->from.y), std::clamp(view.x(line->to.x), 0.0, view.width()),
+                        view.y(line->to.y), 3, colour);
+    if (mark.look == MarkLook::line)
+        return;
     for (const std::size_t place : mark.places) {
-        if (place >= (on_blocks ? layout.blocks.size() : layout.beds.size()))
+        if (place >= (mark.look == MarkLook::outline ? layout.blocks.size() : layout.beds.size()))
             continue;
-        if (on_blocks) {
+        if (mark.look == MarkLook::outline) {
             const PlacedBlock& block = layout.blocks[place];
-            if (mark.look == MarkLook::cable)
-                view.stroke(view.x(block.x_m()), view.y(block.top()), view.x(block.x_m()), view.y(0) + slab, 3, colour);
-            else if (mark.look == MarkLook::link)
-                view.stroke(view.x(block.right()) - 12, view.y(block.y_m), view.x(block.right()) + 12,
-                            view.y(block.y_m), 4, colour);
-            else if (mark.look == MarkLook::rod) // from the edge of the sheet to the middle of the block
-                view.stroke(0, view.y(block.bottom() + mark.height_m), view.x(block.x_m()),
-                            view.y(block.bottom() + mark.height_m), 3, colour);
-            else
-                view.outline(block.left(), block.right(), block.bottom(), block.top(), colour);
+            view.outline(block.left(), block.right(), block.bottom(), block.top(), colour);
             continue;
         }
         const PlacedBed& bed = layout.beds[place];

@@ -56,6 +56,22 @@ class Single(Page):
         self.assertAlmostEqual(-float(re.findall(r"-?[\d.]+", turn)[2]), math.degrees(theta), delta=0.05)
 
 
+    def test_a_rod_that_only_pushes_leaves_its_block(self):
+        stylobate("run", f"{Given.studies}/free_rocking.toml", "-o", self.at("rod.h5"), *settings(
+            mechanisms__rod="{block=0,to_right_n_m=2000,height_m=0.16,speed_m_s=0.1,start_s=0.2,travel_m=0.02}"))
+        stylobate("export", self.at("rod.h5"), "--to", "html", "-o", self.at("rod.html"))
+        self.open("rod.html")
+        end = lambda: float(self.browser.js('document.querySelector(".player .fastening").getAttribute("x1")'))
+        block = lambda: float(re.findall(r"-?[\d.]+", self.browser.js(
+            'document.querySelector(".player .block").getAttribute("transform")'))[0])
+        scale = self.browser.js('JSON.parse(document.getElementById("animations").textContent).px_m')
+        start = end(), block()
+        self.browser.js('document.querySelector(".player .stage").focus()')
+        self.browser.key("End")
+        self.assertAlmostEqual(end() - start[0], 0.02 * scale, delta=0.5)
+        self.assertGreater(block() - start[1], 2 * 0.02 * scale)
+
+
 class Space(Page):
     """A surface of a column in space."""
 

@@ -106,6 +106,41 @@ tail_s = 3
     EXPECT_GT(pixels_like(last, 227, 160, 143), 200U);
 }
 
+TEST_F(FilmExport, ARodStaysWhereItsEndIs)
+{
+    // a block leans to the left and falls to the right; a rod that only pushes touches it at the start
+    EXPECT_EQ(run({"run", STYLOBATE_SOURCE_DIR "/studies/inputs/free_rocking.toml", "-o", "rod.h5", "--quiet", "--set",
+                   "mechanisms.rod={block=0,to_right_n_m=2000,height_m=0.16,speed_m_s=0.1,start_s=0.2,travel_m=0.02}"})
+                  .status,
+              0);
+    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
+    use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
+                    frames));
+    EXPECT_EQ(run({"export", "rod.h5", "-o", "rod.gif"}).status, 0);
+    const std::string said = read_bytes(words), all = read_bytes(frames);
+    int width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
+    const std::size_t one = 3U * static_cast<unsigned>(width * height);
+    const auto tip = [&](std::size_t from) { // the last pixel of the rod, from the left edge
+        int last = -1;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                if (all.compare(from + 3U * static_cast<unsigned>(y * width + x), 3, "\x1d\x27\x30") == 0)
+                    last = std::max(last, x);
+        return last;
+    };
+    const int first = tip(0), end = tip(all.size() - one);
+    ASSERT_GT(first, 0);
+    const double start_m = ResultReader(folder / "rod.h5").trajectory(0)["x_m"][0];
+    EXPECT_LT(start_m, 0) << "it leans to the left";
+    EXPECT_GT(end, first) << "it has gone on by 20 mm";
+    EXPECT_LT(end, width / 2) << "and stays behind, while the block goes to the right";
+
+    EXPECT_EQ(run({"export", "rod.h5", "--to", "html", "-o", "rod.html"}).status, 0);
+    const std::string page = read_bytes(folder / "rod.html");
+    EXPECT_NE(page.find("\"right\": false, \"tip\": ["), std::string::npos);
+}
+
 TEST_F(FilmExport, AsAPageOfItsOwn)
 {
     const Ended ended = run({"export", "one.h5", "--to", "html", "--title", "A <block>"});

@@ -218,9 +218,7 @@ double rod_force_n(const JointBench& bench, double time_s, double moved_m, doubl
     const Block& body = bench.realization.blocks[bench.body];
     const BlockMechanisms& e = body.mechanisms;
     const double arm = e.rod_height_m - body.half_height_m;
-    const double path = std::clamp(std::abs(e.rod_speed_m_s) * (time_s - e.rod_start_s), 0.0, e.rod_travel_m);
-    const double end = std::copysign(path, e.rod_speed_m_s) - e.rod_laboratory * base_m;
-    const double ahead = end - (moved_m - arm * (std::sin(now_rad) - std::sin(start_rad)));
+    const double ahead = e.rod_end_m(time_s, base_m) - (moved_m - arm * (std::sin(now_rad) - std::sin(start_rad)));
     return (ahead > 0 ? e.rod_right_n_m : e.rod_left_n_m) * ahead;
 }
 

@@ -2,9 +2,12 @@
 // controls. The animations stand in the page as
 //
 //   {rate_hz, px_m, quantum_px, width, height, ground, blocks: [name], look: [class], list: [{index, cell, state,
-//    frequency_hz, pga_m_s2, [motion], samples, falls: [[block, time_s], ...], data}]}
+//    frequency_hz, pga_m_s2, [motion], samples, falls: [[block, time_s], ...], data}], [fastenings]}
 //
-// px_m: pixels per metre; data: see `decoded`. Those of windows.js and space.js have other members besides.
+// px_m: pixels per metre; data: see `decoded`. Fastenings are rods, tendons and clamps in the plane: {at, to}, or of a
+// rod {at, right, [tip]}. `at` and `to` are [block, x, y], from the middle of the upright block [px]; block -1: of the
+// base. A rod comes from the left or from the right; one that only pushes has tip: [velocity, start, travel, share of
+// the laboratory in its end] [px, s]. Those of windows.js and space.js have other members besides.
 
 /**
  * The numbers of an animation. The bytes (base64) are whole numbers of variable length, seven bits a byte, the lowest
@@ -105,9 +108,10 @@ class Player {
     const {width, height, ground} = this.store;
     this.blocks = this.store.blocks.map(() => svg("rect", {}));
     this.ticks = svg("path", {class: "scale"});
+    this.fastenings = (this.store.fastenings ?? []).map(() => svg("line", {class: "fastening"}));
     this.stage = svg("svg", {class: "stage", viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0},
                      svg("rect", {class: "ground", x: 0, y: ground, width, height: height - ground}), this.ticks,
-                     ...this.blocks);
+                     ...this.blocks, ...this.fastenings);
   }
 
   /** The elements above the displacement of the base. */
@@ -115,7 +119,10 @@ class Player {
 
   /** Further keys, what they do, and what is said of them. */
   moreKeys() { return {}; }
-  noteText() { return ""; }
+  noteText() {
+    return this.store.fastenings?.length
+        ? "Lines are rods, tendons and clamps; a rod acts on the middle line of its block. " : "";
+  }
 
   /** The numbers of an animation. */
   numbersOf(one) { return decoded(one, this.store.blocks.length); }
@@ -145,6 +152,23 @@ class Player {
     let ticks = "";
     for (let x = shift; x < width; x += spacing) ticks += `M${x.toFixed(1)} ${ground}v10`;
     this.ticks.setAttribute("d", ticks);
+    this.fastenings.forEach((line, i) => this.drawFastening(line, this.store.fastenings[i], base));
+  }
+
+  /** A rod, a tendon or a clamp. @param base its displacement [px] */
+  drawFastening(line, {at, to, right, tip}, base) {
+    const {width, ground} = this.store;
+    const placed = ([block, x, y], [u, v, turn] = block < 0 ? [0, 0, 0] : this.placeOf(block)) =>
+        [u + x * Math.cos(turn) - y * Math.sin(turn), v + x * Math.sin(turn) + y * Math.cos(turn)];
+    let from = placed(at);
+    const end = to ? placed(to) : [(right ? 1 : -1) * width / 2, from[1]];
+    if (tip) { // it leaves the block where the block is ahead of it
+      const [velocity, start, travel, share] = tip;
+      const path = Math.sign(velocity) * clamp(Math.abs(velocity) * (this.time - start), 0, travel);
+      const reached = placed(at, this.placeAt(at[0], 0))[0] + path - share * base;
+      from = [right ? Math.max(from[0], reached) : Math.min(from[0], reached), from[1]];
+    }
+    filled(line, {x1: width / 2 + from[0], y1: ground - from[1], x2: width / 2 + end[0], y2: ground - end[1]}, []);
   }
 
   /** Where the base is, as a text. */
@@ -242,10 +266,14 @@ class Player {
   hasFallen(block) { return this.fallTime.has(block) && this.fallTime.get(block) <= this.time + 1e-9; }
 
   /** The place of a block at the time that is shown [px, rad]. */
-  placeOf(block) {
+  placeOf(block) { return this.placeBy(block, (channel) => this.value(channel)); }
+
+  /** The same at a sample. */
+  placeAt(block, sample) { return this.placeBy(block, (channel) => this.now.channels[channel][sample]); }
+
+  placeBy(block, value) {
     const [w, h] = this.now.sizes[block], quantum = this.store.quantum_px;
-    return [this.value(3 * block) * quantum, this.value(3 * block + 1) * quantum,
-            this.value(3 * block + 2) / Math.hypot(w, h)];
+    return [value(3 * block) * quantum, value(3 * block + 1) * quantum, value(3 * block + 2) / Math.hypot(w, h)];
   }
 
   show(time) {

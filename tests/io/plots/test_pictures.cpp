@@ -366,6 +366,25 @@ TEST_F(Pictures, StripTurnsDrumsCounterClockwise)
     EXPECT_NEAR(from_left, scale * height * std::sin(angle), 0.03 * drum);
 }
 
+TEST_F(Pictures, StripHasARodInEverySnapshot)
+{
+    MechanismSpec rod = neutral_spec(Mechanism::rod, 0.6);
+    rod.places = {2};
+    rod.values[0] = rod.values[1] = 1e4;
+    const std::vector<Fastening> held = fastenings({rod}, 0.6, lay_out(equal_column(3, 0, 1.2, 0.8, 1, 100)));
+    const auto lines = [&](const std::vector<Fastening>& fastenings) {
+        plot_strip(some_trajectory(3, 1.2, 0.8), {}, "", folder / "rod.svg", 5, fastenings);
+        const std::string svg = read_file(folder / "rod.svg");
+        std::size_t count = 0;
+        for (std::size_t at = svg.find("stroke:#1d2730"); at != std::string::npos;
+             at = svg.find("stroke:#1d2730", at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(lines(held), 5U);
+    EXPECT_EQ(lines({}), 0U);
+}
+
 TEST_F(Pictures, StripOfAnyColumn)
 {
     for (const std::size_t blocks : {1U, 2U, 48U}) {

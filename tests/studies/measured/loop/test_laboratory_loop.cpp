@@ -100,67 +100,60 @@ TEST_F(LaboratoryLoop, NamesAShiftedCentreByCallipersAloneAndNothingOfAHealthySp
         EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
-TEST_F(LaboratoryLoop, KeepsItsSimulationsAndRefusesAFileOfSomethingElse)
-{
-    const Campaign campaign = callipers_alone();
-    std::vector<std::uint64_t> rows;
-    LoopOptions options = small_plan(folder / "tests.txt");
-    options.progress = [&](std::uint64_t done, std::uint64_t) { rows.push_back(done); };
-    const std::optional<TestStory> first = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
-    EXPECT_FALSE(rows.empty());
-    rows.clear();
-    std::optional<TestStory> again = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
-    EXPECT_TRUE(rows.empty()) << "all rows are in the file";
-    ASSERT_TRUE(first && again);
-    EXPECT_EQ(again->simulations, 0U);
-    again->simulations = first->simulations;
-    again->seconds = first->seconds;
-    EXPECT_EQ(*first, *again);
-
-    // another specimen is simulated anew, not taken from the file
-    Campaign heavier = campaign;
-    heavier.specimen.mass_kg = {0.2, 0.2, 0.2};
-    EXPECT_TRUE(laboratory_loop(heavier, stone_contacts(), {}, options, observer));
-    EXPECT_FALSE(rows.empty());
-
-    std::ofstream(folder / "notes.txt") << "my notes\n";
-    options.cache = folder / "notes.txt";
-    try {
-        laboratory_loop(campaign, stone_contacts(), {}, options, observer);
-        ADD_FAILURE() << "the notes would be overwritten";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("no file of simulated tests"), std::string::npos) << error.what();
-    }
-}
-
 /// Asks to stop once it has been told to.
 struct StoppedInTheMiddle : Observer {
     bool stop = false;
     bool stop_requested() override { return stop; }
 };
 
-TEST_F(LaboratoryLoop, ContinuesWhereItWasStopped)
+TEST_F(LaboratoryLoop, ContinuesWhereItWasStoppedAndKeepsItsSimulations)
 {
     const Campaign campaign = callipers_alone();
-    LoopOptions options = small_plan(folder / "stopped.txt");
     StoppedInTheMiddle stopping;
     std::vector<std::uint64_t> rows;
+    LoopOptions options = small_plan(folder / "stopped.txt");
     options.progress = [&](std::uint64_t done, std::uint64_t) {
         rows.push_back(done);
         stopping.stop = true;
     };
-    EXPECT_FALSE(laboratory_loop(campaign, stone_contacts(), {}, options, stopping));
+    const auto run = [&](const Campaign& of, Observer& seen_by) {
+        rows.clear();
+        stopping.stop = false;
+        std::optional<TestStory> story = laboratory_loop(of, stone_contacts(), {}, options, seen_by);
+        if (story) { // what each call takes for itself
+            story->simulations = 0;
+            story->seconds = 0;
+        }
+        return story;
+    };
+    EXPECT_FALSE(run(campaign, stopping));
     ASSERT_EQ(rows.size(), 1U);
     const std::uint64_t kept = rows.front();
-    rows.clear();
-    std::optional<TestStory> continued = laboratory_loop(campaign, stone_contacts(), {}, options, observer);
-    ASSERT_TRUE(continued);
+    const std::optional<TestStory> continued = run(campaign, observer);
+    ASSERT_FALSE(rows.empty());
     EXPECT_GT(rows.front(), kept) << "what was kept is not simulated again";
-    std::optional<TestStory> whole = told(campaign);
+    EXPECT_EQ(run(campaign, observer), continued);
+    EXPECT_TRUE(rows.empty()) << "all rows are in the file";
+
+    // another specimen is simulated anew, not taken from the file
+    Campaign heavier = campaign;
+    heavier.specimen.mass_kg = {0.2, 0.2, 0.2};
+    EXPECT_FALSE(run(heavier, stopping));
+    EXPECT_FALSE(rows.empty());
+
+    options.cache = folder / "whole.txt";
+    const std::optional<TestStory> whole = run(campaign, observer);
     ASSERT_TRUE(whole);
-    continued->simulations = whole->simulations = 0;
-    continued->seconds = whole->seconds = 0;
-    EXPECT_EQ(*continued, *whole);
+    EXPECT_EQ(continued, whole);
+
+    std::ofstream(folder / "notes.txt") << "my notes\n";
+    options.cache = folder / "notes.txt";
+    try {
+        run(campaign, observer);
+        ADD_FAILURE() << "the notes would be overwritten";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("no file of simulated tests"), std::string::npos) << error.what();
+    }
 }
 
 TEST_F(LaboratoryLoop, ToldWhatItCouldNotUse)
