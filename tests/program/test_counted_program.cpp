@@ -118,7 +118,7 @@ TEST_F(Counted, ThreadsAndInstructionSetsDoNotChangeTheFile)
 }
 
 /// Killed or interrupted again and again, at most so many times.
-TEST_F(Counted, KilledAndContinuedItIsTheSame)
+TEST_F(Counted, KilledAndContinuedItIsTheSameLong)
 {
     const std::vector<std::string> settings = without_rows(short_surface(slow_build ? 160 : 640));
     const auto total = static_cast<std::uint64_t>(16 * (slow_build ? 160 : 640));

@@ -53,7 +53,7 @@ LackOfFit fit_of(const FragilityTruth& truth, std::uint64_t repeat)
     return lack_of_fit(fitted_curve(data, log_predictors(data), Link::probit));
 }
 
-bool covers(const Limits& limits, double value)
+bool contains(const Limits& limits, double value)
 {
     return limits.lower <= value && value <= limits.upper;
 }
@@ -238,8 +238,8 @@ TEST(StripeShares, IntervalsCoverAndTheBandCoversAllAtOnce)
         bool all = true;
         for (std::size_t j = 0; j < covered.size(); ++j) {
             const double p = truth.probability(truth.stripes[j]);
-            covered[j] += covers(shares.stripes[j].limits, p) ? 1 : 0;
-            all = all && covers(shares.stripes[j].band, p);
+            covered[j] += contains(shares.stripes[j].limits, p) ? 1 : 0;
+            all = all && contains(shares.stripes[j].band, p);
         }
         band += all ? 1 : 0;
     }

@@ -12,13 +12,13 @@ using namespace stylobate;
 
 namespace {
 
-struct Simulated {
+struct Replicated {
     double coverage;
     double trials;
 };
 
 /// Trial by trial, as a run does it: the oracle of the exact sums.
-Simulated simulate(const InterimAnalyses& analyses, double p, int repeats, std::uint64_t seed)
+Replicated simulate(const InterimAnalyses& analyses, double p, int repeats, std::uint64_t seed)
 {
     std::mt19937_64 engine(seed);
     std::bernoulli_distribution collapses(p);
@@ -75,7 +75,7 @@ TEST(InterimAnalyses, ExactCoverageIsThatOfSimulatedRuns)
         const InterimAnalyses analyses(8, 512, half_width, 0.95);
         for (const double p : {0.002, 0.02, 0.07, 0.105, 0.3, 0.5, 0.88}) {
             constexpr int repeats = 10000;
-            const Simulated seen = simulate(analyses, p, repeats, 7);
+            const Replicated seen = simulate(analyses, p, repeats, 7);
             const InterimAnalyses::Expected exact = analyses.expected(p, analyses.trials().size());
             const double sd = std::sqrt(exact.coverage * (1 - exact.coverage) / repeats);
             EXPECT_NEAR(seen.coverage, exact.coverage, 4.5 * sd + 1e-6) << p << ' ' << half_width;

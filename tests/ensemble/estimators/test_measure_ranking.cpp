@@ -16,14 +16,14 @@ namespace {
 
 /// Records scaled to several intensities. What decides is v; a = v times a factor that falls with the magnitude, and
 /// some scatter; magnitude says nothing beside v.
-struct Truth {
+struct RankedTruth {
     FragilityData data;
     std::vector<double> magnitude, number;
 };
 
-Truth draw(std::uint64_t seed, std::uint32_t records)
+RankedTruth draw(std::uint64_t seed, std::uint32_t records)
 {
-    Truth truth;
+    RankedTruth truth;
     std::vector<FragilityRun> runs;
     for (std::uint32_t g = 0; g < records; ++g) {
         std::uint64_t element = 0;
@@ -51,7 +51,7 @@ TEST(MeasureRanking, WhatDrivesTheOutcomeIsFirstAndSufficient)
     int first = 0, sufficient = 0, found = 0, chance = 0;
     const int repeats = 200;
     for (std::uint64_t r = 0; r < repeats; ++r) {
-        const Truth truth = draw(r, 40);
+        const RankedTruth truth = draw(r, 40);
         const auto ranked =
             ranked_measures(truth.data, {"PGA", "PGV"}, {"magnitude", "number"}, {truth.magnitude, truth.number});
         first += ranked[0].name == "PGV" && ranked[1].behind.lower > 0 ? 1 : 0;
@@ -112,7 +112,7 @@ TEST(MeasureRanking, GainAndDifferenceByHand)
 /// A two-sided p-value is the level at which the interval begins to hold 0.
 TEST(MeasureRanking, PValueOfAFeatureIsThatOfItsInterval)
 {
-    const Truth truth = draw(4, 20);
+    const RankedTruth truth = draw(4, 20);
     const auto of = [&](double level) {
         return ranked_measures(with_measure(truth.data, 0), {"PGA"}, {"magnitude"}, {truth.magnitude}, level)[0]
             .sufficiency[0];
@@ -126,7 +126,7 @@ TEST(MeasureRanking, PValueOfAFeatureIsThatOfItsInterval)
 
 TEST(MeasureRanking, SaysItInWords)
 {
-    const Truth truth = draw(1000, 60);
+    const RankedTruth truth = draw(1000, 60);
     const auto ranked = ranked_measures(truth.data, {"PGA", "PGV"}, {"magnitude"}, {truth.magnitude});
     EXPECT_NEAR(ranked[0].dispersion, std::hypot(0.2, 0.25), 0.1);
     EXPECT_EQ(ranked[0].behind.lower, 0);
@@ -137,7 +137,7 @@ TEST(MeasureRanking, SaysItInWords)
 
 TEST(MeasureRanking, RefusesWhatItCannotRank)
 {
-    const Truth truth = draw(1, 10);
+    const RankedTruth truth = draw(1, 10);
     EXPECT_THROW(ranked_measures(truth.data, {"PGA"}, {}, {}), InputError);
     EXPECT_THROW(ranked_measures(truth.data, {"PGA", "PGV"}, {"magnitude"}, {}), InputError);
     EXPECT_THROW(ranked_measures(truth.data, {"PGA", "PGV"}, {"same"}, {std::vector<double>(10, 1.0)}), InputError);

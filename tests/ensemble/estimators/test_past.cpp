@@ -52,7 +52,7 @@ std::vector<CellCount> exact_counts(const PastAxes& axes, const Probability& p)
 }
 
 /// The rate k0 a^-k, by two of its points.
-HazardCurve power_law(double k0, double k)
+HazardCurve power_hazard(double k0, double k)
 {
     const std::vector<double> intensity = {1, 10}, rate = {k0, k0 * std::pow(10, -k)};
     return HazardCurve(intensity, rate);
@@ -115,7 +115,7 @@ TEST(Past, AnotherPriorMovesThePosteriorAsQuadratureSays)
     const PastAxes axes{{1.0}, log_axis(0.5, 20, 400), 1};
     const PastLikelihood likelihood = past_likelihood(
         axes, exact_counts(axes, [&](auto, auto, double a) { return 1 - truth.collapse(a); }), 1, PastUse::means);
-    const HazardCurve rates = power_law(0.02, 2.3);
+    const HazardCurve rates = power_hazard(0.02, 2.3);
     const auto posterior_mass = [&](double upto, const auto& density) {
         return simpson([&](double x) { return (1 - truth.collapse(std::exp(x))) * density(std::exp(x)); },
                        std::log(0.5), std::log(upto));
@@ -210,7 +210,7 @@ TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
     const PastLikelihood collapse = past_likelihood(
         axes, exact_counts(axes, [&](auto, auto, double a) { return truth.collapse(a); }), 1, PastUse::rates);
     const double k0 = 0.05, k = 2.5, years = 2400, sigma = 1.0;
-    const HazardUpdate update = hazard_update(collapse, power_law(k0, k), years, sigma, 0.95);
+    const HazardUpdate update = hazard_update(collapse, power_hazard(k0, k), years, sigma, 0.95);
     // over a itself, not its logarithm
     const double rate =
         simpson([&](double a) { return truth.collapse(a) * k0 * k * std::pow(a, -k - 1); }, 0.5, 60, 200000) +
@@ -236,7 +236,7 @@ TEST(Past, TheRatesOfAHazardCurveAreUpdatedAsQuadratureSays)
         if (to > 60)
             known += truth.collapse(60) * k0 * (std::pow(60, -k) - std::pow(to, -k));
         const HazardUpdate cut =
-            hazard_update(collapse, power_law(k0, k), years, sigma, 0.95, IntensityRange{from, to});
+            hazard_update(collapse, power_hazard(k0, k), years, sigma, 0.95, IntensityRange{from, to});
         EXPECT_NEAR(cut.beyond_hazard.value, 1 - known / rate, 3e-3);
         EXPECT_EQ(cut.collapse_rate.value, update.collapse_rate.value);
     }
@@ -552,11 +552,11 @@ TEST(Past, AStructureThatIsAskedBecauseItStandsSaysLessOfTheRates)
     // p is 0 or 1 given the motion: they fall together
     AlikeStructures one_of_two{2, 1, std::vector<double>(2 * axes.intensity.size(), 1)};
     const HazardUpdate together =
-        hazard_update(collapse, power_law(0.05, 2.5), 1000, 1, 0.95, {}, {2, 2, one_of_two.all_stand});
+        hazard_update(collapse, power_hazard(0.05, 2.5), 1000, 1, 0.95, {}, {2, 2, one_of_two.all_stand});
     EXPECT_NEAR(together.alike_median.value, together.factor_median.value, 1e-9) << "two that fall together are one";
     for (std::size_t i = 0; i < axes.intensity.size(); ++i)
         one_of_two.all_stand[2 * i + 1] = 1 - truth.collapse(axes.intensity[i]);
-    const HazardUpdate alone = hazard_update(collapse, power_law(0.05, 2.5), 1000, 1, 0.95, {}, one_of_two);
+    const HazardUpdate alone = hazard_update(collapse, power_hazard(0.05, 2.5), 1000, 1, 0.95, {}, one_of_two);
     EXPECT_GT(alone.alike_median.value, alone.factor_median.value);
     // by quadrature over c itself
     const auto rate = [&](int m) {

@@ -84,7 +84,7 @@ double jeffreys_prior(double u)
     return std::sqrt(p * (1 - p)) / M_PI;
 }
 
-double matern(double lag, double length)
+double matern_at_lag(double lag, double length)
 {
     const double d = std::sqrt(5.0) * lag / length;
     return (1 + d + d * d / 3) * std::exp(-d);
@@ -138,7 +138,7 @@ TEST(SurfaceModel, ANeighbourKnownExactlySaysTheConditionalNormal)
     std::vector<double> mean, variance, weight, weight_alone;
     for (const Process& process : all) {
         const double own = 16 + process.sd * process.sd + process.misfit * process.misfit;
-        const double both = 16 + process.sd * process.sd * matern(1, process.length);
+        const double both = 16 + process.sd * process.sd * matern_at_lag(1, process.length);
         mean.push_back(both / own * known);
         variance.push_back(own - both * both / own);
         // the evidence of the million under what the first cell's twelve trials say of it, against B's: both are the

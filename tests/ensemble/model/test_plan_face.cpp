@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_plan_face {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -63,4 +63,4 @@ TEST(PlanFace, GapsByHand)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_plan_face

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_base_motion {
 namespace {
 
 const long double pi = std::numbers::pi_v<long double>;
@@ -428,4 +428,4 @@ TEST(TailAfterShaking, ByHand)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_base_motion

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_motions_in_space {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -371,4 +371,4 @@ TEST(MotionsInSpace, OvertonesChangeBothHorizontalComponents)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_motions_in_space

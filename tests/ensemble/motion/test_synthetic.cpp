@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_synthetic {
 namespace {
 
 using Real = long double;
@@ -401,4 +401,4 @@ TEST(RestPolynomial, EndsWhereItIsToldTo)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_synthetic

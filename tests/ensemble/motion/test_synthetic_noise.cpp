@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_synthetic_noise {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -352,4 +352,4 @@ TEST(Shaking, OutcomesHaveTheSameBitsForEveryWidthAndThreadCount)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_synthetic_noise

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_keys {
 namespace {
 
 const std::string drums = "[structure]\nblocks = 3\ndrum_width_m = 1\ndrum_height_m = 1\ndepth_m = 1\n"
@@ -582,4 +582,4 @@ TEST_F(StudyKeys, EachIsNeededWhereItsDescriptionSaysSo)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_keys

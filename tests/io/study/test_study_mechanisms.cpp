@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_mechanisms {
 namespace {
 
 /// [mechanisms] begins in line 16; six joints, seven blocks of which block 0 is fixed.
@@ -428,4 +428,4 @@ TEST(StudyMechanisms, ATableIsAnExcitation)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_mechanisms

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_shaking_in_space {
 namespace {
 
 const std::string in_space = R"([structure]
@@ -258,4 +258,4 @@ TEST(ShakingInSpace, KeysWithoutMeaningAreRefused)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_shaking_in_space

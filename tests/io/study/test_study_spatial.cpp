@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_spatial {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -361,4 +361,4 @@ TEST(StudyInSpace, ImplausibleValuesAreFound)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_spatial

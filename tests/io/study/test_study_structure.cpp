@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_structure {
 namespace {
 
 /// @param structure from line 4 on; the rest is the same for all
@@ -410,4 +410,4 @@ TEST(StudyStructure, EveryStudyOfTheCatalogueIsReadAndDrawn)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_structure

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace stylobate {
+namespace stylobate::test_study_text {
 namespace {
 
 const std::string structure = R"(
@@ -380,4 +380,4 @@ TEST(StudyText, DiffersWhereverAnExcitationDoes)
 }
 
 } // namespace
-} // namespace stylobate
+} // namespace stylobate::test_study_text

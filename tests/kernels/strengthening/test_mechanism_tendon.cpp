@@ -12,7 +12,7 @@ using namespace stylobate::model;
 
 namespace {
 
-const double weight = mono_stone.mass * gravity;
+const double weight_n = mono_stone.mass * gravity;
 
 Realization held_block(double K_n, double xi, double prestress, double stiffness)
 {
@@ -56,7 +56,7 @@ double quarter_period_s(const Cable& cable, double tilt)
                  alpha = std::atan(b / h);
     const double inertia = 4.0 / 3 * mono_stone.mass * R * R;
     const auto rate = [&](double theta) {
-        return (-weight * R * std::sin(alpha - theta) + cable.moment(theta)) / inertia;
+        return (-weight_n * R * std::sin(alpha - theta) + cable.moment(theta)) / inertia;
     };
     double theta = tilt, w = 0, time = 0;
     const double dt = 1e-6;
@@ -136,7 +136,7 @@ TEST(Tendon, ARockingBlockFollowsTheEquationOfMotion)
     const double without = quarter_period_s({0, 0}, tilt);
     EXPECT_NEAR(without, 0.14617, 1e-4); // Housner
     for (const auto& [prestress, stiffness] :
-         {std::pair{0.0, 3e3}, std::pair{weight, 3e3}, std::pair{2 * weight, 2e4}}) {
+         {std::pair{0.0, 3e3}, std::pair{weight_n, 3e3}, std::pair{2 * weight_n, 2e4}}) {
         const Cable cable{prestress, stiffness};
         const double want = quarter_period_s(cable, tilt);
         EXPECT_LT(want, 0.92 * without);
@@ -148,7 +148,7 @@ TEST(Tendon, ARockingBlockFollowsTheEquationOfMotion)
 TEST(Tendon, UpliftBeginsAtTheWeightAndThePrestress)
 {
     // m a h = (W + T0) b about the corner, less what the bed yields
-    const double T = 1.5 * weight, rigid = gravity * mono_stone.width / mono_stone.height * (1 + T / weight);
+    const double T = 1.5 * weight_n, rigid = gravity * mono_stone.width / mono_stone.height * (1 + T / weight_n);
     const double want = most_acceleration(mono_stone, 1e10, T);
     EXPECT_NEAR(want, rigid, 0.03 * rigid);
     Realization r = held_block(1e10, 0.1, T, 1); // so soft that the tension hardly changes
@@ -197,8 +197,8 @@ TEST(Tendon, HoldsABlockThatIsLiftedUntilItYieldsAndIsSlackThen)
 
 TEST(Tendon, ItsEnergyIsInTheBalance)
 {
-    Realization r = held_block(1e8, 0.1, weight, 2e4);
-    for (const double yield : {1e12, 1.5 * weight}) {
+    Realization r = held_block(1e8, 0.1, weight_n, 2e4);
+    for (const double yield : {1e12, 1.5 * weight_n}) {
         Realization shaken = r;
         shaken.blocks[1].strengthening.tendon_yield_n = yield;
         shaken.frequency_hz = 3;

@@ -13,7 +13,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Contact";
+constexpr const char* contact_subject = "Contact";
 
 /// A drum of unequal width anywhere on another, pressed by little or much, flat or on its corner: the force of the
 /// whole step against the exact clipping of the two outlines.
@@ -121,19 +121,19 @@ Finding free_fall()
 Cases contact_cases()
 {
     return {
-        {"StaticOverlap", subject, "Overlap of the drums of SPEC at rest, K_N = 1e8 N/m2.",
+        {"StaticOverlap", contact_subject, "Overlap of the drums of SPEC at rest, K_N = 1e8 N/m2.",
          "W / (K_N B) by hand, seven digits.", "the digits.", static_overlap},
-        {"Overlap", subject,
+        {"Overlap", contact_subject,
          "The contact force in one step of 20 000 random pairs: drums of unequal widths, eccentric, flat or on a "
          "corner, with an overlap of 1e-8 to 1e-5 m and a rotation of 1e-7 to 0.3 rad.",
          "clipping of one outline by the other (Sutherland and Hodgman) in extended precision.",
          "rounding of positions of 0.01 m against overlaps that may be 1e-8 m deep.", overlap},
-        {"Restitution", subject,
+        {"Restitution", contact_subject,
          "Impact of a mass on its bed; the contact ends when F_N = max(0, K_N A + C_N v) becomes zero.",
          "the damped oscillation's velocity at the time when spring and dashpot cancel, in closed form.",
          "the scheme is of first order in the dashpot; the extrapolation from two steps leaves a second-order error.",
          restitution},
-        {"FreeFall", subject, "A block that falls and rotates without contact.",
+        {"FreeFall", contact_subject, "A block that falls and rotates without contact.",
          "h - g t2 / 2 and w t: central differences are exact for a constant acceleration.", "rounding of 2000 steps.",
          free_fall},
     };

@@ -14,7 +14,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Frames";
+constexpr const char* frame_subject = "Frames";
 
 /// Two columns of 1 x 4 m and 2500 kg/m3, 8 m apart, with a cap of 9.4 x 0.5 m that weighs as much as both (G = 1).
 Realization frame_a(double K_n, double part)
@@ -125,7 +125,7 @@ Finding static_limit()
 Cases frame_cases()
 {
     return {
-        {"RockingFrame", subject,
+        {"RockingFrame", frame_subject,
          "Two columns of 1 x 4 m, 8 m apart, with a cap as heavy as both, tilted by 0.3 and 0.5 alpha and released: "
          "time "
          "to the upright position.",
@@ -133,7 +133,7 @@ Cases frame_cases()
          "the second solver (`reference_solver.hpp`); reference values (`reference_values.py`).",
          "Aitken's limit of the three stiffest, 0.1 %; against the second solver the rounding of its steps.",
          rocking_frame},
-        {"FrameLimit", subject,
+        {"FrameLimit", frame_subject,
          "COLO under an acceleration that is reached slowly and held, with a drag that is zero at rest: the largest "
          "acceleration at which it stays upright.",
          "static limit analysis of rigid blocks in dry contact, a linear programme solved here by the simplex method, "

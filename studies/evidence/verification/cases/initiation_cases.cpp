@@ -12,7 +12,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Initiation";
+constexpr const char* initiation_subject = "Initiation";
 
 /// What a short push shows: second differences over two equal times after a rise that is slow against the contact and
 /// short against 1 / p, so that the vibrations and their start cancel.
@@ -212,14 +212,14 @@ Finding two_blocks()
 Cases initiation_cases()
 {
     return {
-        {"Regimes", subject,
+        {"Regimes", initiation_subject,
          "Initial motion of a block under a suddenly applied acceleration (rest, slide, rock, slide and rock), "
          "on 40 x 30 cells of a / g and friction, K_N = 1e12 N/m2.",
          "Shenton's closed forms.",
          "close to a boundary the rotation or slip within 4 ms is too small to classify, so cells next to it may "
          "differ.",
          regimes},
-        {"TwoBlocks", subject,
+        {"TwoBlocks", initiation_subject,
          "Initial angular accelerations of two blocks, one on the other, without slip: only the upper block, both, "
          "both as one, or the upper block in the opposite direction.",
          "Lagrange's equations of each pattern, of which the valid one has its contact forces within the faces; and "

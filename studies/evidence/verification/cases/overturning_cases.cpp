@@ -13,7 +13,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Overturning";
+constexpr const char* overturning_subject = "Overturning";
 
 const std::vector<double> rates{1, 2, 3, 4, 5, 6, 8, 10}; // w / p
 constexpr double step_rate = 0.3;
@@ -289,7 +289,7 @@ Finding full_sine_impact()
 Cases overturning_cases()
 {
     return {
-        {"HalfSine", subject,
+        {"HalfSine", overturning_subject,
          "Smallest amplitude of a half sine that overturns MONO, by bisection to 1e-4, for w from 1 to 10 p.",
          "the rigid block, integrated by Runge and Kutta in extended precision (no impact is possible before it "
          "falls); at three stiffnesses the second solver of the same equations (`reference_solver.hpp`); reference "
@@ -297,23 +297,23 @@ Cases overturning_cases()
          "against the second solver the bisection, 1e-4. Aitken's limit multiplies the bisection error of 1e-4 by "
          "three, and its factor is only nearly constant.",
          half_sine, Duration::slow},
-        {"StiffnessEffect", subject,
+        {"StiffnessEffect", overturning_subject,
          "How much a compliant bed changes a time, a static capacity and an overturning amplitude of MONO, relative to "
          "the rigid block, at K_N from 1e7 to 1e10 N/m2.",
          "the exponents of K_N, derived in `kernels/THEORY.md`, section 8: -1/2, -1/3 and -2/5; the column -3 t* h / b "
          "is "
          "the first order of the static capacity.",
          "0.02: terms of higher order at 1e7 N/m2.", stiffness_effect, Duration::slow},
-        {"HalfSineStiff", subject, "The same for w = 4 p on very stiff contacts, and with half and double the step.",
+        {"HalfSineStiff", overturning_subject, "The same for w = 4 p on very stiff contacts, and with half and double the step.",
          "the rigid block; the other step.",
          "the error falls by a factor of 2.4 per decade of K_N; the step contributes about 1e-5, the bisection 1e-4.",
          stiffest, Duration::slow},
-        {"FullSineDirect", subject,
+        {"FullSineDirect", overturning_subject,
          "Smallest amplitude of a full sine that overturns MONO without an impact, for w from 1 to 10 p.",
          "the rigid block; without an impact the result does not depend on restitution; reference values "
          "(`reference_values.py`).",
          "Aitken's limit, as for a half sine.", full_sine_direct, Duration::slow},
-        {"FullSineImpact", subject,
+        {"FullSineImpact", overturning_subject,
          "Smallest amplitude of a full sine that overturns MONO after one impact, for w from 1 to 6 p.",
          "the rigid block with the restitution of the engine in free rocking: **not Housner's**, see below. "
          "The "

@@ -12,7 +12,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Rocking";
+constexpr const char* rocking_subject = "Rocking";
 
 const model::Stone block_a{1, 4, 10000}; // 1 x 4 m, 2500 kg/m3
 
@@ -200,23 +200,23 @@ Finding specimen_onset()
 Cases rocking_cases()
 {
     return {
-        {"QuarterPeriod", subject,
+        {"QuarterPeriod", rocking_subject,
          "MONO tilted by 0.3, 0.5 and 0.8 alpha and released: time to the upright position, at growing contact "
          "stiffness.",
          "the rigid block's integral, in extended precision; at two stiffnesses the second solver of the same "
          "equations "
          "(`reference_solver.hpp`), with the same step; reference values (`reference_values.py`).",
          "Aitken's limit of the three stiffest; against the second solver the rounding of its steps.", monolith},
-        {"QuarterPeriodTall", subject, "The same for A, a block of 1 x 4 m and 2500 kg/m3.",
+        {"QuarterPeriodTall", rocking_subject, "The same for A, a block of 1 x 4 m and 2500 kg/m3.",
          "the same integral; reference values (`reference_values.py`).", "Aitken's limit of the three stiffest.",
          tall_block},
-        {"RockingRestitution", subject,
+        {"RockingRestitution", rocking_subject,
          "Ratio of the angular velocities after and before the first impact, from the energies of the rigid block at "
          "the peaks on both sides.",
          "the second solver of the same equations (`reference_solver.hpp`). **Not Housner's e**: this contact law does "
          "not reproduce it.",
          "the rounding of the steps of the second solver.", loss_at_impact},
-        {"SpecimenOnset", subject,
+        {"SpecimenOnset", rocking_subject,
          "SPEC under a harmonic with a smooth start, 12 cycles, K_N = 1e8 N/m2: smallest amplitude, on a grid of 0.02 "
          "m/s2, that causes rocking or overturning.",
          "two other programs of the same contact law.",

@@ -13,7 +13,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Time integration";
+constexpr const char* scheme_subject = "Time integration";
 
 Finding damped_oscillation()
 {
@@ -174,22 +174,22 @@ Finding energy_balance()
 Cases scheme_cases()
 {
     return {
-        {"DampedOscillation", subject,
+        {"DampedOscillation", scheme_subject,
          "u'' + 2 xi w u' + w2 u = 0, w = 2 pi, xi = 0.05, from u = 1 at rest: the displacement after one second.",
          "the closed form; and for the scheme with the velocity of the last step its recurrence, run by "
          "`reference_values.py`.",
          "the nine digits of that value; the velocity of the last step makes the scheme first order.",
          damped_oscillation},
-        {"UndampedOscillation", subject,
+        {"UndampedOscillation", scheme_subject,
          "Period of a mass on its bed, and the quantity that central differences conserve.",
          "w_num / w = (2 / h) asin(h / 2), h = w dt; m v2 / 2 + k u(n) u(n+1) / 2 is constant.",
          "rounding over 6000 steps.", undamped_oscillation},
-        {"StepLimit", subject,
+        {"StepLimit", scheme_subject,
          "Smallest time step at which a disturbance of SPEC (K_N = 1e8) of 1e-11 m grows, found by bisection.",
          "the step at which 4 M - 2 dt C - dt2 K is no longer positive definite, with matrices assembled from discrete "
          "springs; reference values (`reference_values.py`).",
          "the excess over the limit that is needed for visible growth within the run.", stability},
-        {"EnergyBalance", subject,
+        {"EnergyBalance", scheme_subject,
          "Kinetic + potential + spring + dissipated energy minus the work of the base over three impacts of MONO, "
          "released from half its slenderness angle.",
          "0.",

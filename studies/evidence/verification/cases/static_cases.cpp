@@ -13,7 +13,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Static loads";
+constexpr const char* static_subject = "Static loads";
 
 /// Acceleration at which the heel of the lowest drum leaves the base, while it rises slowly from 0 to 1 m/s2.
 double uplift_acceleration(double K_n)
@@ -144,13 +144,13 @@ Finding follows_the_base()
 Cases static_cases()
 {
     return {
-        {"Uplift", subject,
+        {"Uplift", static_subject,
          "SPEC under an acceleration that rises over 400 periods of its first mode: the acceleration at which the heel "
          "of the lowest drum leaves the base.",
          "a_sep = g B / (3 H_tot), a third of the overturning acceleration of a rigid column, minus the effect of the "
          "weight on the bent column.",
          "the slow rise leaves vibrations of about 1e-3.", uplift},
-        {"StaticCapacity", subject,
+        {"StaticCapacity", static_subject,
          "Largest acceleration that does not overturn MONO when it is reached slowly and held, by bisection to 5e-4, "
          "with a drag on all velocities (zero at rest).",
          "equilibrium of a block that presses a triangle into its bed, the largest over the lean; to first order a_max "
@@ -161,7 +161,7 @@ Cases static_cases()
          "just above the capacity the block creeps so slowly that it still stands at the end of the hold: up to 4e-3. "
          "The formula omits terms of the order of g t*2.",
          capacity},
-        {"MovesWithTheBase", subject,
+        {"MovesWithTheBase", static_subject,
          "SPEC at 2 Hz and 0.5 m/s2, below sliding and uplift: the largest displacement of the top relative to the "
          "base.",
          "the static bending of the beds, amplified by 1 / (1 - (f/f1)2), by the weight, and by the smooth start's "

@@ -13,7 +13,7 @@ namespace stylobate::verification {
 
 namespace {
 
-constexpr const char* subject = "Small vibrations";
+constexpr const char* vibration_subject = "Small vibrations";
 
 using model::pi;
 
@@ -153,7 +153,7 @@ Finding axial_modes()
 Cases vibration_cases()
 {
     return {
-        {"FirstFrequency", subject,
+        {"FirstFrequency", vibration_subject,
          "Free vibration after a small impulse, over sixty periods, at five contact stiffnesses.",
          "eigenvalues (Eigen) of matrices that are assembled from discrete springs. The weight presses along the "
          "normal "
@@ -163,7 +163,7 @@ Cases vibration_cases()
          "flush. For flush sides the contact normal tilts by overlap / width, which is a force of constant size and "
          "contributes 3e-4 at this amplitude.",
          first_mode},
-        {"AxialModes", subject, "Vertical vibration of one drum and of SPEC after a blow at the top.",
+        {"AxialModes", vibration_subject, "Vertical vibration of one drum and of SPEC after a blow at the top.",
          "w_i = 2 w1 sin((2 i - 1) pi / (4 n + 2)), w1 = sqrt(K_N B / m); reference values (`reference_values.py`).",
          "the width of the spectral line over 20 000 steps.", axial_modes},
     };

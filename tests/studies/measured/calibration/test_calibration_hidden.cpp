@@ -78,7 +78,7 @@ void expect_the_same(const Campaign& campaign, const FittedParameter& friction)
 
 } // namespace
 
-TEST(CalibrationHiddenStatistics, WhereLittleSlidesTheFrictionIsNotDetermined)
+TEST(CalibrationHiddenStatistics, WhereLittleSlidesTheFrictionIsNotDeterminedLong)
 {
     // the friction that windows of this campaign like best is 0.41, with an interval of 4 % to either side; of its
     // first three runs alone, for time
