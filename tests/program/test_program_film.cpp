@@ -25,6 +25,31 @@ protected:
         Program::TearDown();
     }
 
+    struct FilmBytes {
+        std::string all;           ///< (frames x height x width x 3)
+        int width = 0, height = 0; ///< [px]
+    };
+    /// What ffmpeg is given of a results file. @param name without .h5
+    FilmBytes film_of(const std::string& name) const
+    {
+        use_recorder();
+        EXPECT_EQ(run({"export", name + ".h5", "-o", name + ".gif"}).status, 0);
+        return recorded();
+    }
+    /// A program in ffmpeg's place, which keeps its words and what it reads.
+    void use_recorder() const
+    {
+        use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n",
+                        (folder / "words").string(), (folder / "frames").string()));
+    }
+    FilmBytes recorded() const
+    {
+        const std::string said = read_bytes(folder / "words");
+        FilmBytes film{read_bytes(folder / "frames"), 0, 0};
+        EXPECT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &film.width, &film.height), 2) << said;
+        return film;
+    }
+
     /// A program in ffmpeg's place, which does these commands.
     void use(const std::string& commands) const
     {
@@ -36,23 +61,19 @@ protected:
 
 TEST_F(FilmExport, GivesEveryFrameToFfmpeg)
 {
-    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
     for (const auto& [format, rate] : {std::pair<std::string, double>{"gif", 25}, {"mp4", 50}, {"webm", 50}}) {
-        use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
-                        frames));
+        use_recorder();
         const Ended ended = run({"export", "one.h5", "-o", "one." + format});
         EXPECT_EQ(ended.status, 0) << testing::PrintToString(ended);
         EXPECT_EQ(ended.out, "one." + format + "\n");
         EXPECT_EQ(read_bytes(folder / ("one." + format)), "film\n");
-        const std::string said = read_bytes(words);
-        int width = 0, height = 0;
-        ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
+        const auto [all, width, height] = recorded();
+        const std::string said = read_bytes(folder / "words");
         EXPECT_NE(said.find(fmt::format("\n-r\n{}\n", rate)), std::string::npos) << said;
         const double end = ResultReader(folder / "one.h5").trajectory(0).time_s.back();
-        const auto count = static_cast<std::uintmax_t>(std::floor(end * rate + 1e-9)) + 1;
-        EXPECT_EQ(fs::file_size(frames), count * 3U * static_cast<unsigned>(width * height));
+        const auto count = static_cast<std::size_t>(std::floor(end * rate + 1e-9)) + 1;
+        EXPECT_EQ(all.size(), count * 3U * static_cast<unsigned>(width * height));
         // the block is there, and moves: the first frame is not the last
-        const std::string all = read_bytes(frames);
         const std::size_t one = all.size() / count;
         EXPECT_NE(all.substr(0, one), all.substr(all.size() - one));
     }
@@ -91,14 +112,9 @@ pga_m_s2 = 6
 tail_s = 3
 )");
     make("drum.h5", "drum.toml");
-    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
-    use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
-                    frames));
-    EXPECT_EQ(run({"export", "drum.h5", "-o", "drum.gif"}).status, 0);
-    const std::string said = read_bytes(words), all = read_bytes(frames);
-    int width = 0, height = 0;
-    ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
+    const auto [all, width, height] = film_of("drum");
     const std::size_t one = 3U * static_cast<unsigned>(width * height);
+    ASSERT_GT(one, 0U);
     ASSERT_EQ(all.size() % one, 0U);
     const std::string_view first(all.data(), one), last(all.data() + all.size() - one, one);
     EXPECT_GT(pixels_like(first, 233, 226, 208), 200U);
@@ -113,28 +129,23 @@ TEST_F(FilmExport, ARodStaysWhereItsEndIs)
                    "mechanisms.rod={block=0,to_right_n_m=2000,height_m=0.16,speed_m_s=0.1,start_s=0.2,travel_m=0.02}"})
                   .status,
               0);
-    const std::string frames = (folder / "frames").string(), words = (folder / "words").string();
-    use(fmt::format("for last; do :; done\nprintf '%s\\n' \"$@\" > {}\ncat > {}\necho film > \"$last\"\n", words,
-                    frames));
-    EXPECT_EQ(run({"export", "rod.h5", "-o", "rod.gif"}).status, 0);
-    const std::string said = read_bytes(words), all = read_bytes(frames);
-    int width = 0, height = 0;
-    ASSERT_EQ(std::sscanf(said.c_str() + said.find("\n-s\n") + 4, "%dx%d", &width, &height), 2) << said;
-    const std::size_t one = 3U * static_cast<unsigned>(width * height);
+    const FilmBytes film = film_of("rod");
+    const std::size_t one = 3U * static_cast<unsigned>(film.width * film.height);
+    ASSERT_GT(one, 0U);
     const auto tip = [&](std::size_t from) { // the last pixel of the rod, from the left edge
         int last = -1;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                if (all.compare(from + 3U * static_cast<unsigned>(y * width + x), 3, "\x1d\x27\x30") == 0)
+        for (int y = 0; y < film.height; ++y)
+            for (int x = 0; x < film.width; ++x)
+                if (film.all.compare(from + 3U * static_cast<unsigned>(y * film.width + x), 3, "\x1d\x27\x30") == 0)
                     last = std::max(last, x);
         return last;
     };
-    const int first = tip(0), end = tip(all.size() - one);
+    const int first = tip(0), end = tip(film.all.size() - one);
     ASSERT_GT(first, 0);
     const double start_m = ResultReader(folder / "rod.h5").trajectory(0)["x_m"][0];
     EXPECT_LT(start_m, 0) << "it leans to the left";
     EXPECT_GT(end, first) << "it has gone on by 20 mm";
-    EXPECT_LT(end, width / 2) << "and stays behind, while the block goes to the right";
+    EXPECT_LT(end, film.width / 2) << "and stays behind, while the block goes to the right";
 
     EXPECT_EQ(run({"export", "rod.h5", "--to", "html", "-o", "rod.html"}).status, 0);
     const std::string page = read_bytes(folder / "rod.html");
