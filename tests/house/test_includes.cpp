@@ -109,6 +109,7 @@ const std::set<std::string> rooms_for_io = {"ensemble/model", "ensemble/numerics
 const std::set<std::string> headers_for_io = {"ensemble/estimators/past/agreeing_states.hpp",
                                               "ensemble/estimators/risk/hazard_curve.hpp",
                                               "ensemble/motion/noise_duration.hpp",
+                                              "ensemble/planar/fastening.hpp",
                                               "ensemble/planar/planar_poses.hpp",
                                               "ensemble/sampling/plausible.hpp",
                                               "ensemble/spatial/placed_solid.hpp",
