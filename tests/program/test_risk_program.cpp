@@ -180,7 +180,7 @@ TEST_F(RiskProgram, HistoriesWhereNothingMoves)
 
 /// Histories of seven earthquakes, of which any can topple the column: those that are new in each agree with the
 /// fragility, and no earthquake of those that are carried along is lost.
-TEST_F(RiskProgram, HistoriesOfSeveralEarthquakesAgreeWithTheFragility)
+TEST_F(RiskProgram, HistoriesOfSeveralEarthquakesAgreeWithTheFragilityLong)
 {
     const Ended ended = risk({"--hazard", "k0=0.03,k=3,measure=pgv", "--sequences", "60", "--threshold", "0.5",
                               "--years", "30", "--pause", "5", "--state", "collapse", "--json"});

@@ -184,7 +184,7 @@ TEST(Slots, RigidBlocksHaveTheBitsOfTheLanes)
 }
 
 /// What is stepped in single precision is refilled, moved and checked like the rest.
-TEST(Slots, SinglePrecisionHasTheBitsOfTheLanes)
+TEST(Slots, SinglePrecisionHasTheBitsOfTheLanesLong)
 {
     const auto in_single = [](Study study) {
         study.run.precision = Precision::single;

@@ -393,7 +393,7 @@ Covered coverage(const FragilityTruth& truth, double sigma_ln, double k, int rep
 }
 
 /// 400 repeats: the standard error of a coverage of 0.9 is 0.015, and four of them are allowed.
-TEST(FrequencyEstimateStatistics, IntervalsContainTheTruth)
+TEST(FrequencyEstimateStatistics, IntervalsContainTheTruthLong)
 {
     FragilityTruth truth;
     truth.stripes.clear();

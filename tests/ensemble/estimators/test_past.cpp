@@ -289,7 +289,7 @@ TEST(Past, ThePosteriorFindsThePastThatMadeTheState)
     EXPECT_NEAR(std::accumulate(prior.begin(), prior.end(), 0.0), 1, 1e-12);
 }
 
-TEST(PastStatistics, TheIntervalOfAnExclusionContainsTheTruth)
+TEST(PastStatistics, TheIntervalOfAnExclusionContainsTheTruthLong)
 {
     // counts of 48 in each cell of six frequencies by twelve intensities, 200 times
     const Logistic truth{4, 0.35};

@@ -281,7 +281,7 @@ TEST(DeviceRuns, ShardsRunTheirOwnPlaces)
 
 /// The share that is reported at any time is that of the first blocks of the run order, counted here anew from what has
 /// been delivered.
-TEST(DeviceRuns, TheReportedShareIsThatOfWholeBlocks)
+TEST(DeviceRuns, TheReportedShareIsThatOfWholeBlocksLong)
 {
     const Study study = surface(42);
     const RunOrder order(study.total());
