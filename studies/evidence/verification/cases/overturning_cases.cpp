@@ -304,7 +304,8 @@ Cases overturning_cases()
          "is "
          "the first order of the static capacity.",
          "0.02: terms of higher order at 1e7 N/m2.", stiffness_effect, Duration::slow},
-        {"HalfSineStiff", overturning_subject, "The same for w = 4 p on very stiff contacts, and with half and double the step.",
+        {"HalfSineStiff", overturning_subject,
+         "The same for w = 4 p on very stiff contacts, and with half and double the step.",
          "the rigid block; the other step.",
          "the error falls by a factor of 2.4 per decade of K_N; the step contributes about 1e-5, the bisection 1e-4.",
          stiffest, Duration::slow},

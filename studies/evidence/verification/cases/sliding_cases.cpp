@@ -129,13 +129,15 @@ Finding steady()
 Cases sliding_cases()
 {
     return {
-        {"SlidingPulses", sliding_subject, "Slip of a block under a half sine and a full sine of the base, in mu g / w2.",
+        {"SlidingPulses", sliding_subject,
+         "Slip of a block under a half sine and a full sine of the base, in mu g / w2.",
          "the rigid block, piecewise in closed form; reference values (`reference_values.py`).",
          "half sine: the elastic part, 1e-6, up to ten times in some comparisons. Full sine: where the sliding "
          "reverses, the tangential spring needs a time proportional to 1 / sqrt(K_T); two stiffnesses give the limit "
          "to about 1e-5.",
          pulses},
-        {"SteadySliding", sliding_subject, "Slip path over the base's path in the steady state, for eta from 1.1 to 670.",
+        {"SteadySliding", sliding_subject,
+         "Slip path over the base's path in the steady state, for eta from 1.1 to 670.",
          "for eta >= sqrt(1 + pi2 / 4) the block never sticks: sqrt(1 - (pi / (2 eta))2); below, the rigid block "
          "piecewise; reference values (`reference_values.py`).",
          "as above, relative: 2e-4; 5e-4 at 1.85, where the sticking phases nearly vanish.", steady},
