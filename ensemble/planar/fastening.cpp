@@ -29,7 +29,6 @@ Fastening fastening(const MechanismSpec& spec, const Layout& layout, std::size_t
 {
     const PlacedBlock& block = layout.blocks[place];
     Fastening made;
-    made.mechanism = spec.mechanism;
     made.at.block = place;
     if (spec.mechanism == Mechanism::rod) {
         made.rod = rod_of(spec);
@@ -77,11 +76,12 @@ std::optional<FastenedLine> line_of(const Fastening& fastening, const std::vecto
 std::vector<Fastening> fastenings(const std::vector<MechanismSpec>& mechanisms, double friction, const Layout& layout)
 {
     std::vector<Fastening> made;
-    for (const Mechanism mechanism : {Mechanism::tendon, Mechanism::clamp, Mechanism::rod})
-        for (const MechanismSpec& spec : mechanisms)
-            if (spec.mechanism == mechanism && acts(spec, friction))
-                for (const int place : spec.places.empty() ? usual_places(rule_of(mechanism), layout) : spec.places)
-                    made.push_back(fastening(spec, layout, static_cast<std::size_t>(place)));
+    for (const MechanismSpec& spec : mechanisms) {
+        const Mechanism is = spec.mechanism;
+        if ((is == Mechanism::tendon || is == Mechanism::clamp || is == Mechanism::rod) && acts(spec, friction))
+            for (const int place : spec.places.empty() ? usual_places(rule_of(is), layout) : spec.places)
+                made.push_back(fastening(spec, layout, static_cast<std::size_t>(place)));
+    }
     return made;
 }
 

@@ -18,7 +18,6 @@ struct FastenedPoint {
 };
 
 struct Fastening {
-    Mechanism mechanism = Mechanism::rod;
     FastenedPoint at;                   ///< of a block
     std::optional<FastenedPoint> other; ///< none: of a rod, which comes from outside the drawing
     BlockMechanisms rod;                ///< of a rod, its parameters
@@ -40,8 +39,7 @@ struct FastenedLine {
 std::optional<FastenedLine> line_of(const Fastening& fastening, const std::vector<Rectangle>& blocks,
                                     const Rectangle& start, double time_s, double base_m);
 
-/// The rods, tendons and clamps that act, with the values of the study (a realization may have drawn others), in the
-/// order of `mechanism_rules`.
+/// The rods, tendons and clamps that act, with the values of the study (a realization may have drawn others).
 /// @param friction of [contact]
 std::vector<Fastening> fastenings(const std::vector<MechanismSpec>& mechanisms, double friction, const Layout& layout);
 

@@ -40,9 +40,10 @@ TEST(Fastenings, AreThoseThatAct)
     const std::vector<Fastening> all = fastenings(
         {spec_of(Mechanism::rod, {1, 2}, {1e4, 1e4, 0.25}), spec_of(Mechanism::tendon, {}, {1e8})}, 0.6, layout);
     ASSERT_EQ(all.size(), 3U);
-    EXPECT_EQ(all[0].mechanism, Mechanism::tendon);
-    EXPECT_EQ(all[0].at.block, 2U) << "the uppermost drum";
-    EXPECT_EQ(all[2].at.block, 2U);
+    EXPECT_EQ(all[0].at.block, 1U);
+    EXPECT_FALSE(all[1].other) << "a rod";
+    ASSERT_TRUE(all[2].other) << "the tendon";
+    EXPECT_EQ(all[2].at.block, 2U) << "the uppermost drum";
 }
 
 TEST(Fastenings, ATendonGoesFromTheFixedDrumToTheMiddleOfATop)
